@@ -2,10 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include <gst/gst.h>
 
+#include "plugin/filter/spidar_motion.h"
 #include "plugin/provider/device_provider.h"
-#include "plugin/spidar_motion.h"
-#include "plugin/track/spidar_extract.h"
-#include "plugin/track/spidar_sink.h"
+#include "plugin/tracks/spidar_extract.h"
+#include "plugin/tracks/spidar_sink.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&

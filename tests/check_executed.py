@@ -18,8 +18,8 @@ SHORT_FILMS = "the suite short-films executes it in the build of users; with a s
 EXCUSED = {
     "plugin/feel/feel_decoder.cpp": SHORT_FILMS,
     "plugin/feel/video_notice.cpp": SHORT_FILMS,
-    "plugin/frame/analytics_meta.cpp": ONE_OF_TWO,
-    "plugin/frame/analytics_meta_none.cpp": ONE_OF_TWO,
+    "plugin/filter/frame/analytics_meta.cpp": ONE_OF_TWO,
+    "plugin/filter/frame/analytics_meta_none.cpp": ONE_OF_TWO,
     "plugin/window/window_none.cpp": ONE_OF_TWO,
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,
 }

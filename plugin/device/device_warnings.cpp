@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/device/device_warnings.h"
 
-#include "plugin/reports/category.h"
+#include "plugin/gobject/category.h"
 #include "spidar/grip/motor_heat.h"
 
 #undef GST_CAT_DEFAULT

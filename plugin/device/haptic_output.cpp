@@ -7,7 +7,7 @@
 
 #include "core/grip/picture_size.h"
 #include "plugin/device/session_stats.h"
-#include "plugin/reports/category.h"
+#include "plugin/gobject/category.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/force_range.h"
 #include "spidar/session/device_factory.h"

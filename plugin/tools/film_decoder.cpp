@@ -13,7 +13,7 @@
 #include "plugin/tools/film_end.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/track/film_reader.h"
+#include "plugin/tracks/film_reader.h"
 
 namespace spidar {
 namespace {

@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 
 #include "plugin/tools/record_properties.h"
-#include "plugin/track/film_fingerprint.h"
+#include "plugin/tracks/film_fingerprint.h"
 
 namespace spidar {
 

@@ -8,7 +8,7 @@
 #include "plugin/tools/stored_sound.h"
 #include "plugin/tools/stream_time.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/track/track_notes.h"
+#include "plugin/tracks/track_notes.h"
 
 namespace spidar {
 

@@ -8,7 +8,7 @@
 
 #include "plugin/tools/film_decoder.h"
 #include "plugin/tools/record_properties.h"
-#include "plugin/track/part_file.h"
+#include "plugin/tracks/part_file.h"
 
 namespace spidar {
 

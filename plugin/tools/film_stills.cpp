@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "plugin/tools/track_samples.h"
-#include "plugin/track/sidecar.h"
+#include "plugin/tracks/sidecar.h"
 
 namespace spidar {
 namespace {

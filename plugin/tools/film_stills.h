@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/track/track_notes.h"
+#include "plugin/tracks/track_notes.h"
 
 namespace spidar {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "plugin/timing/instant_rate.h"
-#include "plugin/track/film_streams.h"
+#include "plugin/tracks/film_streams.h"
 
 namespace spidar {
 namespace {

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "plugin/track/part_file.h"
+#include "plugin/tracks/part_file.h"
 
 namespace spidar {
 namespace {

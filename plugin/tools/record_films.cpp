@@ -14,10 +14,10 @@
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/track/film_reader.h"
-#include "plugin/track/part_file.h"
-#include "plugin/track/sidecar.h"
-#include "plugin/track/track_file.h"
+#include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/part_file.h"
+#include "plugin/tracks/sidecar.h"
+#include "plugin/tracks/track_file.h"
 #include "spidar/tools/exit_status.h"
 
 namespace spidar {

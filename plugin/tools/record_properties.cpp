@@ -10,7 +10,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/choice/feel_file.h"
+#include "plugin/filter/choice/feel_file.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/tools/command_line.h"
 

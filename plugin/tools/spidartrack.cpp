@@ -16,7 +16,7 @@
 
 #include "plugin/tools/processors.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/track/part_file.h"
+#include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"

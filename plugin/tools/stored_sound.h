@@ -8,7 +8,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/track/part_file.h"
+#include "plugin/tracks/part_file.h"
 
 namespace spidar {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/track/track_sampler.h"
-#include "plugin/track/track_file.h"
+#include "plugin/tracks/track_file.h"
 
 namespace spidar {
 namespace {

@@ -10,9 +10,9 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
-#include "plugin/track/film_reader.h"
-#include "plugin/track/sidecar.h"
-#include "plugin/track/track_file.h"
+#include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/sidecar.h"
+#include "plugin/tracks/track_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/exit_status.h"
 

@@ -17,8 +17,8 @@
 #include "core/track/track_reader.h"
 #include "plugin/tools/stored_sound.h"
 #include "plugin/tools/trace_track.h"
-#include "plugin/track/part_file.h"
-#include "plugin/track/track_file.h"
+#include "plugin/tracks/part_file.h"
+#include "plugin/tracks/track_file.h"
 
 namespace spidar {
 namespace {

@@ -12,8 +12,8 @@
 #include <gst/gst.h>
 
 #include "core/track/track_format.h"
-#include "plugin/track/track_input.h"
-#include "plugin/track/track_notes.h"
+#include "plugin/tracks/track_input.h"
+#include "plugin/tracks/track_notes.h"
 
 namespace spidar {
 

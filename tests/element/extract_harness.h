@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
-#include "plugin/reports/motion_meta.h"
-#include "plugin/track/spidar_extract.h"
-#include "plugin/track/track_stream.h"
+#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/tracks/spidar_extract.h"
+#include "plugin/tracks/track_stream.h"
 
 namespace spidar::test {
 

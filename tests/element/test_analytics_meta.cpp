@@ -7,7 +7,7 @@
 #include <gst/analytics/analytics.h>
 #include <gtest/gtest.h>
 
-#include "plugin/frame/analytics_meta.h"
+#include "plugin/filter/frame/analytics_meta.h"
 
 namespace spidar::test::analytics_meta_test {
 namespace {

@@ -3,7 +3,7 @@
 // The place in the picture at which the grip points.
 #include <gtest/gtest.h>
 
-#include "plugin/frame/grip_pointer.h"
+#include "plugin/filter/frame/grip_pointer.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test::grip_pointer_test {

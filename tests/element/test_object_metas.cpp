@@ -9,8 +9,8 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include "plugin/frame/analytics_meta.h"
-#include "plugin/frame/object_metas.h"
+#include "plugin/filter/frame/analytics_meta.h"
+#include "plugin/filter/frame/object_metas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/engine/stream_orientation.h"
+#include "plugin/filter/engine/stream_orientation.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/overlay/stroke_text.h"
+#include "plugin/filter/overlay/stroke_text.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"

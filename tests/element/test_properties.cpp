@@ -17,8 +17,8 @@
 #include <gst/controller/gstinterpolationcontrolsource.h>
 #include <gtest/gtest.h>
 
+#include "plugin/filter/reports/motion_message.h"
 #include "plugin/properties/pointer_text.h"
-#include "plugin/reports/motion_message.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/video_frames.h"

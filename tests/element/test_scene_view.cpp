@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/frame/scene_view.h"
+#include "plugin/filter/frame/scene_view.h"
 
 namespace spidar::test::scene_view_test {
 namespace {

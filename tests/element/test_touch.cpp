@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/touch/relief_stream.h"
-#include "plugin/touch/touched_motion.h"
+#include "plugin/filter/touch/relief_stream.h"
+#include "plugin/filter/touch/touched_motion.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/touch/relief_stream.h"
+#include "plugin/filter/touch/relief_stream.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/element_harness.h"

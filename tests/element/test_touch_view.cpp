@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/display/motion_display.h"
-#include "plugin/spidar_motion.h"
-#include "plugin/touch/relief_stream.h"
+#include "plugin/filter/display/motion_display.h"
+#include "plugin/filter/spidar_motion.h"
+#include "plugin/filter/touch/relief_stream.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"

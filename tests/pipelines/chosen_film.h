@@ -12,8 +12,8 @@
 #include <gst/check/gstharness.h>
 #include <gtest/gtest.h>
 
-#include "plugin/display/motion_display.h"
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/display/motion_display.h"
+#include "plugin/filter/spidar_motion.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"

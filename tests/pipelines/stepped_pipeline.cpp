@@ -6,7 +6,7 @@
 
 #include <gst/base/gstbasesink.h>
 
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/spidar_motion.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar::test {

@@ -13,7 +13,7 @@
 #include <gst/check/gsttestclock.h>
 #include <gst/gst.h>
 
-#include "plugin/engine/motion_engine.h"
+#include "plugin/filter/engine/motion_engine.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/message_inbox.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/spidar_motion.h"
 #include "tests/pipelines/shown_motion.h"
 
 namespace spidar::test::devices_test {

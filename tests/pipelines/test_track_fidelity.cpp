@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/track/spidar_extract.h"
-#include "plugin/track/track_file.h"
+#include "plugin/tracks/spidar_extract.h"
+#include "plugin/tracks/track_file.h"
 #include "spidar/profiles/profile.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/pipelines/stepped_track.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/spidar_motion.h"
 #include "tests/support/element_harness.h"
 
 namespace spidar::test {

@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/engine/motion_engine.h"
+#include "plugin/filter/engine/motion_engine.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tick_watch.h"

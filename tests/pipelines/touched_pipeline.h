@@ -9,7 +9,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/spidar_motion.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/pipelines/stepped_pipeline.h"

@@ -50,7 +50,7 @@ def read_wav(path):
 
 
 def part_name(name):
-    """What the file `name` is called while it is being written (plugin/track/part_file.h)."""
+    """What the file `name` is called while it is being written (plugin/tracks/part_file.h)."""
     number = 0xcbf29ce484222325
     for byte in os.fsencode(name):
         number = (number ^ byte) * 0x100000001b3 % 2 ** 64

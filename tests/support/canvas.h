@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/frame/scene_view.h"
-#include "plugin/overlay/arrow.h"
-#include "plugin/overlay/video_overlay.h"
+#include "plugin/filter/frame/scene_view.h"
+#include "plugin/filter/overlay/arrow.h"
+#include "plugin/filter/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"

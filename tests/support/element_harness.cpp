@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/support/element_harness.h"
 
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/spidar_motion.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {

@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
-#include "plugin/engine/motion_engine.h"
+#include "plugin/filter/engine/motion_engine.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test {

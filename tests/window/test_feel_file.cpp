@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/choice/feel_file.h"
+#include "plugin/filter/choice/feel_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test::feel_file_test {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/display/motion_display.h"
-#include "plugin/spidar_motion.h"
+#include "plugin/filter/display/motion_display.h"
+#include "plugin/filter/spidar_motion.h"
 #include "plugin/window/program/model/layout.h"
 #include "plugin/window/program/model/setting_text.h"
 #include "plugin/window/program/model/timeline.h"

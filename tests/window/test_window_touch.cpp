@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/frame/touch_view.h"
+#include "plugin/filter/frame/touch_view.h"
 #include "plugin/window/program/model/relief_view.h"
 #include "plugin/window/program/model/window_model.h"
 #include "plugin/window/view/mouse_hand.h"

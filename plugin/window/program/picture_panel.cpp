@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/force/felt_force.h"
-#include "plugin/overlay/arrow.h"
+#include "plugin/filter/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 
 namespace spidar {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/frame/touch_view.h"
+#include "plugin/filter/frame/touch_view.h"
 #include "plugin/window/view/rect.h"
 
 namespace spidar {

@@ -13,8 +13,8 @@
 #include "core/force/motion_rendering.h"
 #include "core/motion/scene_motion.h"
 #include "plugin/device/device_view.h"
-#include "plugin/frame/scene_view.h"
-#include "plugin/frame/touch_view.h"
+#include "plugin/filter/frame/scene_view.h"
+#include "plugin/filter/frame/touch_view.h"
 
 namespace spidar {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/touch/height_field.h"
-#include "plugin/frame/touch_view.h"
+#include "plugin/filter/frame/touch_view.h"
 #include "plugin/window/program/model/still.h"
 #include "plugin/window/program/model/window_model.h"
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What the element says on the bus when something is wrong that the video goes on without.
+#pragma once
+
+#include <gst/gst.h>
+
+#include "plugin/device/device_warnings.h"
+#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/properties/motion_properties.h"
+
+namespace spidar {
+
+/// Says each thing once a stream, not once a frame. Streaming thread, and start() before it.
+class BusWarnings {
+ public:
+  explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
+
+  /// The element begins: everything may be said again.
+  void start();
+  /// Another stream: what is wrong with its frames may be.
+  void begin_stream() {
+    frame_problems_ = 0;
+    overlay_ = false;
+    touch_problems_ = 0;
+    pointer_ = false;
+  }
+
+  /// Looks at the bins around the element, which may have a running time of their own.
+  void check_bins();
+  void check_frame(const FrameReport& report);
+  void check_touch(const MotionEngine& engine, const FrameReport& report,
+                   const TouchProperties& wanted);
+  /// The grip is to point: does the device know where it is?
+  void check_pointer(const MotionEngine& engine);
+  /// The overlay is on: can it be drawn into such frames?
+  void check_overlay(const GstVideoInfo& info);
+  /// See DeviceWarnings.
+  void check_opened(const MotionEngine& engine) const {
+    if (const HapticSession* session = engine.output().session()) device_.check_opened(*session);
+  }
+  void check_haptic_trace(const MotionEngine& engine) {
+    device_.check_haptic_trace(engine.output().session());
+  }
+  bool check_device(const MotionEngine& engine, OnDeviceError policy) {
+    return device_.check(engine.output().session(), policy);
+  }
+
+ private:
+  GstElement* const element_;
+  guint frame_problems_ = 0;  // bit i: FrameProblem i was said
+  bool overlay_ = false;      // said
+  guint touch_problems_ = 0;  // bit i: TouchProblem i was said
+  bool pointer_ = false;      // said
+  DeviceWarnings device_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a person chose to feel, and what is said when that cannot be.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <gst/gst.h>
+
+#include "core/analysis/analyzer_settings.h"
+#include "core/choice/chosen.h"
+#include "core/picture_turn.h"
+#include "plugin/filter/choice/feel_file.h"
+#include "plugin/filter/choice/mouse_pointer.h"
+
+namespace spidar {
+
+/// The rules of `feel`, and the mouse. Streaming thread, unless another is named.
+class MotionChoice {
+ public:
+  explicit MotionChoice(GstElement* element) : element_(element) {}
+
+  /// Any thread.
+  MousePointer& mouse() { return mouse_; }
+  /// Null when there are none. Any thread.
+  std::shared_ptr<const FeelRules> rules() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return named_.rules;
+  }
+
+  /// Another stream, from the file `film` or, when that is empty, from elsewhere.
+  void begin_stream(const std::string& film);
+
+  /// The property `feel` was set. Any thread.
+  void rules_changed() { is_read_ = false; }
+  /// Whether read() has to come before the next frame.
+  bool is_to_read() { return !is_read_.exchange(true); }
+  /// Reads what `feel` means, and says on the bus what is wrong with it. `sink` is asked for the
+  /// duration of the film.
+  void read(const std::string& feel, GstPad* sink);
+
+  /// Whether a rule means boxes that come with frames.
+  bool wants_boxes() const { return named_.rules && named_.rules->has_boxes(); }
+
+  /// Completes the settings of the next frame: by the rules and, when `with_mouse`, the mouse.
+  void apply(bool with_mouse, const PictureTurn& turn, AnalyzerSettings& settings);
+
+  /// Says what became of it, once for each rule and click.
+  void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);
+
+ private:
+  void warn_of_times(GstPad* sink);
+  void warn_of_mean(MotionKind motion);
+  void tell_of_rule(const FeelRule& rule, ChoiceState state);
+  void tell_of_click(const KeptObject& kept, ChoiceState state);
+
+  GstElement* const element_;
+  MousePointer mouse_;
+  std::string film_;
+  std::atomic<bool> is_read_{false};
+  mutable std::mutex mutex_;  ///< where another thread reads `named_`, or it changes
+  NamedRules named_;
+  bool warned_of_mean_ = false;
+  std::set<std::pair<int, ChoiceState>> told_;  ///< line and state
+  GstClockTime seen_ = 0;                       ///< stream time of the frame before
+};
+
+}  // namespace spidar

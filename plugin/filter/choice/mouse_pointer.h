@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The mouse in the window of a video sink as a pointer on the picture.
+#pragma once
+
+#include <mutex>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/choice/chosen.h"
+#include "core/picture_turn.h"
+#include "plugin/filter/choice/sink_mouse.h"
+
+namespace spidar {
+
+/// Moves point, and clicks of the left button keep what is there or let go. Thread-safe.
+class MousePointer {
+ public:
+  void take(const SinkMouse& mouse);
+
+  /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
+  /// seen.
+  std::optional<Eigen::Vector2d> place() const;
+  /// What a click keeps until the next one.
+  KeptObject kept(const PictureTurn& turn) const;
+
+  /// Keeps what is at this place, or nothing, without a mouse in the window of a sink.
+  void keep(const std::optional<Eigen::Vector2d>& place);
+
+  /// The object of this click is not kept any more.
+  void let_go(uint32_t click);
+  /// Forgets the mouse.
+  void reset();
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Eigen::Vector2d> place_;
+  uint32_t clicks_ = 0;
+  KeptObject kept_;  ///< its place is that of the frame before it is turned
+};
+
+}  // namespace spidar

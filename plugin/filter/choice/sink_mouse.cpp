@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/choice/sink_mouse.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gst/video/navigation.h>
+#include <gst/video/video.h>
+
+namespace spidar {
+namespace {
+
+// Sinks of X send the wheel as buttons.
+constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;
+
+/// The mouse may be beside the picture, in the black bars of a window.
+double share(double at_px, int size_px) {
+  if (!std::isfinite(at_px) || size_px <= 0) return 0.5;
+  return std::min(std::max(at_px / size_px, 0.0), 1.0);
+}
+
+std::optional<GstVideoInfo> info_of(GstPad* pad) {
+  GstCaps* const caps = gst_pad_get_current_caps(pad);
+  GstVideoInfo info;
+  const bool known = caps && gst_video_info_from_caps(&info, caps);
+  if (caps) gst_caps_unref(caps);
+  return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
+}
+
+/// With its place in pixels.
+std::optional<SinkMouse> parse(GstEvent* event) {
+  using Act = SinkMouse::Act;
+  SinkMouse mouse;
+  gdouble &x = mouse.place.x(), &y = mouse.place.y(), sideways = 0;
+  gint button = 0;
+  switch (gst_navigation_event_get_type(event)) {
+    case GST_NAVIGATION_EVENT_MOUSE_MOVE:
+      if (!gst_navigation_event_parse_mouse_move_event(event, &x, &y)) return std::nullopt;
+      return mouse;
+    case GST_NAVIGATION_EVENT_MOUSE_SCROLL:
+      mouse.act = Act::kWheel;
+      if (!gst_navigation_event_parse_mouse_scroll_event(event, &x, &y, &sideways, &mouse.wheel)) {
+        return std::nullopt;
+      }
+      return mouse;
+    case GST_NAVIGATION_EVENT_MOUSE_BUTTON_PRESS:
+      mouse.act = Act::kPress;
+      break;
+    case GST_NAVIGATION_EVENT_MOUSE_BUTTON_RELEASE:
+      mouse.act = Act::kRelease;
+      break;
+    default:
+      return std::nullopt;
+  }
+  if (!gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y)) return std::nullopt;
+  if (button == kLeftButton) return mouse;
+  const bool is_wheel = button == kWheelUp || button == kWheelDown;
+  if (!is_wheel || mouse.act == Act::kRelease) return std::nullopt;
+  mouse.act = Act::kWheel;
+  mouse.wheel = button == kWheelUp ? 1 : -1;
+  return mouse;
+}
+
+}  // namespace
+
+std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source) {
+  std::optional<SinkMouse> mouse = parse(event);
+  const std::optional<GstVideoInfo> info = mouse ? info_of(source) : std::nullopt;
+  if (!info) return std::nullopt;
+  mouse->place = {share(mouse->place.x(), info->width), share(mouse->place.y(), info->height)};
+  if (!std::isfinite(mouse->wheel)) mouse->wheel = 0;
+  GstNavigationModifierType keys = GST_NAVIGATION_MODIFIER_NONE;
+  mouse->shift = gst_navigation_event_parse_modifier_state(event, &keys) &&
+                 (keys & GST_NAVIGATION_MODIFIER_SHIFT_MASK) != 0;
+  return mouse;
+}
+
+}  // namespace spidar

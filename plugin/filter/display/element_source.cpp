@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/display/element_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "plugin/filter/choice/feel_file.h"
+#include "plugin/gobject/category.h"
+#include "plugin/gobject/ref.h"
+
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(held.get())
+
+namespace spidar {
+namespace {
+
+/// For as long as the element is read and not longer, because drawing may take long; null when it
+/// is gone.
+Ref<GstElement> hold(GWeakRef& weak) {
+  return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
+}
+
+std::vector<Setting::Choice> choices_of(const GParamSpecEnum* spec) {
+  std::vector<Setting::Choice> choices;
+  for (guint i = 0; i < spec->enum_class->n_values; ++i) {
+    const GEnumValue& value = spec->enum_class->values[i];
+    choices.push_back({value.value, value.value_nick});
+  }
+  return choices;
+}
+
+double number_of(const GValue* value) {
+  if (G_VALUE_HOLDS_BOOLEAN(value)) return g_value_get_boolean(value) ? 1 : 0;
+  if (G_VALUE_HOLDS_ENUM(value)) return g_value_get_enum(value);
+  GValue number = G_VALUE_INIT;
+  g_value_init(&number, G_TYPE_DOUBLE);
+  const double result = g_value_transform(value, &number) ? g_value_get_double(&number) : 0;
+  g_value_unset(&number);
+  return result;
+}
+
+/// Returns false for a property that the element inherits, that cannot be changed while playing or
+/// is not a number.
+bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
+  if (spec->owner_type != G_OBJECT_TYPE(element)) return false;
+  if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
+  if ((spec->flags & G_PARAM_READWRITE) != G_PARAM_READWRITE) return false;
+  setting.name = g_param_spec_get_name(const_cast<GParamSpec*>(spec));
+  setting.help = g_param_spec_get_blurb(const_cast<GParamSpec*>(spec));
+  if (G_IS_PARAM_SPEC_BOOLEAN(spec)) {
+    setting.kind = Setting::Kind::kSwitch;
+    setting.high = 1;
+  } else if (G_IS_PARAM_SPEC_ENUM(spec)) {
+    setting.kind = Setting::Kind::kChoice;
+    setting.choices = choices_of(G_PARAM_SPEC_ENUM(spec));
+  } else if (G_IS_PARAM_SPEC_DOUBLE(spec)) {
+    setting.kind = Setting::Kind::kNumber;
+    setting.low = G_PARAM_SPEC_DOUBLE(spec)->minimum;
+    setting.high = G_PARAM_SPEC_DOUBLE(spec)->maximum;
+  } else if (G_IS_PARAM_SPEC_INT64(spec)) {
+    setting.kind = Setting::Kind::kWhole;
+    setting.low = static_cast<double>(G_PARAM_SPEC_INT64(spec)->minimum);
+    setting.high = static_cast<double>(G_PARAM_SPEC_INT64(spec)->maximum);
+  } else {
+    return false;
+  }
+  setting.initial = number_of(g_param_spec_get_default_value(const_cast<GParamSpec*>(spec)));
+  return true;
+}
+
+double get_value(GObject* object, const Setting& setting) {
+  GValue value = G_VALUE_INIT;
+  g_object_get_property(object, setting.name.c_str(), &value);
+  const double result = number_of(&value);
+  g_value_unset(&value);
+  return result;
+}
+
+class ElementSource final : public WindowSource {
+ public:
+  ElementSource(GstElement* element, MotionEngine& engine, MotionChoice& choice)
+      : engine_(engine), choice_(choice) {
+    g_weak_ref_init(&element_, element);
+  }
+  ~ElementSource() override { g_weak_ref_clear(&element_); }
+
+  void read(ElementState& state) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
+    state = {};
+    state.name = GST_OBJECT_NAME(held.get());
+    if (settings_.empty()) list_settings(held.get(), settings_);
+    state.settings = settings_;
+    for (Setting& setting : state.settings) {
+      setting.value = get_value(G_OBJECT(held.get()), setting);
+    }
+    state.rules = choice_.rules();
+    state.no_force = sentence(engine_.no_force_reason());
+    DeviceView device;
+    if (engine_.output().look_at_device(device)) state.device = std::move(device);
+  }
+
+  void set(const std::string& name, double wanted) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
+    const GParamSpec* spec =
+        g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
+    Setting setting;
+    if (!spec || !describe(held.get(), spec, setting)) return;
+    const double value = setting.kind == Setting::Kind::kChoice
+                             ? wanted
+                             : std::clamp(wanted, setting.low, setting.high);
+    const char* property = setting.name.c_str();
+    switch (G_PARAM_SPEC_VALUE_TYPE(spec)) {
+      case G_TYPE_DOUBLE:
+        g_object_set(held.get(), property, value, nullptr);
+        break;
+      case G_TYPE_INT64:
+        g_object_set(held.get(), property, static_cast<gint64>(std::llround(value)), nullptr);
+        break;
+      default:  // booleans, enumerations, and unsigned numbers in the range of an int
+        g_object_set(held.get(), property, static_cast<gint>(std::lround(value)), nullptr);
+    }
+  }
+
+  void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
+    engine_.output().lead_hand(to_m);
+  }
+
+  void choose(const std::optional<Eigen::Vector2d>& place) override {
+    const Ref<GstElement> held = hold(element_);
+    if (held) choice_.mouse().keep(place);
+  }
+
+  ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return {false, "Not saved: the element is gone."};
+    gchar* property = nullptr;
+    g_object_get(held.get(), "feel", &property, nullptr);
+    const std::string feel = property ? property : "";
+    g_free(property);
+    try {
+      std::string done = save_feel(feel, film, edits);
+      if (!feel.empty() && feel != "auto" && !is_feel_file(feel)) done += " feel=auto reads it.";
+      // Setting it reads the file anew.
+      g_object_set(held.get(), "feel", feel.empty() ? "auto" : feel.c_str(), nullptr);
+      return {true, done};
+    } catch (const std::runtime_error& error) {
+      // Without the folder, for which a small window has no room.
+      std::string why = error.what();
+      const std::string folder = film.substr(0, film.rfind('/') + 1);
+      if (!folder.empty() && why.rfind(folder, 0) == 0) why.erase(0, folder.size());
+      return {false, "Not saved: " + why + "."};
+    }
+  }
+
+  void warn(const std::string& what, const std::string& advice) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
+    GST_ELEMENT_WARNING(held.get(), RESOURCE, NOT_FOUND, ("%s", what.c_str()),
+                        ("%s The video continues without it.", advice.c_str()));
+  }
+
+  void closed() override {
+    const Ref<GstElement> held = hold(element_);
+    if (held) g_object_set(held.get(), "debug-window", FALSE, nullptr);
+  }
+
+ private:
+  static void list_settings(GstElement* element, std::vector<Setting>& settings) {
+    guint count = 0;
+    GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+    for (guint i = 0; i < count; ++i) {
+      Setting setting;
+      // The window does not offer a switch that would close it.
+      if (describe(element, specs[i], setting) && setting.name != "debug-window") {
+        settings.push_back(std::move(setting));
+      }
+    }
+    g_free(specs);
+  }
+
+  GWeakRef element_;
+  // Only while the element is held.
+  MotionEngine& engine_;
+  MotionChoice& choice_;
+  std::vector<Setting> settings_;  ///< without their values
+};
+
+}  // namespace
+
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+                                                  MotionChoice& choice) {
+  return std::make_shared<ElementSource>(element, engine, choice);
+}
+
+}  // namespace spidar

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// An element as a window sees it.
+#pragma once
+
+#include <memory>
+
+#include <gst/gst.h>
+
+#include "plugin/filter/choice/motion_choice.h"
+#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/window/window_source.h"
+
+namespace spidar {
+
+/// Keeps no reference: the element may go while the window is open. `engine` and `choice`
+/// are those of `element`, and live as long.
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+                                                  MotionChoice& choice);
+
+}  // namespace spidar

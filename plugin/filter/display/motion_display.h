@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Where a frame's motion and force are shown besides being felt.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <gst/video/video.h>
+
+#include "plugin/filter/choice/motion_choice.h"
+#include "plugin/filter/display/sink_hand.h"
+#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/filter/frame/scene_view.h"
+#include "plugin/properties/display_properties.h"
+#include "plugin/window/window.h"
+
+namespace spidar {
+
+/// One element's overlay, meta and debug window.
+class MotionDisplay {
+ public:
+  /// `engine` and `choice` are those of `element` and live as long.
+  MotionDisplay(GstElement* element, MotionEngine& engine, MotionChoice& choice)
+      : element_(element), engine_(engine), choice_(choice), hand_(engine.output()) {}
+
+  // --- streaming thread
+
+  /// Call before a frame is processed. Returns whether show() will give it to the window, which
+  /// then needs its relief, too. A window that asks for a frame later gets the next one.
+  bool window_waits();
+
+  /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
+  /// on, and whose buffer is writable when metas are attached.
+  void show(const FrameReport& report, const DisplayProperties& properties,
+            const AnalyzerSettings& settings, GstVideoFrame& frame);
+
+  /// Instead, of a frame that nobody looked at.
+  void skip() { viewer_.reset(); }
+
+  /// Another stream, from the file `film` or, when that is empty, from elsewhere.
+  void begin_stream(const std::string& film);
+
+  // --- any thread
+
+  /// Led by the mouse of a sink.
+  SinkHand& hand() { return hand_; }
+  /// The element as a window sees it.
+  std::shared_ptr<WindowSource> source() const;
+  void open_window();
+  /// Returns when it is gone, or after Window::kPatience.
+  void close_window();
+  /// Tests, and save_window(): null while there is none.
+  std::shared_ptr<Window> window() const;
+  /// Writes what the window shows to a PNG file. Empty, or why that cannot be done.
+  std::string save_window(const std::string& path);
+
+ private:
+  void follow_film(const FrameReport& report);
+
+  GstElement* const element_;
+  MotionEngine& engine_;
+  MotionChoice& choice_;
+  SinkHand hand_;
+  // Streaming thread.
+  SceneViewer viewer_;
+  bool window_waits_ = false;
+  FilmMoment film_;  // for the window
+
+  mutable std::mutex mutex_;  // never held while a window opens or closes
+  std::shared_ptr<Window> window_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/engine/live_source.h"
+
+#include <algorithm>
+
+#include "core/force/wrench_timeline.h"
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar {
+namespace {
+
+/// With a share of 1 the result is the same bit for bit.
+Wrench scaled(const Wrench& wrench, double share) {
+  return {share * wrench.force_N, share * wrench.torque_Nm};
+}
+
+/// The stream time at which a frame is first seen; 0 when it is not known, or not shown.
+int64_t stream_ns_of(GstBuffer* buffer, const GstSegment& segment) {
+  const GstClockTime pts = GST_BUFFER_PTS(buffer), duration = GST_BUFFER_DURATION(buffer);
+  guint64 from = 0, to = 0;
+  if (segment.format != GST_FORMAT_TIME || !is_time(pts) ||
+      !gst_segment_clip(&segment, GST_FORMAT_TIME, pts,
+                        is_time(duration) ? pts + duration : GST_CLOCK_TIME_NONE, &from, &to)) {
+    return 0;
+  }
+  const GstClockTime stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from);
+  return is_time(stream) ? static_cast<int64_t>(stream) : 0;
+}
+
+}  // namespace
+
+void LiveSource::restart_timing() {
+  restart();
+  pacer_.restart();
+  gap_ns_.reset();
+}
+
+void LiveSource::run_out(GstClockTime running_time) {
+  restart();
+  if (!is_time(running_time)) return;  // scheduled wrenches expire without help
+  schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
+}
+
+void LiveSource::begin_gap(GstClockTime running_time) {
+  if (!is_time(running_time) || !pacer_.has_frame()) {
+    run_out(running_time);
+  } else if (!gap_ns_) {  // while no frame comes, the force ends without help
+    gap_ns_ = static_cast<int64_t>(running_time);
+  }
+}
+
+void LiveSource::end_gap(int64_t running_ns) {
+  constexpr int64_t kLate_ns = 10'000'000;
+  if (!gap_ns_ || running_ns < *gap_ns_) return;
+  // A frame that comes when the next one was due shows that there was no gap.
+  if (running_ns > pacer_.next_ns() + kLate_ns) run_out(static_cast<GstClockTime>(*gap_ns_));
+  gap_ns_.reset();
+}
+
+void LiveSource::end_of_stream() {
+  if (!pacer_.has_frame()) return;
+  run_out(static_cast<GstClockTime>(pacer_.next_ns()));
+  touch_.end(schedule_.at_sink_ns(pacer_.next_ns()));
+}
+
+void LiveSource::pass_gap(GstBuffer*, const GstSegment&, int64_t running_ns) {
+  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  // videorate makes such a gap of a frame that is shown again.
+  const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
+  if (frame) {
+    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
+                   turn_.to_shown(scaled(frame->wrench, motion_share_)), frame->goes_on()});
+  } else {
+    run_out(static_cast<GstClockTime>(running_ns));
+  }
+  limits_.add(schedule_.at_sink_ns(running_ns), frame ? frame->wrench : Wrench(),
+              NoForceReason::kRepeatedFrames);
+  pacer_.pass(time);
+}
+
+/// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
+bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
+  const int64_t running_ns = report.frame.running_ns;
+  end_gap(running_ns);
+  const FramePacer::Order order = pacer_.order(running_ns, frame.video, frame.segment);
+  if (order == FramePacer::Order::kTooSoon) {
+    report.problem = FrameProblem::kSameTimestamp;
+    return false;
+  }
+  if (order == FramePacer::Order::kFalling) report.problem = FrameProblem::kFallingTimestamp;
+  if (order != FramePacer::Order::kNext) restart();
+  return true;
+}
+
+/// Finds the picture of a frame and analyses it. False when it has none.
+bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
+                         FrameReport& report) {
+  const std::optional<DepthLayout> packed = frame.touch.packed();
+  const ImageView picture = packed ? picture_half(luma, *packed) : luma;
+  if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
+    restart();
+    report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
+    return false;
+  }
+  const int64_t begin_ns = monotonic_now_ns();
+  const int64_t running_ns = report.frame.running_ns, stream_ns = report.frame.stream_ns;
+  analyzer_.configure(frame.settings);
+  report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
+                                   {stream_ns_of(frame.video.buffer, frame.segment), turn_});
+  report.limit = limit_of(report.frame, frame.settings.motion);
+  report.frame.running_ns = running_ns;
+  report.frame.stream_ns = stream_ns;
+  to_stored_pixels(report.frame, picture.width);
+  // The picture is the left or the upper half.
+  report.part = visible_part(frame.video);
+  report.part.width = picture.width;
+  report.part.height = picture.height;
+  report.took_ns = monotonic_now_ns() - begin_ns;
+  return true;
+}
+
+bool LiveSource::take(const PassingFrame& frame, FrameReport& report) {
+  if (!follows(frame, report)) return false;
+  if (!holds_picture(frame.video)) {
+    restart();
+    report.problem = FrameProblem::kTooSmall;
+    return false;
+  }
+  const int64_t running_ns = report.frame.running_ns;
+  const int64_t shown_ns = schedule_.at_sink_ns(running_ns);
+  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  const ImageView luma = luma_.view(frame.video);
+  report.analyzed = analyze(frame, luma, time.paced_ns, report);
+  if (!report.analyzed) return false;
+
+  const bool moved = report.frame.interval_ns > 0 || report.frame.goes_on();
+  pacer_.take(time, moved);
+  limits_.add(shown_ns, report.frame.wrench, report.limit);
+  limits_.set_touching(frame.touch.kind != TouchKind::kOff);
+  const bool goes_on = report.frame.goes_on();
+  // This share of the film's motion is felt, reported and shown in addition to touch.
+  motion_share_ = frame.touch.kind == TouchKind::kOff ? 1 : frame.touch.motion_share;
+  report.frame.wrench = turn_.to_shown(scaled(report.frame.wrench, motion_share_));
+  report.turn = turn_;
+  if (!time.in_place) {
+    touch_.add(frame.video, luma, frame.touch, shown_ns, report);
+    schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
+                   report.frame.wrench, goes_on});
+  }
+  return true;
+}
+
+}  // namespace spidar

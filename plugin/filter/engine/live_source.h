@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The analysis of the frames that pass.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/analysis/motion_analyzer.h"
+#include "core/analysis/square_picture.h"
+#include "plugin/filter/engine/frame_touch.h"
+#include "plugin/filter/engine/wrench_source.h"
+#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/filter/reports/limit_watch.h"
+#include "plugin/timing/frame_pacer.h"
+#include "plugin/timing/wrench_schedule.h"
+
+namespace spidar {
+
+class LiveSource : public WrenchSource {
+ public:
+  /// All are the engine's, and outlive this. `schedule` takes the wrenches; `turn` is how frames
+  /// are turned before they are shown.
+  LiveSource(WrenchSchedule& schedule, LimitWatch& limits, FrameTouch& touch,
+             const PictureTurn& turn)
+      : schedule_(schedule), limits_(limits), touch_(touch), turn_(turn) {}
+
+  void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
+
+  void connect(HapticLoop* loop) override { schedule_.connect(loop); }
+  void hand_on() override { schedule_.hand_on(); }
+  void set_muted(bool muted) override { schedule_.set_muted(muted); }
+  void forget() override { schedule_.forget(); }
+  void restart() override { analyzer_.restart(); }
+  bool take(const PassingFrame& frame, FrameReport& report) override;
+  void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
+
+  // --- streaming thread
+
+  void begin_segment() { pacer_.begin_segment(); }
+  /// Running time begins anew.
+  void restart_timing();
+  /// There are no frames from this running time on, but for those that the decoder holds: the gap
+  /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
+  void begin_gap(GstClockTime running_time);
+  /// Nothing more comes.
+  void end_of_stream();
+
+ private:
+  bool follows(const PassingFrame& frame, FrameReport& report);
+  bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
+               FrameReport& report);
+  void end_gap(int64_t running_ns);
+  void run_out(GstClockTime running_time);
+
+  WrenchSchedule& schedule_;
+  LimitWatch& limits_;
+  FrameTouch& touch_;
+  const PictureTurn& turn_;
+  FrameLuma luma_;
+  SquarePicture square_;
+  MotionAnalyzer analyzer_;
+  FramePacer pacer_;
+  std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
+  double motion_share_ = 1;        // of the newest frame's wrench
+};
+
+}  // namespace spidar

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/engine/motion_engine.h"
+
+#include <utility>
+
+#include "plugin/timing/frame_pacer.h"
+
+namespace spidar {
+
+std::string MotionEngine::open(const MotionProperties& properties) {
+  live_.configure(properties.analyzer);
+  if (properties.device == "none") return {};
+  const std::string trace_problem =
+      output_.open(properties.device, properties.profile, properties.haptic_trace);
+  if (!output_.session()) return trace_problem;
+  HapticLoop* const loop = &output_.session()->loop();
+  live_.connect(loop);
+  track_.connect(loop);
+  touch_.connect();
+  limit_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
+  return trace_problem;
+}
+
+void MotionEngine::close() {
+  live_.connect(nullptr);
+  track_.connect(nullptr);
+  output_.close();
+  touch_.disconnect();
+}
+
+std::string MotionEngine::start(const std::string& trace_path) {
+  stats_.reset();
+  restart_timing();
+  return trace_path.empty() ? std::string() : trace_.open(trace_path);
+}
+
+bool MotionEngine::stop() {
+  flush();
+  return trace_.close();
+}
+
+void MotionEngine::set_muted(bool muted) {
+  live_.set_muted(muted);
+  track_.set_muted(muted);
+  limit_watch_.set_muted(muted);
+  touch_.set_muted(muted);
+}
+
+void MotionEngine::flush() {
+  live_.forget();
+  track_.forget();
+  touch_.forget();
+}
+
+void MotionEngine::skip(GstClockTime duration) {
+  const std::lock_guard<std::mutex> lock(skip_mutex_);
+  schedule_.skip(duration);
+  output_.set_skipped(schedule_.skipped_ns());
+}
+
+void MotionEngine::begin_segment() {
+  schedule_.begin_segment();
+  track_.restart();
+  live_.begin_segment();
+}
+
+void MotionEngine::begin_stream() {
+  // What is scheduled stays: without a flush, its frames still wait for the screen.
+  restart();
+  orientation_.begin_stream();
+  turn_ = orientation_.turn();
+}
+
+void MotionEngine::take_tags(const GstTagList* tags) {
+  orientation_.take(tags);
+  turn_ = orientation_.turn();
+}
+
+GstStructure* MotionEngine::stats() const {
+  GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
+  stats_.describe(structure);
+  const std::optional<LoopSnapshot> loop = output_.snapshot();
+  describe_limits(limit_watch_.of_film(loop), limit_watch_.of_device(loop), structure);
+  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, track_.frames(), nullptr);
+  touch_.describe(structure);
+  output_.describe(structure);
+  if (loop) {
+    gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
+                      schedule_.refused() + loop->counters.refused_wrenches, nullptr);
+  }
+  return structure;
+}
+
+NoForceReason MotionEngine::no_force_reason() const {
+  return limit_watch_.first(output_.snapshot());
+}
+
+void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
+                               GstClockTime upstream) {
+  // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
+  // because what the schedule hands on after it must stay.
+  track_.forget();
+  schedule_.change_rate(multiplier, running_time, upstream);
+}
+
+void MotionEngine::restart_timing() {
+  live_.restart_timing();
+  {
+    const std::lock_guard<std::mutex> lock(skip_mutex_);
+    schedule_.restart();
+    track_.restart();
+    output_.set_skipped(0);
+  }
+  limit_watch_.forget();
+}
+
+void MotionEngine::set_track(std::optional<TrackFile> track) {
+  track_.set_track(std::move(track).value_or(TrackFile{}));
+  source_ = track_.has_track() ? static_cast<WrenchSource*>(&track_) : &live_;
+}
+
+/// When the sink shows the frame, and where it is in the film. False when it cannot be felt in
+/// time.
+bool MotionEngine::find_time(const PassingFrame& frame) {
+  const GstClockTime pts = GST_BUFFER_PTS(frame.video.buffer);
+  const bool has_time = frame.segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts);
+  const GstClockTime shown = has_time ? shown_at(frame.video, frame.segment) : GST_CLOCK_TIME_NONE;
+  if (has_time && !GST_CLOCK_TIME_IS_VALID(shown)) {
+    report_.problem = FrameProblem::kNotShown;
+    return false;
+  }
+  if (!is_time(shown)) {
+    restart();
+    report_.problem = FrameProblem::kNoTimestamp;
+    return false;
+  }
+  report_.frame.running_ns = static_cast<int64_t>(shown);
+  report_.frame.stream_ns =
+      static_cast<int64_t>(gst_segment_to_stream_time(&frame.segment, GST_FORMAT_TIME, pts));
+  return true;
+}
+
+const FrameReport& MotionEngine::process(const PassingFrame& frame) {
+  report_.begin();
+  if (!find_time(frame) || !source_->take(frame, report_)) return report_;
+  report_.device_limit = limit_watch_.of_device(output_.snapshot());
+  if (trace_.is_open()) report_.trace_failed = !trace_.write(report_);
+  if (report_.analyzed) stats_.add(report_.frame, report_.took_ns);
+  return report_;
+}
+
+void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
+  const GstClockTime running_time =
+      segment.format == GST_FORMAT_TIME
+          ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer))
+          : GST_CLOCK_TIME_NONE;
+  if (is_time(running_time)) {
+    source_->pass_gap(buffer, segment, static_cast<int64_t>(running_time));
+  } else {
+    restart();
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/engine/stream_orientation.h"
+
+#include <gst/video/video.h>
+
+#include "plugin/gobject/downstream.h"
+
+namespace spidar {
+namespace {
+
+PictureTurn turn_of(GstVideoOrientationMethod method) {
+  switch (method) {
+    case GST_VIDEO_ORIENTATION_90R:
+      return PictureTurn(1);
+    case GST_VIDEO_ORIENTATION_180:
+      return PictureTurn(2);
+    case GST_VIDEO_ORIENTATION_90L:
+      return PictureTurn(3);
+    case GST_VIDEO_ORIENTATION_HORIZ:
+      return PictureTurn(0, true);
+    case GST_VIDEO_ORIENTATION_UR_LL:  // exchanges the upper left corner and the lower right one
+      return PictureTurn(1, true);
+    case GST_VIDEO_ORIENTATION_VERT:
+      return PictureTurn(2, true);
+    case GST_VIDEO_ORIENTATION_UL_LR:  // exchanges the other two
+      return PictureTurn(3, true);
+    default:
+      return PictureTurn();
+  }
+}
+
+}  // namespace
+
+void StreamOrientation::take(const GstTagList* tags) {
+  GstVideoOrientationMethod method;
+  // The function does not change the tags.
+  if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;
+  const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
+  (of_film ? of_film_ : of_stream_) = turn_of(method);
+}
+
+bool follows_tag_upstream(GstPad* sink) {
+  return is_upstream(sink, [](GstElement* element) {
+    if (!GST_IS_VIDEO_DIRECTION(element)) return false;
+    GstVideoOrientationMethod method;
+    g_object_get(element, "video-direction", &method, nullptr);
+    return method == GST_VIDEO_ORIENTATION_AUTO;
+  });
+}
+
+}  // namespace spidar

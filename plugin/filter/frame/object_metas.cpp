@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/frame/object_metas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugin/filter/frame/analytics_meta.h"
+
+namespace spidar {
+namespace {
+
+const char* text_of(GQuark quark) {
+  const char* const text = g_quark_to_string(quark);
+  return text ? text : "";
+}
+
+void remove_ours(GstBuffer* buffer) {
+  const auto remove = [](GstBuffer*, GstMeta** meta, gpointer ours) -> gboolean {
+    if ((*meta)->info->api != GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE) return TRUE;
+    const auto* const region = reinterpret_cast<GstVideoRegionOfInterestMeta*>(*meta);
+    if (region->roi_type == GPOINTER_TO_UINT(ours)) *meta = nullptr;
+    return TRUE;
+  };
+  gst_buffer_foreach_meta(buffer, remove,
+                          GUINT_TO_POINTER(g_quark_from_static_string(kObjectName)));
+}
+
+/// The whole pixels of the frame that it touches; an object may reach over the edge.
+ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width, int height) {
+  const Eigen::Vector2d middle_px =
+      Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height) + object.position_px;
+  const Eigen::Array2d size_px(width, height);
+  const Eigen::Array2d from_px =
+      (middle_px - object.size_px / 2).array().floor().max(0.0).min(size_px);
+  const Eigen::Array2d to_px =
+      (middle_px + object.size_px / 2).array().ceil().max(0.0).min(size_px);
+  return {kObjectName,          object.id, from_px.x(), from_px.y(), (to_px - from_px).x(),
+          (to_px - from_px).y()};
+}
+
+GstStructure* motion_of_object(const MovingObject& object, bool felt, int width, int height) {
+  return gst_structure_new(
+      "spidar-motion", "width", G_TYPE_UINT, static_cast<guint>(width), "height", G_TYPE_UINT,
+      static_cast<guint>(height), "velocity-x", G_TYPE_DOUBLE, object.relative_px_s.x(),
+      "velocity-y", G_TYPE_DOUBLE, object.relative_px_s.y(), "screen-velocity-x", G_TYPE_DOUBLE,
+      object.on_screen_px_s.x(), "screen-velocity-y", G_TYPE_DOUBLE, object.on_screen_px_s.y(),
+      "velocity-error", G_TYPE_DOUBLE, object.error_px_s, "growth", G_TYPE_DOUBLE,
+      object.growth_1_s, "roll", G_TYPE_DOUBLE, object.roll_rad_s, "felt", G_TYPE_BOOLEAN,
+      felt ? TRUE : FALSE, nullptr);
+}
+
+}  // namespace
+
+std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
+  std::vector<ObjectBox> boxes;
+  gpointer state = nullptr;
+  while (GstMeta* const meta = gst_buffer_iterate_meta_filtered(
+             buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
+    const auto& region = *reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
+    // Trackers store corners left of the picture or above it as negative numbers.
+    boxes.push_back({text_of(region.roi_type), 0, static_cast<double>(static_cast<gint>(region.x)),
+                     static_cast<double>(static_cast<gint>(region.y)),
+                     static_cast<double>(region.w), static_cast<double>(region.h)});
+  }
+  read_analytics_meta(buffer, boxes);
+  boxes.erase(
+      std::remove_if(boxes.begin(), boxes.end(),
+                     [](const ObjectBox& box) { return box.width <= 0 || box.height <= 0; }),
+      boxes.end());
+  return boxes;
+}
+
+void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
+                         int width, int height) {
+  remove_ours(buffer);
+  std::vector<ObjectBox> boxes;
+  for (const MovingObject& object : scene.objects) {
+    if (object.tracks == 0) continue;
+    const ObjectBox box = box_of(object, report.part, width, height);
+    if (box.width <= 0 || box.height <= 0) continue;
+    boxes.push_back(box);
+    GstVideoRegionOfInterestMeta* const region = gst_buffer_add_video_region_of_interest_meta(
+        buffer, kObjectName, static_cast<guint>(box.x), static_cast<guint>(box.y),
+        static_cast<guint>(box.width), static_cast<guint>(box.height));
+    region->id = static_cast<gint>(object.id);
+    gst_video_region_of_interest_meta_add_param(
+        region, motion_of_object(object, object.id == report.frame.felt_object, width, height));
+  }
+  attach_analytics_meta(buffer, boxes);
+}
+
+}  // namespace spidar

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Boxes of things in a picture, as elements of other projects attach them to frames.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gst/video/video.h>
+
+#include "plugin/filter/frame/frame_report.h"
+#include "plugin/filter/frame/scene_view.h"
+
+namespace spidar {
+
+/// In pixels of the frame that has it; it may lie partly outside.
+struct ObjectBox {
+  std::string name;  ///< of what is in it, "face"
+  uint64_t track;    ///< the same in all frames of one thing; 0: not known
+  double x, y, width, height;
+};
+
+/// Of GstVideoRegionOfInterestMeta, and of GstAnalyticsRelationMeta where GStreamer has it. Those
+/// without a size are left out. Ids of regions count them within a frame, and are no tracks.
+std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
+
+/// The name of our objects.
+constexpr const char* kObjectName = "spidar-object";
+
+/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Regions that
+/// another spidarmotion has attached are replaced; its detections stay.
+void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
+                         int width, int height);
+
+}  // namespace spidar

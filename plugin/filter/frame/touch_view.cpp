@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/frame/touch_view.h"
+
+#include <algorithm>
+
+namespace spidar {
+namespace {
+
+// In a picture 480 lines high.
+constexpr double kFinger_px = 11, kLeastProxy_px = 3, kMostProxy_px = 9;
+
+double at_height_px(double at_480, double height_px) {
+  return std::max(at_480 * height_px / 480, 1.5);
+}
+
+}  // namespace
+
+Eigen::Vector2d TouchMap::place(const Eigen::Vector3d& position_m) const {
+  return turn.place_coded(pointer.place(position_m));
+}
+
+Eigen::Vector2d TouchMap::position_m(const Eigen::Vector2d& place) const {
+  const Eigen::Vector2d in_picture = turn.place_shown(place.cwiseMax(0.0).cwiseMin(1.0));
+  return {(2 * in_picture.x() - 1) * pointer.half_size_m().x(),
+          (1 - 2 * in_picture.y()) * pointer.half_size_m().y()};
+}
+
+std::optional<TouchMark> touch_mark(const TouchScene& scene, const TickRecord& tick) {
+  const bool runs = tick.device == DeviceState::kRunning || tick.device == DeviceState::kIdle;
+  if (!scene.on || !runs) return std::nullopt;
+  TouchMark mark;
+  mark.finger = scene.map.place(tick.pose.position_m);
+  mark.touching = tick.contact.touching;
+  if (mark.touching) {
+    mark.proxy = scene.map.place(tick.contact.proxy_m);
+    mark.force_N = tick.contact.force_N;
+  }
+  return mark;
+}
+
+double finger_radius_px(double height_px) {
+  return at_height_px(kFinger_px, height_px);
+}
+
+double proxy_radius_px(const TouchMark& mark, double max_force_N, double height_px) {
+  const double pressed = max_force_N > 0 ? std::clamp(mark.force_N.z() / max_force_N, 0.0, 1.0) : 0;
+  return at_height_px(kLeastProxy_px + pressed * (kMostProxy_px - kLeastProxy_px), height_px);
+}
+
+}  // namespace spidar

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The contact of the grip with the picture, as data for the overlay and the window.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/picture_turn.h"
+#include "core/touch/height_field.h"
+#include "plugin/filter/frame/grip_pointer.h"
+#include "spidar/loop/tick_record.h"
+
+namespace spidar {
+
+/// Maps between the device frame and the picture before it is turned.
+struct TouchMap {
+  GripPointer pointer;
+  PictureTurn turn = {};
+
+  /// Place in the picture, the analysed part of the frame: (0, 0) is its top left corner and (1, 1)
+  /// its bottom right one. Positions outside the picture are clamped to its edge.
+  Eigen::Vector2d place(const Eigen::Vector3d& position_m) const;
+  /// The inverse: x and y in the device frame.
+  Eigen::Vector2d position_m(const Eigen::Vector2d& place) const;
+};
+
+/// The touchable surface of one frame.
+struct TouchScene {
+  bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
+  TouchMap map;
+  double stiffness_N_m = 0;                   ///< rendered stiffness
+  double motion_share = 0;                    ///< share of the film's motion that is also rendered
+  std::shared_ptr<const HeightField> relief;  ///< null unless a window requested it
+};
+
+/// Finger and proxy in one tick, as places in the picture.
+struct TouchMark {
+  Eigen::Vector2d finger = Eigen::Vector2d::Zero();
+  bool touching = false;
+  Eigen::Vector2d proxy = Eigen::Vector2d::Zero();    ///< only while touching
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< contact force on the grip
+};
+
+/// Empty when touch is off or the device is not running.
+std::optional<TouchMark> touch_mark(const TouchScene& scene, const TickRecord& tick);
+
+/// Radii of the marks in a picture that is `height_px` high: a ring for the finger, and a disc for
+/// the proxy that grows with the force towards the viewer.
+double finger_radius_px(double height_px);
+double proxy_radius_px(const TouchMark& mark, double max_force_N, double height_px);
+
+}  // namespace spidar

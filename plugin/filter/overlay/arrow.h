@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Shape and colour of the arrows that show motion in the video and in the window.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "plugin/filter/frame/scene_view.h"
+
+namespace spidar {
+
+/// A nonlinear 8-bit RGB colour.
+struct Rgb {
+  uint8_t r = 0, g = 0, b = 0;
+  bool operator==(const Rgb& o) const { return r == o.r && g == o.g && b == o.b; }
+};
+
+constexpr Rgb kWhite{255, 255, 255};
+constexpr Rgb kBlack{0, 0, 0};
+
+struct Arrow {
+  Eigen::Vector2d tail_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d tip_px = Eigen::Vector2d::Zero();
+  double width_px = 1.5;  ///< shaft width
+  Rgb color;
+};
+
+/// An arrow as two convex polygons, shaft and head, with corners in order. An arrow without length
+/// is a square about its tail, as wide as the shaft and without a head.
+struct ArrowShape {
+  std::array<Eigen::Vector2d, 4> shaft_px;
+  std::array<Eigen::Vector2d, 3> head_px;
+  bool has_head = true;
+};
+ArrowShape shape_of(const Arrow& arrow);
+/// The shape enlarged by `margin_px` with pointed corners. Drawing the arrow over it leaves a
+/// border of constant width.
+ArrowShape border_of(const Arrow& arrow, double margin_px);
+
+/// Colour for a direction in the picture (y down): right red, up green-yellow, left cyan, down
+/// violet. `saturation` 0 … 1.
+Rgb direction_color(const Eigen::Vector2d& direction, double saturation);
+
+/// Drawing parameters of a scene.
+struct ArrowStyle {
+  double scale = 4;          ///< arrow length / displacement, > 0
+  double height_px = 480;    ///< height of the picture; line widths scale with it
+  double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
+  PictureTurn turn;                                     ///< of what is drawn, before it is shown
+  double pixel_aspect = 1;  ///< of the scene's pixels; what is drawn has square ones
+};
+
+/// Shaft width of the arrow of the felt force.
+double felt_width_px(const ArrowStyle& style);
+
+/// One arrow per track with its tail at `from`: bold for objects, pale for the background.
+std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style);
+
+/// The felt force as a white arrow from the centre, in the direction in which it pushes the hand.
+/// Draw the black border first. Empty when the arrow is too short to show a direction.
+struct FeltArrow {
+  ArrowShape border;
+  Arrow arrow;
+};
+std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
+
+}  // namespace spidar

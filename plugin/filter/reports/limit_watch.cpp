@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/reports/limit_watch.h"
+
+#include <algorithm>
+
+#include "core/force/felt_force.h"
+
+namespace spidar {
+namespace {
+
+/// When a hand swings a slack string, the pose is lost for less than this.
+constexpr int64_t kGripLost_ns = 100'000'000;
+
+/// Whether nothing was felt in the whole interval and no frame was due in it.
+bool is_late(const LoopSnapshot& loop) {
+  return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
+         (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);
+}
+
+}  // namespace
+
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted) {
+  switch (loop.last.device) {
+    case DeviceState::kLost:
+      return NoForceReason::kDeviceLost;
+    case DeviceState::kOpening:
+    case DeviceState::kClosing:
+    case DeviceState::kClosed:
+      return NoForceReason::kDeviceStarting;
+    case DeviceState::kRunning:
+    case DeviceState::kIdle:
+      break;
+  }
+  if (loop.untrusted_ns > kGripLost_ns) return NoForceReason::kGripUnknown;
+  if (muted) return NoForceReason::kMuted;
+  if (!loop.last.playing) return NoForceReason::kNotPlaying;
+  if (!loop.last.held) return NoForceReason::kGripReleased;
+  return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
+}
+
+NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch) {
+  if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
+  if (!can_touch) return NoForceReason::kCannotTouch;
+  const Contact& contact = loop.last.contact;
+  if (!contact.has_surface) return NoForceReason::kNoRelief;
+  return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
+}
+
+void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept {
+  if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
+  frames_[next_] = {shown_ns, force_N, limit};
+  next_ = (next_ + 1) % kFrames;
+  count_ = std::min(count_ + 1, kFrames);
+}
+
+NoForceReason NoForceHistory::limit(int64_t now_ns) const noexcept {
+  std::array<size_t, kNoForceReasons> pictures{};
+  bool repeats = false;
+  for (size_t i = 0; i < count_; ++i) {
+    const Frame& frame = latest(i);
+    if (frame.shown_ns > now_ns) continue;
+    if (frame.shown_ns <= now_ns - kWindow_ns) break;
+    if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;
+    if (frame.limit == NoForceReason::kRepeatedFrames) {
+      repeats = true;
+    } else {
+      ++pictures[static_cast<size_t>(frame.limit)];
+    }
+  }
+  // What had nothing to be compared with says nothing where others do.
+  size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
+  const bool any_incomparable = incomparable > 0;
+  incomparable = 0;
+  const auto most = std::max_element(pictures.begin(), pictures.end());
+  if (*most > 0) return static_cast<NoForceReason>(most - pictures.begin());
+  if (repeats) return NoForceReason::kRepeatedFrames;
+  return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
+}
+
+void LimitWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.add(shown_ns, size_N(wrench), limit);
+  newest_ns_ = shown_ns;
+}
+
+void LimitWatch::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.forget();
+  newest_ns_ = 0;
+}
+
+void LimitWatch::set_muted(bool muted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  muted_ = muted;
+}
+
+void LimitWatch::set_touching(bool touching) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  touching_ = touching;
+}
+
+void LimitWatch::set_can_touch(bool can_touch) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  can_touch_ = can_touch;
+}
+
+NoForceReason LimitWatch::film(const std::optional<LoopSnapshot>& loop) const {
+  return frames_.limit(loop ? loop->last.running_ns : newest_ns_);
+}
+
+NoForceReason LimitWatch::device(const std::optional<LoopSnapshot>& loop) const {
+  if (!loop) return NoForceReason::kNoDevice;
+  const NoForceReason reason = limit_of_device(*loop, muted_);
+  if (reason != NoForceReason::kNone) return reason;
+  if (touching_) return limit_of_contact(*loop, can_touch_);
+  // Of frames that come too late, none may be due in the last second.
+  const int64_t due_ns = std::min(newest_ns_, loop->last.running_ns);
+  const bool was_due = frames_.limit(due_ns) == NoForceReason::kNone;
+  return was_due && is_late(*loop) ? NoForceReason::kLate : NoForceReason::kNone;
+}
+
+NoForceReason LimitWatch::of_film(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return film(loop);
+}
+
+NoForceReason LimitWatch::of_device(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return device(loop);
+}
+
+NoForceReason LimitWatch::first(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const NoForceReason of_device = device(loop);
+  if (touching_) return of_device;
+  const NoForceReason of_film = film(loop);
+  // That no frame is there may be because of the device.
+  const bool has_own = of_film != NoForceReason::kNone && of_film != NoForceReason::kNoFrames;
+  return has_own || of_device == NoForceReason::kNone ? of_film : of_device;
+}
+
+void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure) {
+  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "limit-reason", G_TYPE_STRING,
+                    sentence(film), "device-limit", G_TYPE_STRING, nick(device),
+                    "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
+}
+
+}  // namespace spidar

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Why nothing is felt: reasons of the film, and those of the playback and the device.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include <gst/gst.h>
+
+#include "core/wrench.h"
+#include "plugin/filter/frame/no_force_reason.h"
+#include "spidar/loop/tick_record.h"
+
+namespace spidar {
+
+/// Keeps the latest frames and finds what limited the force in the last second. Not thread-safe.
+/// Allocates nothing.
+class NoForceHistory {
+ public:
+  static constexpr int64_t kWindow_ns = 1'000'000'000;
+  /// Older frames are dropped. Room for a second at 60 frames/s and 16 s of frames that wait to be
+  /// shown.
+  static constexpr size_t kFrames = 1024;
+
+  /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames that were added
+  /// before and are not earlier are dropped.
+  void add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept;
+
+  /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is
+  /// felt; kRepeatedFrames when all of them show the same picture; else the reason that most
+  /// pictures have.
+  NoForceReason limit(int64_t now_ns) const noexcept;
+
+  void forget() noexcept { count_ = 0; }
+
+ private:
+  struct Frame {
+    int64_t shown_ns = 0;
+    double force_N = 0;
+    NoForceReason limit = NoForceReason::kNone;
+  };
+  const Frame& latest(size_t i) const noexcept {
+    return frames_[(next_ + 2 * kFrames - 1 - i) % kFrames];
+  }
+
+  std::array<Frame, kFrames> frames_{};
+  size_t count_ = 0;
+  size_t next_ = 0;
+};
+
+/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
+/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
+/// back with the force.
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
+
+/// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
+/// second; kNone before. `can_touch`: see GripAbilities.
+NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch);
+
+/// Thread-safe. `loop` is nothing while no device is open.
+class LimitWatch {
+ public:
+  /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
+  /// for one that is too weak to feel.
+  void add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit);
+  /// Running time begins anew.
+  void forget();
+  void set_muted(bool muted);
+  /// The picture is touched: from now on what is felt is the contact, and not the film.
+  void set_touching(bool touching);
+  /// Of the device that is open.
+  void set_can_touch(bool can_touch);
+
+  /// The film's reason, of the last second up to the picture on the screen; without a device, up to
+  /// the frame added last.
+  NoForceReason of_film(const std::optional<LoopSnapshot>& loop) const;
+  /// The reason of the device, the playback or the contact, now; kNone when there is none.
+  NoForceReason of_device(const std::optional<LoopSnapshot>& loop) const;
+  /// The one to be told to a person: the film's if it has one, and else the device's.
+  NoForceReason first(const std::optional<LoopSnapshot>& loop) const;
+
+ private:
+  NoForceReason film(const std::optional<LoopSnapshot>& loop) const;
+  NoForceReason device(const std::optional<LoopSnapshot>& loop) const;
+
+  mutable std::mutex mutex_;
+  NoForceHistory frames_;
+  int64_t newest_ns_ = 0;
+  bool muted_ = false;
+  bool touching_ = false;
+  bool can_touch_ = true;
+};
+
+/// Adds limit and device-limit (strings, see nick()), and limit-reason and device-limit-reason
+/// (strings: a sentence, empty for "none").
+void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure);
+
+}  // namespace spidar

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/reports/motion_stats.h"
+
+namespace spidar {
+void MotionStats::reset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_ = 0;
+  restarts_ = 0;
+  features_ = 0;
+  tracked_ = 0;
+  model_.reset();
+  objects_ = 0;
+  analysis_.reset();
+}
+
+void MotionStats::add(const Frame& frame, int64_t took_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++frames_;
+  if (frame.picture == PictureKind::kFirst) ++restarts_;
+  features_ = frame.features;
+  tracked_ = frame.motion.tracked;
+  model_.reset();
+  if (frame.background) model_ = frame.background->model.kind;
+  objects_ = static_cast<int>(frame.objects.size());
+  analysis_.add(took_ns);
+}
+
+uint64_t MotionStats::frames() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return frames_;
+}
+
+void MotionStats::describe(GstStructure* structure) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  gst_structure_set(structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64,
+                    restarts_, "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked",
+                    G_TYPE_UINT, static_cast<guint>(tracked_), "model", G_TYPE_STRING,
+                    model_ ? to_string(*model_) : "none", "objects", G_TYPE_UINT,
+                    static_cast<guint>(objects_), "analysis-median", G_TYPE_UINT64,
+                    static_cast<guint64>(analysis_.quantile_ns(0.5)), "analysis-p95", G_TYPE_UINT64,
+                    static_cast<guint64>(analysis_.quantile_ns(0.95)), "analysis-max",
+                    G_TYPE_UINT64, static_cast<guint64>(analysis_.max_ns()), nullptr);
+}
+
+}  // namespace spidar

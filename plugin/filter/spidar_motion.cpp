@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/**
+ * SECTION:element-spidarmotion
+ * @title: spidarmotion
+ * @short_description: feel the motion of a video with a SPIDAR haptic device
+ *
+ * Looks at the frames that pass, measures how the blocks of the picture and the objects in it move,
+ * turns the motion into force and torque, and gives them to the grip of a SPIDAR-G at the moment
+ * the frame is shown. The video itself is passed on untouched.
+ *
+ * By default the object that stands out most against the background is felt (#spidarmotion:motion),
+ * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
+ * filter-min-cutoff=0 it is the mean velocity of Shi-Tomasi points that Lucas-Kanade tracks, as in
+ * the paper.
+ *
+ * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset (pad
+ * offsets and a clocksync on the way to the sink count, too); its force is felt then
+ * (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
+ * in PAUSED and after the end there is none.
+ *
+ * Where the tag `image-orientation` says that the picture is turned or mirrored before it is shown,
+ * as that of a telephone held upright, force and torque are turned like it, and so are the relief
+ * of #spidarmotion:touch and the places of pointer and grip. What refers to pixels, velocities and
+ * objects, stays in the coordinates of the frame.
+ *
+ * Of files that properties name, the ending says what they are: #spidarmotion:trace writes .csv or
+ * .jsonl, #spidarmotion:track plays .flac, .mka, .wav or a film, #spidarmotion:feel reads .feel.
+ * For the two that are read, `auto` is the file beside the film that has its name with this ending.
+ *
+ * The element posts a `spidar-motion` element message for each frame when
+ * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
+ * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
+ * `velocity-y` (pixels of the frame per second of running time; x right, y down), `velocity-error`
+ * (the same unit: how far from them the true ones are at most, in 95 % of the frames; 0 when it is
+ * not that of one object), `force-x`, `force-y`, `force-z` (newtons; x right, y up, z towards the
+ * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
+ * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
+ * none or not one alone), `limit` (string: why nothing of this frame is to be felt, "none" when
+ * something is), `device-limit` (string: the same of the device and the playback) and
+ * `limit-reason` and `device-limit-reason` (strings: the same as a sentence, empty for "none").
+ * `stats` has them for the picture on the screen.
+ *
+ * ## Example launch lines
+ * |[
+ * gst-launch-1.0 videotestsrc pattern=ball ! spidarmotion ! videoconvert ! autovideosink
+ * ]| A moving ball drives the simulated device.
+ * |[
+ * gst-launch-1.0 playbin uri=file:///tmp/clip.mp4 video-filter="spidarmotion controller=linear"
+ * ]| A film with sound.
+ *
+ * Since: 0.1
+ */
+#include "plugin/filter/spidar_motion.h"
+
+#include <string>
+
+#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/filter/spidar_motion_private.h"
+#include "plugin/gobject/exceptions.h"
+#include "plugin/properties/property_table.h"
+
+GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT gst_spidar_motion_debug
+
+using spidar::MotionDisplay;
+using spidar::MotionEngine;
+using spidar::MotionProperties;
+
+#define CAPS_OF(formats)                                      \
+  "video/x-raw, format = (string) " formats                   \
+  ", width = (int) [ 16, 8192 ], height = (int) [ 16, 8192 ]" \
+  ", framerate = (fraction) [ 0, max ]"
+#define CAPS CAPS_OF(SPIDAR_VIDEO_FORMATS) "; " CAPS_OF(SPIDAR_UNPACKED_FORMATS)
+
+static GstStaticPadTemplate motion_sink_template =
+    GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
+static GstStaticPadTemplate motion_src_template =
+    GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
+                                                "motion of a video to a SPIDAR"))
+GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
+
+spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self) {
+  return *self->display;
+}
+
+MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
+  return *self->engine;
+}
+
+// --- debug window ------------------------------------------------------------------------------
+
+/// Opens or closes the debug window according to the property and the state. If several threads
+/// change these at the same time, one of them does the work for all. The others must not be waited
+/// for, because one of them may be the window's own thread.
+static void follow_debug_window(GstSpidarMotion* self) {
+  if (g_atomic_int_add(&self->window_changes, 1) > 0) return;
+  gint seen;
+  do {
+    seen = g_atomic_int_get(&self->window_changes);
+    GST_OBJECT_LOCK(self);
+    const bool wanted = self->opened && self->properties->display.debug_window;
+    GST_OBJECT_UNLOCK(self);
+    if (wanted) {
+      self->display->open_window();
+    } else {
+      self->display->close_window();
+    }
+  } while (!g_atomic_int_compare_and_exchange(&self->window_changes, seen, 0));
+}
+
+static void set_opened(GstSpidarMotion* self, bool opened) {
+  GST_OBJECT_LOCK(self);
+  self->opened = opened;
+  GST_OBJECT_UNLOCK(self);
+  follow_debug_window(self);
+}
+
+static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
+  const std::string problem = path ? self->display->save_window(path) : "no file is named";
+  if (problem.empty()) return TRUE;
+  GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, problem.c_str());
+  return FALSE;
+}
+
+// --- states ------------------------------------------------------------------------------------
+
+static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
+                                                           GstStateChange transition) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(element);
+  MotionEngine& engine = *self->engine;
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY) {
+    GST_OBJECT_LOCK(self);
+    const MotionProperties properties = *self->properties;
+    GST_OBJECT_UNLOCK(self);
+    std::string trace_problem;
+    const bool opened = spidar::guarded(GST_ELEMENT(self), "opening the device",
+                                        [&] { trace_problem = engine.open(properties); });
+    if (!opened) return GST_STATE_CHANGE_FAILURE;
+    GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
+                    engine.output().profile().name.c_str());
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("The video and the force continue without it."));
+    }
+    self->warnings->check_opened(engine);
+    set_opened(self, true);
+  } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
+    self->steps->begin();
+  } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
+    GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
+    engine.output().set_playing(false);
+  } else if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
+    self->loader->interrupt();
+  }
+
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_motion_parent_class)->change_state(element, transition);
+
+  switch (transition) {
+    case GST_STATE_CHANGE_READY_TO_PAUSED:
+      if (result == GST_STATE_CHANGE_FAILURE) self->steps->end();
+      break;
+    case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
+      if (result != GST_STATE_CHANGE_FAILURE) engine.output().set_playing(true);
+      GST_DEBUG_OBJECT(self, "playing: force may begin");
+      break;
+    case GST_STATE_CHANGE_PAUSED_TO_READY:
+      self->steps->end();
+      break;
+    case GST_STATE_CHANGE_READY_TO_NULL:
+      engine.close();
+      GST_INFO_OBJECT(self, "closed the device");
+      set_opened(self, false);
+      break;
+    default:
+      break;
+  }
+  return result;
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+/// What does not read the properties with each frame.
+static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
+    {"ts-offset",
+     [](auto* self, auto* value) { self->engine->output().set_offset(g_value_get_int64(value)); }},
+    {"mute", [](auto* self, auto* value) { self->engine->set_muted(g_value_get_boolean(value)); }},
+    {"feel", [](auto* self, auto*) { self->choice->rules_changed(); }},
+    {"pointer",
+     [](auto* self, auto*) {
+       self->choice->mouse().reset();
+       self->display->hand().let_go();
+     }},
+    {"touch",
+     [](auto* self, auto* value) {
+       const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
+       if (off) self->engine->stop_touching();
+     }},
+    {"max-force",
+     [](auto* self, auto* value) {
+       self->engine->output().set_max_force(g_value_get_double(value));
+     }},
+    {"overlay",
+     [](auto* self, auto* value) {
+       gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
+     }},
+};
+
+/// The window's own thread may wait for `setting`, so these are followed without it.
+static constexpr spidar::PropertyEffect<GstSpidarMotion> kUnlockedEffects[] = {
+    {"debug-window", [](auto* self, auto*) { follow_debug_window(self); }},
+};
+
+static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
+                                           GParamSpec* spec) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  g_mutex_lock(&self->setting);
+  GST_OBJECT_LOCK(self);
+  const bool known = spidar::motion_properties().set(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  spidar::follow_property(kEffects, self, spec, value);
+  g_mutex_unlock(&self->setting);
+  spidar::follow_property(kUnlockedEffects, self, spec, value);
+}
+
+static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
+                                           GParamSpec* spec) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {  // stats
+    g_value_take_boxed(value, self->engine->stats());
+    return;
+  }
+  GST_OBJECT_LOCK(self);
+  const bool known = spidar::motion_properties().get(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void gst_spidar_motion_finalize(GObject* object) {
+  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  delete self->choice;
+  delete self->warnings;
+  delete self->steps;
+  delete self->display;
+  delete self->loader;
+  delete self->engine;
+  delete self->properties;
+  g_mutex_clear(&self->setting);
+  G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
+}
+
+static void gst_spidar_motion_init(GstSpidarMotion* self) {
+  g_mutex_init(&self->setting);
+  self->properties = new MotionProperties;
+  self->engine = new MotionEngine(GST_ELEMENT(self));
+  self->loader = new spidar::TrackLoader;
+  self->steps = new spidar::StepWatch(
+      GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
+  self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
+  self->choice = new spidar::MotionChoice(GST_ELEMENT(self));
+  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine, *self->choice);
+  // GstVideoFilter would drop late frames before they are analysed; here the application decides
+  // that with `qos`.
+  gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
+  gst_base_transform_set_qos_enabled(GST_BASE_TRANSFORM(self), FALSE);
+}
+
+static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
+  GObjectClass* object_class = G_OBJECT_CLASS(klass);
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+
+  object_class->set_property = gst_spidar_motion_set_property;
+  object_class->get_property = gst_spidar_motion_get_property;
+  object_class->finalize = gst_spidar_motion_finalize;
+  spidar::motion_properties().install(object_class);
+  spidar::register_motion_meta();
+  // gboolean save-window(const gchar *path): saves the contents of the debug window as a PNG file.
+  g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,
+                             static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
+                             G_CALLBACK(gst_spidar_motion_save_window), nullptr, nullptr, nullptr,
+                             G_TYPE_BOOLEAN, 1, G_TYPE_STRING);
+
+  gst_element_class_set_static_metadata(
+      element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
+      "Measures how things move in a video and renders it as force on a haptic device",
+      "The gst-spidar authors");
+  gst_element_class_add_static_pad_template(element_class, &motion_sink_template);
+  gst_element_class_add_static_pad_template(element_class, &motion_src_template);
+  element_class->change_state = gst_spidar_motion_change_state;
+
+  gst_spidar_motion_install_stream(klass);
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Builds the touchable surface of every frame.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <gst/gst.h>
+
+#include "core/analysis/frame.h"
+#include "core/image_view.h"
+#include "core/picture_turn.h"
+#include "core/touch/depth_picture.h"
+#include "core/touch/relief.h"
+#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/properties/touch_properties.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/realtime/latency_histogram.h"
+#include "spidar/touch/touch_mailbox.h"
+
+namespace spidar {
+
+/// The contact settings that the properties yield on this device.
+ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
+
+/// Builds the relief of every frame and passes it to the haptic loop. Until touch is first enabled,
+/// it allocates nothing and is not connected to the loop. Methods are grouped by the thread that
+/// calls them.
+class ReliefStream {
+ public:
+  /// Largest number of frames between the element and the screen; reliefs of further frames are
+  /// left out.
+  static constexpr size_t kSlots = 32;
+
+  // --- state changes
+
+  /// Call after a device was opened. `half_size_m` is half the width and height of the picture, see
+  /// GripPointer.
+  void connect(HapticLoop* loop, const Profile& profile, const Eigen::Vector2d& half_size_m);
+  /// Call after the device was closed and its loop destroyed.
+  void disconnect();
+
+  // --- any thread
+
+  /// Removes the surface until the next frame.
+  void forget();
+  /// Removes the surface until set_muted(false).
+  void set_muted(bool muted);
+  void describe(GstStructure* structure) const;
+
+  // --- streaming thread
+
+  /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analyzed` the part
+  /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
+  /// the device has no workspace for a picture. Allocates only when the frame size changes.
+  void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
+           const TouchProperties& properties, const Eigen::Vector2d& finger);
+  /// How the frames that follow are turned before they are shown; the relief is turned like them.
+  void set_turn(const PictureTurn& turn) { turn_ = turn; }
+  /// The brightness of black and white in the frames that follow.
+  void set_levels(const LumaLevels& levels) { levels_ = levels; }
+  /// Sets whether add() copies the relief, which allocates.
+  void want_copy(bool wanted) { copy_wanted_ = wanted; }
+  /// Returns the copy of the last added frame; null if there is none.
+  std::shared_ptr<const HeightField> take_copy() { return std::move(copy_); }
+  /// Removes the surface from `shown_ns` on.
+  void end(int64_t shown_ns);
+
+ private:
+  void start();
+  bool build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
+             TouchFrame& frame);
+  ImageView thinned(const ImageView& luma);
+  const float* turned(const float* levels);
+
+  HapticLoop* loop_ = nullptr;
+  Profile profile_;
+  Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
+  std::mutex mutex_;  // guards mailbox_ against forget()
+  std::unique_ptr<TouchMailbox> mailbox_;
+  std::atomic<bool> muted_{false};
+  // Streaming thread.
+  ReliefBuilder builder_;
+  DepthPicture depth_;
+  int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
+  PictureTurn turn_;
+  LumaLevels levels_;
+  std::vector<uint8_t> thinned_;
+  std::vector<float> turned_levels_;
+  bool touched_ = false;   ///< the newest frame has a surface
+  bool left_out_ = false;  ///< the newest frame was not published
+  uint32_t generation_ = 0;
+  bool copy_wanted_ = false;
+  std::shared_ptr<const HeightField> copy_;
+
+  std::atomic<double> stiffness_N_m_{0};
+  std::atomic<uint64_t> reliefs_{0};
+  std::atomic<uint64_t> reliefs_left_out_{0};
+  LatencyHistogram took_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/film_reader.h"
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gst/gst.h>
+
+#include "plugin/gobject/pads.h"
+#include "plugin/tracks/file_pipeline.h"
+#include "plugin/tracks/film_streams.h"
+#include "plugin/tracks/packet_hash.h"
+
+namespace spidar {
+namespace {
+
+/// The fingerprint comes from so many packets, or from fewer that are large.
+constexpr size_t kStartPackets = 256;
+constexpr size_t kStartBytes = size_t{8} << 20;
+/// From the last key frame to the end of the film there may be so much.
+constexpr size_t kEndBytes = size_t{64} << 20;
+/// Where the end is searched, before the end of the container: sound may be longer than the
+/// pictures, and a demuxer without an index may come out behind the last key frame.
+constexpr int64_t kBeforeEnd_ns[] = {0, 20'000'000'000};
+constexpr GstClockTime kLongestSearch = 10 * GST_SECOND;
+
+class FilmReader {
+ public:
+  FilmReader(const std::string& path, const std::atomic<bool>* stopped)
+      : file_("filesrc name=source ! parsebin name=parse", path, stopped),
+        parser_(file_.find("parse")) {
+    g_signal_connect(parser_, "pad-added", G_CALLBACK(add_stream), this);
+  }
+  ~FilmReader() { file_.stop(); }
+  FilmReader(const FilmReader&) = delete;
+  FilmReader& operator=(const FilmReader&) = delete;
+
+  Film read() {
+    bool ended = file_.play_until(GST_MESSAGE_APPLICATION) == GST_MESSAGE_EOS;
+    gint64 duration_ns = 0;
+    if (sink_ && gst_element_query_duration(sink_, GST_FORMAT_TIME, &duration_ns)) {
+      film_.duration_ns = duration_ns;
+    }
+    for (const int64_t before_ns : kBeforeEnd_ns) {
+      if (ended || film_.duration_ns <= 0) break;
+      ended = read_from(std::max<int64_t>(0, film_.duration_ns - before_ns));
+    }
+    missing_ = why_missing(parser_);
+    file_.stop();
+    return result(ended);
+  }
+
+ private:
+  enum class Part { kStart, kEnd, kNone };
+
+  /// Whether there were pictures until the end of the film.
+  bool read_from(int64_t time_ns) {
+    file_.pause();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      part_ = Part::kEnd;
+      bytes_ = 0;
+    }
+    GstEvent* seek =
+        gst_event_new_seek(1, GST_FORMAT_TIME,
+                           static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
+                                                     GST_SEEK_FLAG_SNAP_BEFORE),
+                           GST_SEEK_TYPE_SET, time_ns, GST_SEEK_TYPE_NONE, 0);
+    if (!gst_element_send_event(sink_, seek)) return false;
+    const bool ended = file_.play_until(GST_MESSAGE_APPLICATION, kLongestSearch) == GST_MESSAGE_EOS;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended && bytes_ > 0;
+  }
+
+  Film result(bool ended) {
+    if (film_.packets.empty()) throw std::runtime_error("there are no pictures in it" + missing_);
+    std::sort(times_ns_.begin(), times_ns_.end());
+    if (!times_ns_.empty()) film_.begin_ns = times_ns_.front();
+    for (size_t i = 1; i < times_ns_.size(); ++i) {
+      film_.frame_ns = std::max(film_.frame_ns, times_ns_[i] - times_ns_[i - 1]);
+    }
+    if (ended && !times_ns_.empty()) {
+      film_.end_ns = last_ns_ + (last_length_ns_ > 0 ? last_length_ns_ : film_.frame_ns);
+    }
+    return std::move(film_);
+  }
+
+  static void add_stream(GstElement*, GstPad* pad, gpointer user) {
+    auto& self = *static_cast<FilmReader*>(user);
+    GstCaps* caps = caps_of(pad);
+    {
+      const std::lock_guard<std::mutex> lock(self.mutex_);
+      self.film_.has_track = self.film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
+    }
+    gst_caps_unref(caps);
+    constexpr auto kFlow =
+        static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                                     GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+    gst_pad_add_probe(pad, kFlow, link_stream, user, nullptr);
+  }
+
+  /// A stream may begin, and be found, while the others flow. It is linked when it flows, so that
+  /// its parser leaves the pictures as they are in the file.
+  static GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<FilmReader*>(user);
+    self.file_.advance();
+    if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
+    if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+      const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
+      if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
+    }
+    GstPad* into = gst_element_get_static_pad(self.add_sink(pad), "sink");
+    gst_pad_link(pad, into);
+    gst_object_unref(into);
+    return GST_PAD_PROBE_OK;
+  }
+
+  GstElement* add_sink(GstPad* pad) {
+    GstElement* const sink = file_.add_fakesink();
+    GstCaps* caps = caps_of(pad);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    film_.has_track = film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
+    if (kind_of(caps) == StreamKind::kVideo && !sink_) {
+      sink_ = sink;
+      framing_ = framing_of(caps);
+      g_object_set(sink, "signal-handoffs", TRUE, nullptr);
+      g_signal_connect(sink, "handoff", G_CALLBACK(take_packet), this);
+    }
+    gst_caps_unref(caps);
+    return sink;
+  }
+
+  static void take_packet(GstElement*, GstBuffer* packet, GstPad* pad, gpointer user) {
+    static_cast<FilmReader*>(user)->take(packet, pad);
+  }
+
+  void take(GstBuffer* packet, GstPad* pad) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (part_ == Part::kNone) return;
+    const GstClockTime time = stream_time_of(pad, packet);
+    if (GST_CLOCK_TIME_IS_VALID(time)) take_time(static_cast<int64_t>(time), packet);
+    bytes_ += gst_buffer_get_size(packet);
+    if (part_ == Part::kStart) take_picture(packet, GST_CLOCK_TIME_IS_VALID(time) ? time : 0);
+    const bool enough = part_ == Part::kStart
+                            ? film_.packets.size() >= kStartPackets || bytes_ > kStartBytes
+                            : bytes_ > kEndBytes;
+    if (!enough) return;
+    part_ = Part::kNone;
+    gst_element_post_message(
+        sink_, gst_message_new_application(GST_OBJECT(sink_), gst_structure_new_empty("enough")));
+  }
+
+  void take_picture(GstBuffer* packet, GstClockTime time) {
+    GstMapInfo map;
+    if (!gst_buffer_map(packet, &map, GST_MAP_READ)) return;
+    film_.packets.push_back(
+        {hash_packet(map.data, map.size, framing_), map.size, static_cast<int64_t>(time)});
+    gst_buffer_unmap(packet, &map);
+  }
+
+  void take_time(int64_t time_ns, GstBuffer* packet) {
+    if (part_ == Part::kStart) times_ns_.push_back(time_ns);
+    if (time_ns < last_ns_) return;
+    last_ns_ = time_ns;
+    const bool has_length = GST_BUFFER_DURATION_IS_VALID(packet);
+    last_length_ns_ = has_length ? static_cast<int64_t>(GST_BUFFER_DURATION(packet)) : 0;
+  }
+
+  const FilePipeline file_;
+  GstElement* const parser_;
+  GstElement* sink_ = nullptr;  // of the pictures
+  PacketFraming framing_;
+  std::mutex mutex_;
+  Part part_ = Part::kStart;
+  size_t bytes_ = 0;  // of this part
+  std::vector<int64_t> times_ns_;
+  int64_t last_ns_ = 0, last_length_ns_ = 0;
+  Film film_;
+  std::string missing_;  // why there are no pictures
+};
+
+}  // namespace
+
+Film read_film(const std::string& path, const std::atomic<bool>* stopped) {
+  FilmReader reader(path, stopped);
+  return reader.read();
+}
+
+}  // namespace spidar

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/part_file.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <pthread.h>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The part files of this process. The lock is held while one is made, renamed or removed, so that
+/// a signal finds all of them.
+struct Registry {
+  std::mutex mutex;
+  std::set<std::string> paths;
+};
+
+Registry& registry() {
+  static auto* const all = new Registry;  // outlives the thread that waits for signals
+  return *all;
+}
+
+std::runtime_error failure(const fs::path& target, int error) {
+  const fs::path folder = target.parent_path();
+  std::error_code none;
+  if (!folder.empty() && !fs::is_directory(folder, none)) {
+    return std::runtime_error(target.string() + ": there is no folder " + folder.string() +
+                              (target.string().find("://") == std::string::npos
+                                   ? ""
+                                   : "; a file name is needed, not a URI"));
+  }
+  return std::runtime_error(target.string() + ": cannot be written: " + std::strerror(error));
+}
+
+/// Whether the open file is still the one of this name.
+bool is_at(int descriptor, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// Removes what a killed process has left at `path`. Returns false when its owner lives. Throws
+/// std::runtime_error, which names `target`.
+bool remove_left(const std::string& path, const fs::path& target) {
+  const int left = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (left < 0 && errno == ENOENT) return true;
+  struct stat status {};
+  if (left < 0 || fstat(left, &status) != 0 || !S_ISREG(status.st_mode)) {
+    if (left >= 0) close(left);
+    throw std::runtime_error(target.string() + ": cannot be written while there is " + path +
+                             ", which is no file of this program; remove it");
+  }
+  // Some network file systems have no locks: only this process is then kept from writing it twice.
+  const bool is_owned = flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!is_owned && is_at(left, path)) unlink(path.c_str());
+  close(left);
+  return !is_owned;
+}
+
+/// A new, open and locked file; −1 when another process has locked it. Throws std::runtime_error,
+/// which names `target`.
+int make_locked(const std::string& path, const fs::path& target) {
+  for (;;) {
+    const int descriptor =
+        open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno != EEXIST) throw failure(target, errno);
+    if (descriptor < 0) {
+      if (!remove_left(path, target)) return -1;
+      continue;
+    }
+    // Another process may take it for one that was left, before it is locked, and remove it.
+    flock(descriptor, LOCK_EX);
+    if (is_at(descriptor, path)) return descriptor;
+    close(descriptor);
+  }
+}
+
+/// The same in every process and on every machine: FNV-1a of 64 bits.
+std::string part_name(const fs::path& target) {
+  const std::string name = target.filename().string();
+  uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3;
+  std::ostringstream text;
+  text << ".part-" << std::hex << hash << target.extension().string();
+  return text.str();
+}
+
+/// Waits for one of the signals, removes the part files, and ends the program as the signal does.
+void await_signal(const sigset_t& signals) {
+  int number = 0;
+  if (sigwait(&signals, &number) != 0) return;
+  registry().mutex.lock();  // for ever: no more part files are made
+  for (const std::string& path : registry().paths) unlink(path.c_str());
+  std::signal(number, SIG_DFL);
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  kill(getpid(), number);
+}
+
+}  // namespace
+
+PartFile::PartFile(const fs::path& target) : PartFile() {
+  if (!take(target)) {
+    throw std::runtime_error(target.string() + ": another process is writing it");
+  }
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ < 0) return;
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  if (registry().paths.erase(path_) > 0) unlink(path_.c_str());
+  close(descriptor_);
+}
+
+std::unique_ptr<PartFile> PartFile::claim(const fs::path& target) {
+  std::unique_ptr<PartFile> file(new PartFile);
+  if (!file->take(target)) file.reset();
+  return file;
+}
+
+bool PartFile::take(const fs::path& target) {
+  std::error_code none;
+  if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
+    throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
+  }
+  target_ = target.string();
+  path_ = (target.parent_path() / part_name(target)).string();
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  if (registry().paths.count(path_) > 0) return false;
+  descriptor_ = make_locked(path_, target);
+  if (descriptor_ < 0) return false;
+  registry().paths.insert(path_);
+  return true;
+}
+
+void PartFile::check_in_place() const {
+  struct stat named {};
+  if (lstat(path_.c_str(), &named) != 0) throw failure(target_, errno);
+  if (is_at(descriptor_, path_)) return;
+  throw std::runtime_error(target_ + ": another program has replaced " + path_);
+}
+
+void PartFile::write(const std::string& content) const {
+  for (size_t at = 0; at < content.size();) {
+    const ssize_t written =
+        pwrite(descriptor_, content.data() + at, content.size() - at, static_cast<off_t>(at));
+    if (written < 0 && errno != EINTR) throw failure(target_, errno);
+    if (written > 0) at += static_cast<size_t>(written);
+  }
+  std::string read(content.size() + 1, '\0');  // one more, to see whether something follows
+  size_t size = 0;
+  for (ssize_t got = 1; got > 0 && size < read.size(); size += static_cast<size_t>(got)) {
+    got = pread(descriptor_, read.data() + size, read.size() - size, static_cast<off_t>(size));
+    if (got < 0) throw failure(target_, errno);
+  }
+  if (size != content.size() || read.compare(0, size, content) != 0) {
+    throw std::runtime_error(target_ + ": what is read back is not what was written");
+  }
+}
+
+void PartFile::publish(Existing existing) {
+  // Some file systems notice only now that the disk is full.
+  if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  check_in_place();
+  const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
+  int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);
+  if (status != 0 && errno == EINVAL) {  // not every file system knows the flag
+    if (fs::exists(target_)) throw failure(target_, EEXIST);
+    status = std::rename(path_.c_str(), target_.c_str());
+  }
+  if (status != 0) throw failure(target_, errno);
+  registry().paths.erase(path_);
+}
+
+void remove_part_files_on_signals() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present {};
+    sigaction(number, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaddset(&signals, number);  // nohup ignores SIGHUP
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread(await_signal, signals).detach();
+}
+
+}  // namespace spidar

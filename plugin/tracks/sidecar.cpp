@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/sidecar.h"
+
+#include <cstdlib>
+#include <initializer_list>
+#include <optional>
+
+#include "plugin/tracks/beside_film.h"
+
+namespace spidar {
+namespace {
+
+/// So much may be missing at the end of a film that is known by its pictures.
+constexpr int64_t kMostMissing_ns = 500'000'000;
+
+constexpr std::initializer_list<const char*> kTrackEnds = {".haptic.flac", ".haptic.mka",
+                                                           ".haptic.wav"};
+
+std::string seconds(int64_t ns) {
+  gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
+  std::string result = text;
+  g_free(text);
+  return result;
+}
+
+}  // namespace
+
+const char* const kOtherPictures =
+    "it was recorded from other pictures, or from these before they were encoded anew";
+
+std::string film_of(GstPad* pad) {
+  std::string film;
+  GstQuery* query = gst_query_new_uri();
+  if (gst_pad_peer_query(pad, query)) {
+    gchar* uri = nullptr;
+    gst_query_parse_uri(query, &uri);
+    gchar* const path = uri ? g_filename_from_uri(uri, nullptr, nullptr) : nullptr;
+    if (path) film = path;
+    g_free(path);
+    g_free(uri);
+  }
+  gst_query_unref(query);
+  return film;
+}
+
+std::string find_sidecar(const std::string& film) {
+  return find_beside(film, kTrackEnds);
+}
+
+std::string why_not_played(const std::string& film, const std::string& track) {
+  const std::string other = find_before(film, kTrackEnds, track);
+  if (other.empty()) return {};
+  return "warning: track=auto and spidartrack play " + other + " in place of " + track +
+         "; remove it, or use track=" + track;
+}
+
+FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
+  const FilmFingerprint& fingerprint = notes.film;
+  FilmMatch match;
+  // Plus a millisecond, because many containers round durations to milliseconds.
+  int64_t tolerance_ns = film.frame_ns + static_cast<int64_t>(GST_MSECOND);
+  if (!fingerprint.empty()) {
+    const std::optional<int64_t> later_ns = find_pictures(fingerprint, film.packets);
+    if (!later_ns) {
+      match.problem = kOtherPictures;
+      return match;
+    }
+    match.later_ns = *later_ns;
+    tolerance_ns += kMostMissing_ns;
+  } else {
+    tolerance_ns += film.begin_ns;  // it may begin with the first picture
+  }
+  const int64_t end_ns = film.end_ns.value_or(film.duration_ns);
+  const int64_t missing_ns = end_ns - match.later_ns - track_ns;
+  // Sound may be longer than the pictures.
+  const bool is_short = film.end_ns && missing_ns > tolerance_ns;
+  if (end_ns != 0 && (is_short || -missing_ns > tolerance_ns)) {
+    match.problem = "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
+  }
+  return match;
+}
+
+std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
+  gint64 film_ns = 0;
+  if (!gst_pad_peer_query_duration(pad, GST_FORMAT_TIME, &film_ns) || film_ns <= 0) return {};
+  // Plus a millisecond, because many containers round durations to milliseconds.
+  if (std::llabs(film_ns - track_ns) <= frame_ns + GST_MSECOND) return {};
+  return "the track lasts " + seconds(track_ns) + ", the film " + seconds(film_ns);
+}
+
+}  // namespace spidar

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The haptic track beside a film.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/track_notes.h"
+
+namespace spidar {
+
+/// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
+std::string film_of(GstPad* pad);
+
+/// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside().
+std::string find_sidecar(const std::string& film);
+
+/// Empty, or a sentence about the track beside the film that find_sidecar() finds in place of
+/// `track`.
+std::string why_not_played(const std::string& film, const std::string& track);
+
+/// Why a file is not that of a film with other pictures.
+extern const char* const kOtherPictures;
+
+struct FilmMatch {
+  std::string problem;   ///< empty, or why the track is not that of the film
+  int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
+};
+
+/// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
+/// recognised by the pictures, which may come later in another container; any other by its length:
+/// it ends where the last picture does, but for one frame.
+FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
+
+/// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
+/// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one
+/// of its frames.
+std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
+
+}  // namespace spidar

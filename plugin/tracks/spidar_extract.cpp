@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/**
+ * SECTION:element-spidarextract
+ * @title: spidarextract
+ * @short_description: a haptic track from a video that spidarmotion has analysed
+ *
+ * The video passes from `sink` to `src` untouched. The pad `wrench` gives what `spidarmotion
+ * attach-meta=true` wants to be felt, before any safety step, as six channels of sound: force x, y,
+ * z and torque x, y, z, 1000 samples a second, F32. A sample of 1.0 is 10 N or 1 N m. Between two
+ * frames the samples follow the curve that the haptic loop feels.
+ *
+ * Samples lie in running time from 0 on, whatever segments the video comes in, and their segment
+ * gives their stream time. Where there are no frames they are zero. If the time stamps of the video
+ * jump forward by more than an hour, a warning is posted, there are no samples in between, and a
+ * single frame there is left out.
+ *
+ * Buffers are 40 ms long, and marked as gaps where there is no force. A sample is known when the
+ * frame after the next one is: `wrench` reports that latency. Either source pad may be left
+ * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue;
+ * otherwise the pipeline waits for ever.
+ *
+ * Played backwards, `wrench` has gap events in place of samples.
+ *
+ * ## Example launch line
+ * |[
+ * gst-launch-1.0 filesrc location=film.mp4 ! decodebin ! spidarmotion device=none attach-meta=true
+ * ! spidarextract name=x x.wrench ! matroskamux ! filesink location=film.haptic.mka
+ * ]| Records the haptic track of a film as fast as it can be decoded.
+ *
+ * Since: 0.1
+ */
+#include "plugin/tracks/spidar_extract.h"
+
+#include <gst-spidar/gstspidarmotionmeta.h>
+#include <gst/base/gstflowcombiner.h>
+
+#include "plugin/gobject/pads.h"
+#include "plugin/tracks/track_stream.h"
+
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT gst_spidar_extract_debug
+
+using spidar::FrameWrench;
+using spidar::TrackStream;
+using spidar::Wrench;
+
+struct _GstSpidarExtract {
+  GstElement parent;
+
+  GstPad* sink;
+  GstPad* src;
+  GstPad* wrench;
+  // Streaming thread.
+  TrackStream* track;
+  GstFlowCombiner* flows;
+  guint without_meta;  // how many frames in succession
+  gboolean warned;     // about them
+};
+
+static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
+    "sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
+static GstStaticPadTemplate track_src_template = GST_STATIC_PAD_TEMPLATE(
+    "src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw(ANY)"));
+static GstStaticPadTemplate wrench_template = GST_STATIC_PAD_TEMPLATE(
+    "wrench", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(SPIDAR_TRACK_CAPS));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarExtract, gst_spidar_extract, GST_TYPE_ELEMENT,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_extract_debug, "spidarextract", 0,
+                                                "haptic track of a video"))
+GST_ELEMENT_REGISTER_DEFINE(spidarextract, "spidarextract", GST_RANK_NONE, GST_TYPE_SPIDAR_EXTRACT)
+
+// --- streaming thread --------------------------------------------------------------------------
+
+/// `last` is the wrench of the previous frame.
+static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
+  FrameWrench frame;
+  frame.pts = GST_BUFFER_PTS(buffer);
+  frame.duration = GST_BUFFER_DURATION(buffer);
+  GstSpidarFrameMotion motion;
+  if (gst_buffer_get_spidar_motion(buffer, &motion)) {
+    frame.known = true;
+    frame.compared = motion.interval > 0;
+    frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
+                    {motion.torque_x, motion.torque_y, motion.torque_z}};
+    // A picture that has stood still for long is no longer felt, so its wrench differs.
+    frame.repeats =
+        gst_buffer_repeats_spidar_motion(buffer) && frame.wrench.stacked() == last.stacked();
+  }
+  return frame;
+}
+
+/// Combines the flow return of a pad with that of the others.
+static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn flow) {
+  return gst_flow_combiner_update_pad_flow(self->flows, pad, flow);
+}
+
+static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
+  // No warning for a frame without a picture, nor for a single one: when two frames have the same
+  // time, spidarmotion analyses only the first, and says so.
+  const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
+  self->without_meta = is_missing ? self->without_meta + 1 : 0;
+  if (self->without_meta == 2 && !self->warned) {
+    self->warned = TRUE;
+    GST_ELEMENT_WARNING(
+        self, STREAM, FORMAT,
+        ("Frames come without the data of spidarmotion: the haptic track is silent "
+         "where they do."),
+        ("Put 'spidarmotion attach-meta=true' in front of spidarextract, and nothing "
+         "that cuts or turns the picture between them."));
+  }
+  const GstFlowReturn track_flow = self->track->add(frame);
+  combined(self, self->wrench, track_flow);
+  return combined(self, self->src, gst_pad_push(self->src, buffer));
+}
+
+static gboolean gst_spidar_extract_sink_event(GstPad*, GstObject* parent, GstEvent* event) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+    case GST_EVENT_SEGMENT_DONE:
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    case GST_EVENT_FLUSH_STOP:
+      self->track->flush();
+      gst_flow_combiner_reset(self->flows);
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    case GST_EVENT_STREAM_START:
+      self->track->begin_stream(GST_ELEMENT(self), event);
+      break;
+    case GST_EVENT_SEGMENT:
+      combined(self, self->wrench, self->track->begin_segment(event));
+      break;
+    case GST_EVENT_GAP: {
+      GstClockTime time;
+      gst_event_parse_gap(event, &time, nullptr);
+      combined(self, self->wrench, self->track->add_gap(time));
+      break;
+    }
+    case GST_EVENT_EOS:
+      combined(self, self->wrench, self->track->finish());
+      gst_pad_push_event(self->wrench, gst_event_ref(event));
+      break;
+    default:
+      break;
+  }
+  return gst_pad_push_event(self->src, event) || GST_EVENT_TYPE(event) == GST_EVENT_EOS;
+}
+
+/// Caps and allocation are negotiated between the elements upstream and downstream.
+static gboolean gst_spidar_extract_sink_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  switch (GST_QUERY_TYPE(query)) {
+    case GST_QUERY_CAPS:
+    case GST_QUERY_ACCEPT_CAPS:
+    case GST_QUERY_ALLOCATION:
+      if (gst_pad_is_linked(self->src)) return gst_pad_peer_query(self->src, query);
+      break;
+    default:
+      break;
+  }
+  return gst_pad_query_default(pad, parent, query);
+}
+
+// --- from downstream ---------------------------------------------------------------------------
+
+static gboolean gst_spidar_extract_src_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  if (GST_QUERY_TYPE(query) == GST_QUERY_CAPS || GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
+    if (gst_pad_is_linked(self->sink)) return gst_pad_peer_query(self->sink, query);
+  }
+  return gst_pad_query_default(pad, parent, query);
+}
+
+static gboolean gst_spidar_extract_wrench_query(GstPad* pad, GstObject* parent, GstQuery* query) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
+  if (GST_QUERY_TYPE(query) != GST_QUERY_LATENCY) return gst_pad_query_default(pad, parent, query);
+  if (!gst_pad_peer_query(self->sink, query)) return FALSE;
+  gboolean live;
+  GstClockTime min, max;
+  gst_query_parse_latency(query, &live, &min, &max);
+  min += TrackStream::latency_ns();
+  if (GST_CLOCK_TIME_IS_VALID(max)) max += TrackStream::latency_ns();
+  gst_query_set_latency(query, live, min, max);
+  return TRUE;
+}
+
+/// The decoder must not drop frames because samples are late, nor renegotiate because of the caps
+/// of the samples.
+static gboolean gst_spidar_extract_wrench_event(GstPad* pad, GstObject* parent, GstEvent* event) {
+  if (GST_EVENT_TYPE(event) == GST_EVENT_QOS || GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
+    gst_event_unref(event);
+    return TRUE;
+  }
+  return gst_pad_event_default(pad, parent, event);
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
+                                                            GstStateChange transition) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
+  if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
+    self->warned = FALSE;
+    self->without_meta = 0;
+  }
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
+    self->track->reset();
+    gst_flow_combiner_reset(self->flows);
+  }
+  return result;
+}
+
+static void gst_spidar_extract_finalize(GObject* object) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(object);
+  delete self->track;
+  gst_flow_combiner_unref(self->flows);
+  G_OBJECT_CLASS(gst_spidar_extract_parent_class)->finalize(object);
+}
+
+static void gst_spidar_extract_init(GstSpidarExtract* self) {
+  self->sink = spidar::add_pad(GST_ELEMENT(self), &track_sink_template);
+  gst_pad_set_chain_function(self->sink, gst_spidar_extract_chain);
+  gst_pad_set_event_function(self->sink, gst_spidar_extract_sink_event);
+  gst_pad_set_query_function(self->sink, gst_spidar_extract_sink_query);
+  self->src = spidar::add_pad(GST_ELEMENT(self), &track_src_template);
+  gst_pad_set_query_function(self->src, gst_spidar_extract_src_query);
+  self->wrench = spidar::add_pad(GST_ELEMENT(self), &wrench_template);
+  gst_pad_set_query_function(self->wrench, gst_spidar_extract_wrench_query);
+  gst_pad_set_event_function(self->wrench, gst_spidar_extract_wrench_event);
+  self->track = new TrackStream(self->wrench);
+  self->flows = gst_flow_combiner_new();
+  gst_flow_combiner_add_pad(self->flows, self->src);
+  gst_flow_combiner_add_pad(self->flows, self->wrench);
+}
+
+static void gst_spidar_extract_class_init(GstSpidarExtractClass* klass) {
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+  G_OBJECT_CLASS(klass)->finalize = gst_spidar_extract_finalize;
+  element_class->change_state = gst_spidar_extract_change_state;
+  gst_element_class_set_static_metadata(
+      element_class, "SPIDAR track extractor", "Extracter/Video/Metadata",
+      "Outputs the force and torque of spidarmotion as a track of six channels",
+      "The gst-spidar authors");
+  for (GstStaticPadTemplate* pad_template :
+       {&track_sink_template, &track_src_template, &wrench_template}) {
+    gst_element_class_add_static_pad_template(element_class, pad_template);
+  }
+}

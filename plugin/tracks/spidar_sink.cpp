@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/**
+ * SECTION:element-spidarsink
+ * @title: spidarsink
+ * @short_description: feel a haptic track with a SPIDAR haptic device
+ *
+ * Plays a haptic track, as spidarextract and spidartrack make them: sound of six channels, force x,
+ * y, z and torque x, y, z, of which 1.0 is 10 N or 1 N m. F32, S16, S24 or S32, from 200 to 8000
+ * samples a second; channel-mask 0 or 0x3f.
+ *
+ * A sample is felt when a video sink shows the frame of the same running time: at base time +
+ * running time + pipeline latency + #GstBaseSink:ts-offset. Between two samples the force is
+ * interpolated. The safety chain is that of spidarmotion. Before PLAYING, in PAUSED, and from 50 ms
+ * after the last sample there is no force. The sink provides no clock.
+ *
+ * At another rate than 1 a track keeps its amplitude; its time changes.
+ *
+ * ## Example launch line
+ * |[
+ * gst-launch-1.0 filesrc location=film.haptic.flac ! flacparse ! flacdec ! spidarsink
+ * ]| Feels a recorded track.
+ *
+ * Since: 0.1
+ */
+#include "plugin/tracks/spidar_sink.h"
+
+#include <string>
+
+#include "plugin/device/device_warnings.h"
+#include "plugin/device/haptic_output.h"
+#include "plugin/gobject/exceptions.h"
+#include "plugin/properties/property_table.h"
+#include "plugin/timing/instant_rate.h"
+#include "plugin/tracks/block_schedule.h"
+#include "plugin/tracks/sink_properties.h"
+#include "plugin/tracks/track_input.h"
+#include "plugin/tracks/track_warnings.h"
+
+GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT gst_spidar_sink_debug
+
+using spidar::BlockSchedule;
+using spidar::HapticOutput;
+using spidar::SinkProperties;
+
+/// Samples are handed to the haptic loop this long before they are felt.
+static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
+
+struct _GstSpidarSink {
+  GstBaseSink parent;
+
+  GMutex setting;              // settings reach the output in the order in which they were made
+  SinkProperties* properties;  // object lock
+  spidar::TrackFaults faults;  // object lock; of the stream so far
+  guint64 samples;             // object lock
+  BlockSchedule* schedule;
+  HapticOutput* output;
+  // Streaming thread.
+  spidar::TrackInput* input;
+  spidar::DeviceWarnings* warnings;
+  spidar::TrackWarnings* track_warnings;
+};
+
+static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
+    "sink", GST_PAD_SINK, GST_PAD_ALWAYS,
+    GST_STATIC_CAPS(
+        "audio/x-raw, format = (string) { F32LE, F32BE, F64LE, F64BE, S16LE, S16BE, S24LE, S24BE, "
+        "S24_32LE, S24_32BE, S32LE, S32BE }, layout = (string) { interleaved, non-interleaved }, "
+        "rate = (int) [ 200, 8000 ], "
+        "channels = (int) 6, channel-mask = (bitmask) { 0x0, 0x3f }"));
+
+G_DEFINE_TYPE_WITH_CODE(GstSpidarSink, gst_spidar_sink, GST_TYPE_BASE_SINK,
+                        GST_DEBUG_CATEGORY_INIT(gst_spidar_sink_debug, "spidarsink", 0,
+                                                "haptic track to a SPIDAR"))
+GST_ELEMENT_REGISTER_DEFINE(spidarsink, "spidarsink", GST_RANK_NONE, GST_TYPE_SPIDAR_SINK)
+
+HapticOutput& gst_spidar_sink_output(GstSpidarSink* self) {
+  return *self->output;
+}
+
+// --- streaming thread --------------------------------------------------------------------------
+
+static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  const std::string problem = self->input->set_caps(caps);
+  if (problem.empty()) return TRUE;
+  GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", problem.c_str()),
+                    ("caps %" GST_PTR_FORMAT, static_cast<void*>(caps)));
+  return FALSE;
+}
+
+/// A stream of other sound, whose source does not ask first what is accepted, gets as far as
+/// set_caps(): the sentence there says more than a failed negotiation.
+static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS)
+    return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->query(sink, query);
+  gst_query_set_accept_caps_result(query, TRUE);
+  return TRUE;
+}
+
+/// Samples are handed to the loop ahead of their time, so render() waits instead of the base class.
+static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* start,
+                                      GstClockTime* end) {
+  *start = *end = GST_CLOCK_TIME_NONE;
+}
+
+/// Waits until `ahead_ns` before this running time. `object` is used for preroll when the sink is
+/// paused meanwhile.
+static GstFlowReturn wait_until(GstSpidarSink* self, GstMiniObject* object, gint64 running_ns,
+                                gint64 ahead_ns) {
+  GstBaseSink* sink = GST_BASE_SINK(self);
+  GstClockReturn waited;
+  do {
+    const GstFlowReturn flow = gst_base_sink_do_preroll(sink, object);
+    if (flow != GST_FLOW_OK) return flow;
+    const gint64 due_ns = running_ns + static_cast<gint64>(gst_base_sink_get_latency(sink)) +
+                          gst_base_sink_get_ts_offset(sink) - ahead_ns;
+    waited = gst_base_sink_wait_clock(sink, static_cast<GstClockTime>(MAX(due_ns, 0)), nullptr);
+    if (sink->flushing) return GST_FLOW_FLUSHING;
+  } while (waited == GST_CLOCK_UNSCHEDULED);
+  return GST_FLOW_OK;
+}
+
+static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  GST_OBJECT_LOCK(self);
+  const double gain = self->properties->gain;
+  const spidar::OnDeviceError policy = self->properties->on_device_error;
+  GST_OBJECT_UNLOCK(self);
+  const guint64 samples_before = self->input->samples();
+  const GstFlowReturn flow = self->input->read(
+      buffer, sink->segment, gain, [self, buffer](const spidar::TrackBlock& block) {
+        const GstFlowReturn waited =
+            wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
+        if (waited == GST_FLOW_OK) self->schedule->add(block);
+        return waited;
+      });
+  const bool has_time =
+      flow != GST_FLOW_OK || self->input->samples() > samples_before ||
+      (sink->segment.format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(buffer));
+  GST_OBJECT_LOCK(self);
+  self->faults = self->input->faults();
+  self->samples = self->input->samples();
+  GST_OBJECT_UNLOCK(self);
+  self->track_warnings->check(self->input->faults(), has_time);
+  if (!self->warnings->check(self->output->session(), policy)) return GST_FLOW_ERROR;
+  return flow;
+}
+
+static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  const GstFlowReturn flow = gst_base_sink_do_preroll(sink, GST_MINI_OBJECT_CAST(event));
+  const bool is_end = GST_EVENT_TYPE(event) == GST_EVENT_EOS;
+  const GstClockTime end = self->input->end();
+  if (flow != GST_FLOW_OK || !is_end || !spidar::is_time(end)) return flow;
+  return wait_until(self, GST_MINI_OBJECT_CAST(event), static_cast<gint64>(end), 0);
+}
+
+static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_START:
+      self->schedule->forget();
+      break;
+    case GST_EVENT_FLUSH_STOP: {
+      gboolean reset_time;
+      gst_event_parse_flush_stop(event, &reset_time);
+      // Flushes again, because a buffer may have been in progress when the flush began.
+      self->schedule->forget();
+      self->input->restart();
+      if (reset_time) self->output->expect_base_time();
+      break;
+    }
+    case GST_EVENT_STREAM_START:
+      self->track_warnings->start();
+      break;
+    case GST_EVENT_SEGMENT:
+      self->input->restart();
+      break;
+    default:
+      break;
+  }
+  return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->event(sink, event);
+}
+
+static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  self->warnings->start();
+  delete self->input;
+  self->input = new spidar::TrackInput;
+  self->schedule->forget();
+  return TRUE;
+}
+
+static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  self->schedule->forget();
+  // Reported here, because messages during the change to NULL are discarded.
+  if (self->output->session()) self->output->session()->drain_trace();
+  self->warnings->check_haptic_trace(self->output->session());
+  return TRUE;
+}
+
+// --- states ------------------------------------------------------------------------------------
+
+static gboolean gst_spidar_sink_send_event(GstElement* element, GstEvent* event) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(element);
+  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
+    GstClockTime latency;
+    gst_event_parse_latency(event, &latency);
+    self->output->set_latency(latency);
+  }
+  return GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->send_event(element, event);
+}
+
+static bool open_device(GstSpidarSink* self) {
+  GST_OBJECT_LOCK(self);
+  const SinkProperties properties = *self->properties;
+  GST_OBJECT_UNLOCK(self);
+  return spidar::guarded(GST_ELEMENT(self), "opening the device", [self, &properties] {
+    const std::string trace_problem =
+        self->output->open(properties.device, properties.profile, properties.haptic_trace);
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("The force continues without it."));
+    }
+    if (!self->output->session()) return;
+    self->warnings->check_opened(*self->output->session());
+    self->schedule->connect(&self->output->session()->loop());
+  });
+}
+
+static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
+                                                         GstStateChange transition) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(element);
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self)) {
+    return GST_STATE_CHANGE_FAILURE;
+  }
+  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) self->output->set_playing(false);
+  const GstStateChangeReturn result =
+      GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->change_state(element, transition);
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE) {
+    self->output->set_playing(true);
+  }
+  const bool closes =
+      transition == GST_STATE_CHANGE_READY_TO_NULL ||
+      (transition == GST_STATE_CHANGE_NULL_TO_READY && result == GST_STATE_CHANGE_FAILURE);
+  if (closes) {
+    self->schedule->connect(nullptr);
+    self->output->close();
+  }
+  return result;
+}
+
+// --- object ------------------------------------------------------------------------------------
+
+static constexpr spidar::PropertyEffect<GstSpidarSink> kEffects[] = {
+    {"mute", [](auto* self, auto* v) { self->schedule->set_muted(g_value_get_boolean(v)); }},
+    {"max-force", [](auto* self, auto* v) { self->output->set_max_force(g_value_get_double(v)); }},
+};
+
+static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
+                                         GParamSpec* spec) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  g_mutex_lock(&self->setting);
+  GST_OBJECT_LOCK(self);
+  const bool known = spidar::sink_properties().set(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  spidar::follow_property(kEffects, self, spec, value);
+  g_mutex_unlock(&self->setting);
+}
+
+static GstStructure* stats(GstSpidarSink* self) {
+  GST_OBJECT_LOCK(self);
+  const spidar::TrackFaults faults = self->faults;
+  const guint64 samples = self->samples;
+  GST_OBJECT_UNLOCK(self);
+  GstStructure* structure = gst_structure_new(
+      "spidar-sink-stats", "samples", G_TYPE_UINT64, samples, "samples-not-finite", G_TYPE_UINT64,
+      faults.not_finite, "samples-beyond-full-scale", G_TYPE_UINT64, faults.beyond_full,
+      "samples-refused", G_TYPE_UINT64, self->schedule->refused(), nullptr);
+  self->output->describe(structure);
+  return structure;
+}
+
+static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* value,
+                                         GParamSpec* spec) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {
+    g_value_take_boxed(value, stats(self));
+    return;
+  }
+  GST_OBJECT_LOCK(self);
+  const bool known = spidar::sink_properties().get(*self->properties, id, value);
+  GST_OBJECT_UNLOCK(self);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void follow_ts_offset(GObject* object, GParamSpec*, gpointer) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  self->output->set_offset(gst_base_sink_get_ts_offset(GST_BASE_SINK(self)));
+}
+
+static void gst_spidar_sink_finalize(GObject* object) {
+  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  delete self->track_warnings;
+  delete self->warnings;
+  delete self->input;
+  delete self->output;
+  delete self->schedule;
+  delete self->properties;
+  g_mutex_clear(&self->setting);
+  G_OBJECT_CLASS(gst_spidar_sink_parent_class)->finalize(object);
+}
+
+static void gst_spidar_sink_init(GstSpidarSink* self) {
+  g_mutex_init(&self->setting);
+  self->properties = new SinkProperties;
+  self->schedule = new BlockSchedule;
+  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
+  self->input = new spidar::TrackInput;
+  self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
+  self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
+  g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
+}
+
+static void gst_spidar_sink_class_init(GstSpidarSinkClass* klass) {
+  GObjectClass* object_class = G_OBJECT_CLASS(klass);
+  GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
+  GstBaseSinkClass* sink_class = GST_BASE_SINK_CLASS(klass);
+  object_class->set_property = gst_spidar_sink_set_property;
+  object_class->get_property = gst_spidar_sink_get_property;
+  object_class->finalize = gst_spidar_sink_finalize;
+  spidar::sink_properties().install(object_class);
+  gst_element_class_set_static_metadata(element_class, "SPIDAR sink", "Sink/Hardware",
+                                        "Feel a haptic track with a SPIDAR haptic device",
+                                        "The gst-spidar authors");
+  gst_element_class_add_static_pad_template(element_class, &haptic_sink_template);
+  element_class->change_state = gst_spidar_sink_change_state;
+  element_class->send_event = gst_spidar_sink_send_event;
+  sink_class->set_caps = gst_spidar_sink_set_caps;
+  sink_class->query = gst_spidar_sink_query;
+  sink_class->get_times = gst_spidar_sink_get_times;
+  sink_class->render = gst_spidar_sink_render;
+  sink_class->wait_event = gst_spidar_sink_wait_event;
+  sink_class->event = gst_spidar_sink_event;
+  sink_class->start = gst_spidar_sink_start;
+  sink_class->stop = gst_spidar_sink_stop;
+}

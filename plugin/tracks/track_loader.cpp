@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/track_loader.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/sidecar.h"
+#include "spidar/realtime/thread_setup.h"
+
+namespace spidar {
+namespace {
+
+/// How long stop() waits for a thread that has been told to stop; it looks every 20 ms.
+constexpr std::chrono::milliseconds kLongestStop{500};
+
+/// Nothing when the film cannot be read.
+std::optional<FilmMatch> compare(const TrackFile& track, const std::string& film,
+                                 const std::atomic<bool>* stopped) {
+  try {
+    return match_film(read_film(film, stopped), track.duration_ns, track.notes);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+void move(TrackFile& track, int64_t later_ns) {
+  for (TrackBlock& block : track.blocks) block.begin_ns += later_ns;
+}
+
+bool has_track(const std::string& film, const std::atomic<bool>* stopped) {
+  try {
+    return read_film(film, stopped).has_track;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+/// A sentence without its full stop, for the end of another one.
+std::string clause(std::string sentence) {
+  if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
+  return sentence;
+}
+
+LoadedTrack load_track(const std::string& wanted, const std::string& film,
+                       const std::atomic<bool>* stopped) {
+  LoadedTrack loaded;
+  loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
+  if (loaded.path.empty() && !film.empty() && has_track(film, stopped)) loaded.path = film;
+  if (loaded.path.empty()) return loaded;
+  try {
+    loaded.track = read_track_file(loaded.path, stopped);
+    loaded.problem = loaded.track->missing();
+    // A track inside the film is the film's own.
+    std::optional<FilmMatch> match;
+    if (loaded.path == film) {
+      match.emplace();
+    } else if (!film.empty()) {
+      match = compare(*loaded.track, film, stopped);
+    }
+    loaded.is_compared = match.has_value();
+    if (match) {
+      if (loaded.problem.empty()) loaded.problem = match->problem;
+      move(*loaded.track, match->later_ns);
+    }
+  } catch (const std::runtime_error& error) {
+    loaded.problem = clause(error.what());
+  }
+  return loaded;
+}
+
+}  // namespace
+
+struct TrackLoader::Reading {
+  std::atomic<bool> stopped{false};
+  std::mutex mutex;  // of what follows
+  std::condition_variable changed;
+  bool interrupted = false, done = false;
+  LoadedTrack loaded;
+};
+
+std::shared_ptr<TrackLoader::Reading> TrackLoader::reading() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return reading_;
+}
+
+void TrackLoader::begin(const std::string& wanted, const std::string& film) {
+  stop();
+  if (wanted.empty()) return;
+  const auto reading = std::make_shared<Reading>();
+  auto read = [reading, wanted, film] {
+    LoadedTrack loaded;
+    try {
+      loaded = load_track(wanted, film, &reading->stopped);
+    } catch (const std::exception& error) {
+      loaded.path = wanted;
+      loaded.problem = clause(error.what());
+    }
+    const std::lock_guard<std::mutex> lock(reading->mutex);
+    reading->loaded = std::move(loaded);
+    reading->done = true;
+    reading->changed.notify_all();
+  };
+  try {
+    thread_ = start_thread("spidar-track", std::move(read));
+  } catch (const std::system_error& error) {
+    reading->loaded.path = wanted == "auto" ? film : wanted;
+    reading->loaded.problem = std::string("the system gives no thread to read it: ") + error.what();
+    reading->done = true;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reading_ = reading;
+}
+
+void TrackLoader::await(std::chrono::milliseconds limit) {
+  const auto reading = this->reading();
+  if (!reading) return;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  reading->changed.wait_for(lock, limit, [&] { return reading->done || reading->interrupted; });
+}
+
+std::optional<LoadedTrack> TrackLoader::take() {
+  const auto reading = this->reading();
+  if (!reading) return std::nullopt;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  if (!reading->done) return std::nullopt;
+  std::optional<LoadedTrack> loaded = std::move(reading->loaded);
+  lock.unlock();
+  stop();
+  return loaded;
+}
+
+void TrackLoader::interrupt() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  const std::lock_guard<std::mutex> lock(reading->mutex);
+  reading->interrupted = true;
+  reading->changed.notify_all();
+}
+
+void TrackLoader::resume() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  const std::lock_guard<std::mutex> lock(reading->mutex);
+  reading->interrupted = false;
+}
+
+void TrackLoader::stop() {
+  const auto reading = this->reading();
+  if (!reading) return;
+  reading->stopped = true;
+  std::unique_lock<std::mutex> lock(reading->mutex);
+  const bool done = reading->changed.wait_for(lock, kLongestStop, [&] { return reading->done; });
+  lock.unlock();
+  if (done) {
+    if (thread_.joinable()) thread_.join();
+  } else {
+    thread_.detach();
+  }
+  const std::lock_guard<std::mutex> pointer_lock(mutex_);
+  reading_ = nullptr;
+}
+
+}  // namespace spidar
