@@ -20,7 +20,6 @@ EXCUSED = {
     "plugin/feel/video_notice.cpp": SHORT_FILMS,
     "plugin/filter/frame/analytics_meta.cpp": ONE_OF_TWO,
     "plugin/filter/frame/analytics_meta_none.cpp": ONE_OF_TWO,
-    "plugin/window/window_none.cpp": ONE_OF_TWO,
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,
 }
 
