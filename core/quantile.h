@@ -12,6 +12,8 @@ namespace spidar {
 
 /// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
 constexpr double kRayleighMedian = 1.1774;
+/// Median of the absolute value of a normal variable of standard deviation 1.
+constexpr double kNormalMedian = 0.6745;
 
 /// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range must not be
 /// empty; its order is changed.

@@ -289,9 +289,9 @@ TEST(ObjectIdentity, OneThatStandsStillForAMomentIsTheSame) {
 }
 
 /// How often a disc that goes to the right counts as an object, in a field of which the outer parts
-/// move with the background and the rest by `depth_px` more: up left of the disc's middle, down
+/// move with the background and the rest by `depth_px` more: back left of the disc's middle, on
 /// right of it. 60 % of the picture is such a layer.
-int times_found(double depth_px) {
+int times_found(const Vector2d& depth_px) {
   const Vector2d camera_px(0.5, 0);
   const Vector2d disc_px(3, 0);
   const Texture wall(1, 8);
@@ -300,8 +300,9 @@ int times_found(double depth_px) {
     const Vector2d centre = Vector2d(200, 120) + n * (camera_px + disc_px);
     if (in_disc(at, centre, 36)) return cover.at(at.x() - centre.x(), at.y() - centre.y());
     const bool is_layer = at.x() > 0.2 * test::kFieldWidth && at.x() < 0.8 * test::kFieldWidth;
-    const double up_px = !is_layer ? 0 : at.x() < 0.5 * test::kFieldWidth ? -depth_px : depth_px;
-    return wall.at(at.x() - n * camera_px.x(), at.y() - n * up_px);
+    const double depth = !is_layer ? 0 : at.x() < 0.5 * test::kFieldWidth ? -1 : 1;
+    const Vector2d from = at - n * (camera_px + depth * depth_px);
+    return wall.at(from.x(), from.y());
   };
   int found = 0;
   for (const auto& objects : test::objects_in(scene, 6, test::background_moved_by(camera_px))) {
@@ -314,9 +315,9 @@ int times_found(double depth_px) {
 }
 
 TEST(ObjectTracker, WhatMovesNoMoreThanTheLayersAroundItIsNoObject) {
-  EXPECT_GE(times_found(0), 4) << "of 5 pairs, it is found in the second";
-  // 3 px is less than five standard deviations of 2.5 / 1.18 px.
-  EXPECT_EQ(times_found(2.5), 0);
+  EXPECT_GE(times_found({0, 0}), 4) << "of 5 pairs, it is found in the second";
+  // 3 px is less than five standard deviations of 2.5 / 0.67 px.
+  EXPECT_EQ(times_found({2.5, 0}), 0);
 }
 
 }  // namespace

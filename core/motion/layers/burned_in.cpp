@@ -23,6 +23,10 @@ constexpr double kExactShareElsewhere = (1 + kMost) / 2;
 /// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
 /// picture, count as not moved.
 constexpr float kInPlace_px = kMostOff_px / 2;
+/// A block that has moved, but in which so many pixels stay in place, shows graphics and the film
+/// behind them together, and its motion is neither: a tenth of the block, more than a line across
+/// it. Chosen on captions over pans.
+constexpr int kMixedPixels = 24;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
 /// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,
 /// for at most five further pairs.
@@ -77,7 +81,8 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   if (is_same(staying, moved_px < kMostOff_px ? kMost : kExactShareElsewhere)) {
     sign = Sign::kStays;
   } else if (own.residual > unexplained_grey2_) {
-    const bool in_place = moved_px < kInPlace_px;
+    const bool is_mixed = block.is_slow && staying.near >= kMixedPixels;
+    const bool in_place = moved_px < kInPlace_px || is_mixed;
     sign = block.is_expected            ? Sign::kUnexplained
            : stays_beside(field, block) ? Sign::kStays
            : in_place                   ? Sign::kInPlace

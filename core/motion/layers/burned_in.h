@@ -19,7 +19,8 @@ namespace spidar {
 /// noise. The pixels of an object that the camera follows change, however exactly it is followed.
 /// In semi-transparent graphics the film shows through: the edges stay in place, but neither rest
 /// nor any motion explains the pixels. An object that begins to deform looks the same, so this sign
-/// does not count where an object is known.
+/// does not count where an object is known. Nor do they move as a whole: of a block that seems to
+/// move a little against the background, some pixels stay where they are.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.
@@ -30,6 +31,7 @@ class BurnedIn {
     size_t index = 0;
     float background_x_px = 0;  ///< motion of the background at this position
     float background_y_px = 0;
+    bool is_slow = false;      ///< it hardly differs from the background
     bool is_expected = false;  ///< it belongs to a known object
   };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "core/tracking/shares.h"
 
 namespace spidar {
@@ -22,6 +24,11 @@ constexpr float kLeastVariance_grey2 = 0.5f;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
 /// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
+/// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
+/// distribution: much of a scene is further from its model than the middle of it tells. On real
+/// films and rendered scenes, 1 … 3 list the same objects, and 1 feels half as much again of what
+/// stands still.
+constexpr float kDepths = 2;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
 /// limbs.
@@ -43,20 +50,21 @@ constexpr float kLastingBesideOne = 0.5f;
 constexpr float kLastingAlone = 0.8f;
 
 /// Squared Mahalanobis distance eᵀ C⁻¹ e of a block's motion e from the background's. Its
-/// covariance is C = v S⁻¹ + σ² 1: the error of the block's own motion, whose structure tensor is
-/// S, and the noise σ = `noise_px` of what follows the background. S C = v 1 + σ² S has an inverse
-/// for edges, too, whose S has none.
-float distance2(const RelativeBlock& relative, const MotionBlock& block, float noise_px) {
+/// covariance is C = v S⁻¹ + N: the error of the block's own motion, whose structure tensor is S,
+/// and `noise_px2`, that of what follows the background. C S = v 1 + N S has an inverse for edges,
+/// too, whose S has none.
+float distance2(const RelativeBlock& relative, const MotionBlock& block,
+                const Eigen::Matrix2f& noise_px2) {
   const float v = block.residual / kIndependentPixels + kLeastVariance_grey2;
-  const float noise_px2 = noise_px * noise_px;
-  const float xx = v + noise_px2 * block.xx;
-  const float xy = noise_px2 * block.xy;
-  const float yy = v + noise_px2 * block.yy;
-  const float x = relative.x_px;
-  const float y = relative.y_px;
-  const float structure_x = block.xx * x + block.xy * y;
-  const float structure_y = block.xy * x + block.yy * y;
-  return ((yy * x - xy * y) * structure_x + (xx * y - xy * x) * structure_y) / (xx * yy - xy * xy);
+  Eigen::Matrix2f structure;
+  structure << block.xx, block.xy, block.xy, block.yy;
+  const Eigen::Vector2f e(relative.x_px, relative.y_px);
+  const Eigen::Matrix2f both = v * Eigen::Matrix2f::Identity() + noise_px2 * structure;
+  return (structure * e).dot(both.inverse() * e);
+}
+
+bool moves_slowly(const RelativeBlock& relative) {
+  return std::hypot(relative.x_px, relative.y_px) <= kDifferentPixels_px;
 }
 
 /// Share of a block that was in the previous picture if it moved with the background.
@@ -135,26 +143,44 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
   picture_noise_ = *third;
 }
 
-MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t index, double noise_px,
-                                            bool expected) const {
+/// From the blocks whose motion is known in every direction.
+void MovingBlocks::measure_parallax(const BlockField& field) {
+  of_scene_px_.reserve(relative_.size());
+  of_scene_px_.clear();
+  for (size_t i = 0; i < relative_.size(); ++i) {
+    const RelativeBlock& block = relative_[i];
+    if (block.was_outside || burned_in_.holds(i)) continue;
+    if (field.blocks()[i].weakest_texture() < MotionBlock::kRegularization) continue;
+    of_scene_px_.emplace_back(block.x_px, block.y_px);
+  }
+  parallax_.measure(of_scene_px_);
+}
+
+MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t index,
+                                            const Eigen::Matrix2f& noise_px2, bool expected) const {
   const MotionBlock& block = field.blocks()[index];
   const RelativeBlock& relative = relative_[index];
   if (!relative.has_texture) return Judgement::kUnknown;
   const float least2 = expected ? kSlower * kSlower * kLeastDistance2 : kLeastDistance2;
-  if (distance2(relative, block, static_cast<float>(noise_px)) < least2) return Judgement::kStill;
+  if (distance2(relative, block, noise_px2) < least2) return Judgement::kStill;
   if (relative.was_outside) return Judgement::kStill;
-  // Of a slow block the pixels say nothing. Where nothing else speaks for it, that is not enough:
-  // a moving camera moves many blocks of a scene with depth a little.
-  const bool is_slow = std::hypot(relative.x_px, relative.y_px) <= kDifferentPixels_px;
-  if (is_slow && (expected || camera_is_still_)) return Judgement::kMoves;
+  // Of a slow block the pixels say nothing, and a moving camera moves many blocks of a scene with
+  // depth a little.
+  const bool is_slow = moves_slowly(relative);
+  if (is_slow) {
+    if (expected || camera_is_still_) return Judgement::kMoves;
+    const Eigen::Matrix2f depths_px2 = kDepths * parallax_.covariance_px2();
+    if (distance2(relative, block, depths_px2) < kLeastDistance2) return Judgement::kStill;
+  }
   const int with_background = field.difference_if_moved(
       static_cast<int>(index), relative.background_x_px, relative.background_y_px);
   if (with_background < 0) return Judgement::kUnknown;
   const float worse = static_cast<float>(with_background - block.difference);
   const float least_worse =
-      expected ? 0
-               : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
-                     kWorseShare * static_cast<float>(block.difference);
+      expected || is_slow
+          ? 0
+          : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
+                kWorseShare * static_cast<float>(block.difference);
   return worse < least_worse ? Judgement::kStill : Judgement::kMoves;
 }
 
@@ -164,7 +190,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   for (size_t i = 0; i < judgements_.size(); ++i) {
     if (judgements_[i] != Judgement::kMoves) continue;
     burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,
-                            i < expected.size() && expected[i] != 0});
+                            moves_slowly(relative_[i]), i < expected.size() && expected[i] != 0});
   }
   burned_in_.end(field.grid());
   for (size_t i = 0; i < judgements_.size(); ++i) {
@@ -249,10 +275,13 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
                                                      const std::vector<uint8_t>& expected) {
   compare(field, background);
   camera_is_still_ = background.model.kind == ModelKind::kStill;
+  if (!camera_is_still_) measure_parallax(field);
+  const auto noise_px = static_cast<float>(background.sigma_px);
+  const Eigen::Matrix2f noise_px2 = noise_px * noise_px * Eigen::Matrix2f::Identity();
   judgements_.resize(relative_.size());
   for (size_t i = 0; i < judgements_.size(); ++i) {
     const bool is_expected = i < expected.size() && expected[i] != 0;
-    judgements_[i] = judge(field, i, background.sigma_px, is_expected);
+    judgements_[i] = judge(field, i, noise_px2, is_expected);
   }
   leave_out_burned_in(field, expected);
   remember_judgements(field);

@@ -9,6 +9,7 @@
 #include "core/field/block_field.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/layers/burned_in.h"
+#include "core/motion/layers/parallax.h"
 
 namespace spidar {
 
@@ -36,12 +37,12 @@ struct RelativeBlock {
 };
 
 /// Compares each block with the background. A block moves by itself when its motion is further from
-/// the background's than its own error and the background's noise explain, and the background's
-/// motion would explain its pixels clearly worse. Pixels are not asked about a slow block where the
-/// camera rests or an object is known: they do not tell motions of less than a pixel apart. While
-/// the motion of the background is unknown, no block is known to move by itself. A single block
-/// that stands out is an error unless it lasts. Textureless blocks move as most of their neighbours
-/// do.
+/// the background's than its own error and the background's noise explain. The background's motion
+/// must also explain the pixels of a fast block clearly worse. They do not tell motions of less
+/// than a pixel apart: a slow block must stand out from the parallax of the scene instead, unless
+/// the camera rests or an object is known there. While the motion of the background is unknown, no
+/// block is known to move by itself. A single block that stands out is an error unless it lasts.
+/// Textureless blocks move as most of their neighbours do.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -69,7 +70,9 @@ class MovingBlocks {
   enum class Judgement : uint8_t { kStill, kMoves, kUnknown, kBurnedIn };
 
   void compare(const BlockField& field, const Background& background);
-  Judgement judge(const BlockField& field, size_t index, double noise_px, bool expected) const;
+  void measure_parallax(const BlockField& field);
+  Judgement judge(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
+                  bool expected) const;
   void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
   void ask_neighbours(const BlockGrid& grid);
   void remember_judgements(const BlockField& field);
@@ -82,6 +85,8 @@ class MovingBlocks {
   std::vector<StoodOut> stood_out_;
   std::vector<StoodOut> stood_out_before_;
   std::vector<float> residuals_;
+  std::vector<Eigen::Vector2f> of_scene_px_;  ///< motion of the blocks of the scene
+  Parallax parallax_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;
   float picture_noise_ = 0;  ///< mean squared difference of the best explained blocks, grey²

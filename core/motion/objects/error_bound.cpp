@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion/objects/moving_object.h"
 #include "core/quantile.h"
 
 namespace spidar {

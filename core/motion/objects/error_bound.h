@@ -3,12 +3,14 @@
 /// How far the measured motion of an object may be from the true one.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/motion/layers/regions.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/motion/objects/object_motion.h"
 
 namespace spidar {
@@ -28,6 +30,13 @@ class ErrorBound {
   /// of frames, px of the field's picture.
   double px(uint32_t key, const Region& region, const ObjectMotion& found,
             const ObjectEvidence& evidence);
+
+  /// The same of what the object's own blocks show alone, without the errors that they share with
+  /// each other and with the background. Those last for many frames; this one differs from frame to
+  /// frame.
+  double own_px(uint32_t key, const ObjectMotion& found, const ObjectEvidence& evidence) {
+    return kErrorSigmas * std::sqrt(own_variance_px2(key, found, evidence));
+  }
 
  private:
   double own_variance_px2(uint32_t key, const ObjectMotion& found, const ObjectEvidence& evidence);

@@ -11,8 +11,6 @@ namespace {
 /// Windows are used instead of the blocks if there are this many that move as the blocks do: two
 /// more than determine a similarity.
 constexpr size_t kLeastWindows = 4;
-/// The object is rigid when the mean ρ of its windows is below this; the ρ of an outlier is 4.
-constexpr double kRigid = 1;
 
 }  // namespace
 
@@ -80,9 +78,7 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);
-    const auto n = static_cast<double>(collected_.points.size());
-    found.tracks = static_cast<int>(n);
-    found.is_rigid = robust_cost(found.model, collected_) < kRigid * n;
+    found.tracks = static_cast<int>(collected_.points.size());
     found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
   }
   return found;

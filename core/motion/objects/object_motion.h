@@ -32,7 +32,6 @@ struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
   int tracks = 0;               ///< number of windows or blocks that were used
-  bool is_rigid = false;        ///< all its windows agree with one motion
 };
 
 /// Blocks give the motion of an object; the windows on it, where there are enough, give it to a

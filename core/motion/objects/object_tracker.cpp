@@ -7,7 +7,6 @@
 
 #include "core/motion/layers/margins.h"
 #include "core/motion/layers/salience.h"
-#include "core/quantile.h"
 #include "core/tracking/shares.h"
 
 namespace spidar {
@@ -167,7 +166,6 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
 ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const ObjectMotion found = meter_.measure(life.key, life.region, evidence_in(frame));
-  life.is_rigid = found.is_rigid;
   life.region.relative_px = found.relative_px;
   object.tracks = found.tracks;
   object.model = found.model.kind;
@@ -176,27 +174,31 @@ ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   return found;
 }
 
-/// How far blocks outside an object are from the background, as a standard deviation: in a scene
-/// with depth, half of the picture may move against any single model of the background. A region
-/// that does not stand out from that is no object.
-double ObjectTracker::noise_around(uint32_t key) {
-  squares_px2_.clear();
+/// How far blocks outside an object are from the background in the direction in which it moves, as
+/// a standard deviation: in a scene with depth, half of the picture may move against any single
+/// model of the background. A region that does not stand out from that is no object.
+double ObjectTracker::noise_around(const Life& life) {
+  around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == key || !block.has_texture || block.was_outside || is_burned_in(i)) continue;
-    squares_px2_.push_back(block.x_px * block.x_px + block.y_px * block.y_px);
+    if (owners_[i] == life.key || !block.has_texture || block.was_outside || is_burned_in(i)) {
+      continue;
+    }
+    around_px_.emplace_back(block.x_px, block.y_px);
   }
-  if (squares_px2_.empty()) return 0;
-  const float middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
-  return std::sqrt(static_cast<double>(middle_px2)) / kRayleighMedian;
+  parallax_.measure(around_px_);
+  return parallax_.sigma_px(life.region.relative_px);
 }
 
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const ObjectMotion found = measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
-  const bool goes_on = life.frames_seen > 0 && velocity_px_s.dot(life.velocity_px_s) > 0;
-  // Of an object that is not rigid, the velocity is smoothed, which delays it by a frame.
-  const double newest = life.is_rigid || !goes_on ? 1 : kNewestWeight;
+  if (life.frames_seen == 0) life.velocity_px_s = velocity_px_s;
+  // What an error explains is smoothed away, which delays the rest by a frame or two.
+  const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
+  const double news_px = (velocity_px_s - life.velocity_px_s).norm() * frame.interval_s;
+  const double both_px2 = news_px * news_px + error_px * error_px;
+  const double newest = both_px2 > 0 ? news_px * news_px / both_px2 : 1;
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   expect(life, frame);
@@ -212,7 +214,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double share = life.region.blocks / static_cast<double>(owners_.size());
   const bool too_large = share > kMost && kMost * share > background_->coverage;
   CameraMotion camera = camera_;
-  if (camera.moves) camera.noise_px = noise_around(life.key);
+  if (camera.moves) camera.noise_px = noise_around(life);
   life.evidence.add_contrast(stands_out(life.region, camera));
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
   // What was clearly no layer of the scene for so long may become more like one.
@@ -220,8 +222,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
   life.is_layer = object.prominence == 0;
   if (!life.is_born() || life.is_layer) return;
-  const double error_px = bound_.px(life.key, life.region, found, evidence_in(frame));
-  object.error_px_s = frame.scale * (error_px / frame.interval_s + late_px_s);
+  const double most_px = bound_.px(life.key, life.region, found, evidence_in(frame));
+  object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
 ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
@@ -315,7 +317,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   if (owners_.size() != n) owners_.assign(n, 0);
   owners_before_.resize(n);
   expected_.resize(n);
-  squares_px2_.reserve(n);
+  around_px_.reserve(n);
   for (size_t i = 0; i < n; ++i) {
     owners_before_[i] = owners_[origin_of(field, i)];
     const uint32_t owner = owners_before_[i];

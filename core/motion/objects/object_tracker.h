@@ -14,6 +14,7 @@
 #include "core/motion/camera/motion_models.h"
 #include "core/motion/layers/layer_evidence.h"
 #include "core/motion/layers/moving_blocks.h"
+#include "core/motion/layers/parallax.h"
 #include "core/motion/layers/regions.h"
 #include "core/motion/layers/salience.h"
 #include "core/motion/objects/error_bound.h"
@@ -89,7 +90,6 @@ class ObjectTracker {
     double unseen_s = 0;
     double resting_s = 0;
     bool claimed = false;   ///< by a region of this frame
-    bool is_rigid = false;  ///< its windows agree with one motion
     bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
     bool is_born() const;
@@ -121,7 +121,7 @@ class ObjectTracker {
   }
   ObjectMotion measure(Life& life, const FieldInFrame& frame);
   void place(Life& life, const FieldInFrame& frame) const;
-  double noise_around(uint32_t key);
+  double noise_around(const Life& life);
 
   MovingBlocks moving_;
   RegionFinder finder_;
@@ -132,10 +132,11 @@ class ObjectTracker {
   const Background* background_ = nullptr;
   std::vector<uint8_t> expected_;
   std::vector<uint32_t> owners_;
-  std::vector<uint32_t> owners_before_;  ///< moved to their places in this frame
-  std::vector<uint32_t> region_keys_;    ///< object of each region
-  std::vector<size_t> order_;            ///< regions, largest first
-  std::vector<float> squares_px2_;       ///< of the motion of blocks around an object
+  std::vector<uint32_t> owners_before_;     ///< moved to their places in this frame
+  std::vector<uint32_t> region_keys_;       ///< object of each region
+  std::vector<size_t> order_;               ///< regions, largest first
+  std::vector<Eigen::Vector2f> around_px_;  ///< motion of blocks around an object
+  Parallax parallax_;
   std::vector<Life> lives_;
   std::vector<MovingObject> objects_;
   uint32_t next_key_ = 1;
