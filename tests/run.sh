@@ -167,9 +167,8 @@ case ${1-} in
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
     echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
-        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; short-films, players" \
-        "whose film is over or paused before one that is built with the sanitizer gives force; api_installed," \
-        "api_python, pipelines_player_mouse, whose programs are built without it. All have run above."
+        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; tests in Python whose" \
+        "players and pipelines are built without it, also api_installed and api_python. All have run above."
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     # By the fast way, stacks end in GLib; twelve calls instead of thirty are enough for leaks.supp.
     export ASAN_OPTIONS=fast_unwind_on_malloc=0:malloc_context_size=12
@@ -178,7 +177,7 @@ case ${1-} in
     if build build-ci-address; then
         build_ahead build-ci-thread "$threaded"
         rm -rf build-ci-address/executed && mkdir build-ci-address/executed
-        run_tests build-ci-address 4 --no-suite short-films
+        run_tests build-ci-address 4
         # The tests there execute something of each source.
         begin_check "sources executed" tests/check_executed.py build-ci-address
     fi

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What is given to spidar-feel, what it says, and where it lets the player search for the plugin. The environment names
+the program (SPIDAR_FEEL), and another version of the plugin (OLD_PLUGIN)."""
+
+import os
+import shutil
+import unittest
+
+import track_case
+
+FEEL = os.environ["SPIDAR_FEEL"]
+
+
+class Command(track_case.TrackCase):
+    def feel(self, line, status=0, env=None):
+        return self.run_in_folder(f"{env or ''} {FEEL} {line}", status)
+
+    def test_wrong_usage_is_named(self):
+        for arguments, status, said in (
+                ("", 2, "no PROGRAM given"), ("max-force=2", 2, "spidar-feel max-force=2 -- PROGRAM"),
+                ("max-force=2 true", 2, "spidar-feel max-force=2 -- PROGRAM"), ("max-force=2 --", 2, "no PROGRAM given"),
+                ("--dance", 2, "--dance is no option"),
+                ("max-farce=2 -- true", 2, 'spidarmotion has no property "max-farce"'),
+                ("stats=2 -- true", 2, 'spidarmotion has no property "stats" that can be set'),
+                ("max-force=much -- true", 2,
+                 'max-force: "much" is not a number from 0 to 20. Largest force on the grip, in newtons'),
+                ("max-force=1e9 -- true", 2, 'max-force: "1e9" is not a number from 0 to 20'),
+                ("max-force=nan -- true", 2, 'max-force: "nan" is not a number from 0 to 20'),
+                ("alpha=0 -- true", 2, 'alpha: "0" is not a number from 1e-06 to 10'),
+                ("ts-offset=late -- true", 2, '"late" is not a whole number from -10000000000 to 10000000000'),
+                ("ts-offset=late -- true", 2, "in nanoseconds"),
+                ("controller=wild -- true", 2, 'controller: "wild" is not one of linear, nonlinear, adaptive\n'),
+                ("mute=perhaps -- true", 2, 'mute: "perhaps" is neither true nor false'),
+                ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/: Permission denied"),
+                ("controller=linear max-force=2 -- true", 0, ""), ("--help", 0, "usage: spidar-feel"),
+                ("--version", 0, "spidar-feel ")):
+            self.assertIn(said, self.feel(arguments, status))
+        self.assertEqual(self.feel("device=none -- printenv SPIDAR_FEEL GST_TRACERS"), "device=none\n\nspidarfeel\n")
+        self.assertIn("stats;spidarfeel\n", self.feel("printenv GST_TRACERS", env="GST_TRACERS=stats"))
+
+    def test_a_device_that_cannot_exist_or_be_driven_is_named_before_the_player_starts(self):
+        for properties, said in (
+                ("device=zzz", 'unknown device "zzz"; known are: sim, '), ("device=", 'unknown device ""'),
+                ("device=sim:zzz", 'unknown simulated board "zzz"; known are: sim:sh4, '),
+                ("device=uart:,/dev/ttyUSB0 profile=spidar-g6x4", "a path is empty"),
+                ("profile=nope", 'unknown profile "nope"; known are spidar-g, '),
+                ("profile=nope.toml", "nope.toml: cannot be read: No such file or directory"),
+                ("device=none profile=nope", 'unknown profile "nope"'),
+                ("device=usb", "usb: the motors get no force: no board is plugged in whose profile is"),
+                # The board puts out positive volts only.
+                ("device=usb profile=spidar-gcc", 'usb: profile "spidar-gcc" wants negative volts')):
+            text = self.feel(properties + " -- echo plays", 2)
+            self.assertTrue(text.startswith("spidar-feel: "), text)
+            self.assertIn(said, text)
+            self.assertNotIn("plays", text)
+        # Whether these are plugged in is seen when the video plays.
+        for properties in ("device=usb:7 profile=spidar-g6c", "device=mouse:7",
+                           "device=uart:/dev/no-such-line profile=spidar-g6x4", "device=ff:/dev/no-such-joystick",
+                           "device=none", "device=usb profile=spidar-g6x3-v2-l", "device=zzz device=sim",
+                           "'device=\"sim\"'"):
+            self.assertEqual(self.feel(properties + " -- echo plays 2>/dev/null"), "plays\n", properties)
+
+    def test_without_a_device_it_says_that_nothing_real_moves(self):
+        line = "a simulated one takes the force"
+        self.assertIn(line, self.feel("true"))
+        self.assertNotIn(line, self.feel("device=sim -- true"))
+
+    def paths(self, environment):
+        """GST_PLUGIN_PATH and GST_PLUGIN_PATH_1_0 as the player gets them. Between them and spidar-feel is another one,
+        which would put the folder before them once more if it did not find the plugin as a player does."""
+        return self.run_in_folder(
+            f"unset GST_PLUGIN_PATH GST_PLUGIN_PATH_1_0; GST_REGISTRY=registry GST_PLUGIN_SYSTEM_PATH_1_0= {environment} "
+            f"{FEEL} device=none -- {FEEL} device=none -- sh -c 'echo $GST_PLUGIN_PATH, ${{GST_PLUGIN_PATH_1_0-unset}}'")
+
+    def test_the_plugin_is_first_in_the_path_that_gstreamer_uses(self):
+        """Another version of it, that comes earlier, is not used."""
+        plugin = os.path.dirname(FEEL)
+        old = self.path("old")
+        old.mkdir()
+        shutil.copy(os.environ["OLD_PLUGIN"], old)
+        for environment, paths in (("", f"{plugin}, unset"), ("GST_PLUGIN_PATH=/other", f"{plugin}:/other, unset"),
+                                   ("GST_PLUGIN_PATH_1_0=/other", f", {plugin}:/other"),
+                                   ("GST_PLUGIN_PATH_1_0=", f", {plugin}"),
+                                   ("GST_PLUGIN_PATH=/some GST_PLUGIN_PATH_1_0=/other", f"/some, {plugin}:/other"),
+                                   # GStreamer finds it without further help.
+                                   (f"GST_PLUGIN_PATH={plugin}", f"{plugin}, unset"),
+                                   (f"GST_PLUGIN_PATH={old}", f"{plugin}:{old}, unset"),
+                                   (f"GST_PLUGIN_PATH_1_0={old}", f", {plugin}:{old}")):
+            self.assertEqual(self.paths(environment), paths + "\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

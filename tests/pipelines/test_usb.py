@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""Pipelines with boards and joysticks on an emulated bus, which are pulled out and put back while a film plays."""
+
+import errno
+import signal
+import subprocess
+import unittest
+
+import bus_case
+import gst_case
+from bus_case import PROFILE, Evdev, Usb, bus, wait_for
+from gst_case import Gst
+
+BALL = "videotestsrc pattern=ball motion=sweep ! video/x-raw,width=160,height=120 ! spidarmotion name=m device="
+SHORT = "videotestsrc num-buffers=3 ! video/x-raw,width=160,height=120 ! "
+UNPLUGGED = "The haptic device does not answer: unplugged. The video continues without it."
+
+
+class Pipelines(bus_case.BusCase):
+    def start(self, line):
+        pipeline = Gst.parse_launch(line)
+        self.addCleanup(pipeline.set_state, Gst.State.NULL)
+        self.assertNotEqual(pipeline.set_state(Gst.State.PLAYING), Gst.StateChangeReturn.FAILURE)
+        return pipeline
+
+    def next_warning(self, pipeline):
+        """The text of the next warning; "eos" at the end."""
+        message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, gst_case.ENDS | Gst.MessageType.WARNING)
+        self.assertNotEqual(message.type, Gst.MessageType.ERROR)
+        return "eos" if message.type == Gst.MessageType.EOS else message.parse_warning()[0].message
+
+    @staticmethod
+    def wait_for_frames(pipeline, frames):
+        """From now on."""
+        pipeline.bus.set_flushing(True)
+        pipeline.bus.set_flushing(False)
+        while frames:
+            message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.ELEMENT)
+            frames -= message.get_structure().get_name() == "spidar-motion"
+
+
+class Boards(Pipelines):
+    LINE = f"{BALL}usb {PROFILE} ! fakesink sync=true"
+
+    def play(self, kind=Usb.SH4):
+        bus.bus_plug(0, kind)
+        pipeline = self.start(self.LINE)
+        wait_for(lambda: not bus.bus_at_rest(0))
+        return pipeline
+
+    def test_one_that_is_pulled_out_and_put_back(self):
+        for kind in Usb:
+            with self.subTest(kind):
+                pipeline = self.play(kind)
+                bus.bus_unplug(0, errno.EPROTO)
+                self.assertEqual(self.next_warning(pipeline), UNPLUGGED)
+                self.wait_for_frames(pipeline, 5)
+                bus.bus_plug(0, kind)
+                wait_for(lambda: not bus.bus_at_rest(0))
+                self.wait_for_frames(pipeline, 5)
+                pipeline.set_state(Gst.State.NULL)
+                self.assertTrue(bus.bus_at_rest(0))
+
+    def test_the_second_to_ask_for_one_gets_an_error_and_the_first_plays_on(self):
+        first = self.play()
+        second = Gst.parse_launch(self.LINE)
+        self.assertEqual(second.set_state(Gst.State.PLAYING), Gst.StateChangeReturn.FAILURE)
+        self.assertIn("another element", second.bus.pop_filtered(Gst.MessageType.ERROR).parse_error()[0].message)
+        second.set_state(Gst.State.NULL)
+        self.wait_for_frames(first, 5)
+        self.assertFalse(bus.bus_at_rest(0))
+        first.set_state(Gst.State.NULL)
+        self.assertTrue(bus.bus_at_rest(0))
+
+    def test_without_a_profile_one_gets_no_force_and_the_video_goes_on(self):
+        """A wrong profile pulls with other forces than wanted, and where it should let go."""
+        bus.bus_plug(0, Usb.SIMPLE)
+        for sink in ("spidarmotion device=usb ! fakesink", "fakesink audiotestsrc num-buffers=3 ! audio/x-raw,rate=1000,"
+                     "channels=6,channel-mask=(bitmask)0 ! spidarsink device=usb"):
+            pipeline = self.start(SHORT + sink)
+            self.assertRegex(self.next_warning(pipeline),
+                             "usb:1-1: the motors get no force: no profile is named.* spidar-g6c, ")
+            self.assertEqual(self.next_warning(pipeline), "eos")
+            pipeline.set_state(Gst.State.NULL)
+        self.assertEqual(bus.bus_updates(0), 0)
+
+    def test_one_whose_lag_nobody_measured_is_touched_gently(self):
+        """A simulated one has exactly the lag of its profile."""
+        bus.bus_plug(0, Usb.SH4)
+        for device, said, stiffness in (("usb", "touch-stiffness is 500 N/m, but the lag of this device", 200),
+                                        ("sim:sh4", "eos", 500)):
+            pipeline = self.start(f"{SHORT} spidarmotion name=m {PROFILE} touch=luma device={device} ! fakesink")
+            self.assertTrue(self.next_warning(pipeline).startswith(said))
+            self.assertEqual(pipeline.get_by_name("m").get_property("stats").get_value("touch-stiffness"), stiffness)
+            pipeline.set_state(Gst.State.NULL)
+
+    def test_gst_launch_rests_the_motors_however_it_ends(self):
+        for kind in Usb:
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+                bus.bus_plug(0, kind)
+                self.end_while_felt(["gst-launch-1.0", "-q", *self.LINE.split()], number)
+
+
+class Joysticks(Pipelines):
+    def play(self):
+        bus.evdev_plug(0, Evdev.STICK)
+        pipeline = self.start(BALL + "ff ! fakesink sync=true")
+        wait_for(lambda: not bus.evdev_at_rest(0))
+        return pipeline
+
+    def test_no_frame_waits_for_a_driver_that_hangs(self):
+        """No limit of time: if the streaming thread waited for the device, no frame would pass until the driver returns,
+        which is after 30 frames have passed. Lateness is measured in the suite `kernel`, whose time does not depend on
+        the machine."""
+        pipeline = self.play()
+        bus.evdev_hang(0, True)
+        wait_for(lambda: bus.evdev_hanging(0) == 1)
+        uploads = bus.evdev_uploads(0)
+        self.wait_for_frames(pipeline, 30)
+        # Nor does the application wait when it pauses the film.
+        pipeline.set_state(Gst.State.PAUSED)
+        self.assertEqual(pipeline.get_state(Gst.CLOCK_TIME_NONE)[0], Gst.StateChangeReturn.SUCCESS)
+        self.assertEqual((bus.evdev_hanging(0), bus.evdev_uploads(0)), (1, uploads), "all that time, one upload")
+        bus.evdev_hang(0, False)
+        wait_for(lambda: bus.evdev_at_rest(0))
+
+    def test_one_that_is_pulled_out_and_put_back(self):
+        pipeline = self.play()
+        bus.evdev_unplug(0)
+        self.assertEqual(self.next_warning(pipeline), UNPLUGGED)
+        self.wait_for_frames(pipeline, 5)
+        bus.evdev_plug(1, Evdev.STICK)
+        wait_for(lambda: not bus.evdev_at_rest(1))
+        self.wait_for_frames(pipeline, 5)
+        pipeline.set_state(Gst.State.PAUSED)
+        wait_for(lambda: bus.evdev_at_rest(1))
+
+    def test_what_is_not_felt_is_said_once(self):
+        strength = "Emulated {} at 20 % of its strength, force feedback on {}"
+        for kind, said in ((Evdev.PAD, "Emulated Pad, rumble only: the strength of the force is felt, not its direction."),
+                           (Evdev.WHEEL, strength.format("Racing Wheel", "one axis: forces up and down are not felt.")),
+                           (Evdev.STICK, strength.format("Stick", "two axes."))):
+            for name in ("spidarmotion", "spidarsink"):
+                bus.evdev_plug(0, kind)
+                element = Gst.ElementFactory.make(name)
+                element.set_property("device", "ff")
+                element.set_bus(Gst.Bus.new())
+                self.assertEqual(element.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
+                element.set_state(Gst.State.NULL)
+                infos = []
+                while message := element.get_bus().pop_filtered(Gst.MessageType.INFO):
+                    infos.append(message.parse_info()[0].message)
+                self.assertEqual(infos, [said], name)
+                bus.bus_clear()
+
+    def test_that_the_player_stood_still_is_said(self):
+        bus.evdev_plug(0, Evdev.STICK)
+        with open(self.path("log"), "wb") as log:
+            running = subprocess.Popen(["gst-launch-1.0", *(BALL + "ff ! fakesink sync=true").split()], stdout=log,
+                                       stderr=subprocess.STDOUT)
+        said = ""
+        # Again if the device was back before a frame was due, which a busy machine can delay.
+        while "WARNING" not in said:
+            wait_for(lambda: not bus.evdev_at_rest(0) or running.poll() is not None)
+            self.assertIsNone(running.poll())
+            running.send_signal(signal.SIGSTOP)
+            wait_for(lambda: not bus.evdev_plays(0))  # stopped by the guardian
+            running.send_signal(signal.SIGCONT)
+            wait_for(lambda: bus.evdev_plays(0) or running.poll() is not None)
+            said = self.path("log").read_text()
+        running.send_signal(signal.SIGINT)
+        running.wait()
+        self.assertIn("The guardian has set the haptic device to rest, because the player stood still. The video continues "
+                      "without it.", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
