@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "core/choice/chosen.h"
-#include "core/choice/picture_box.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/force/motion_bounds.h"
 #include "core/force/motion_rendering.h"
+#include "core/motion/image_motion.h"
 
 namespace spidar {
 namespace {

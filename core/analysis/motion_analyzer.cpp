@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "core/analysis/frame_renderer.h"
-#include "core/field/reduced_frame.h"
-#include "core/force/motion_bounds.h"
 #include "core/motion/cadence.h"
+#include "core/motion/image_motion.h"
 #include "core/motion/motion_estimator.h"
-#include "core/tracking/opencv_tracker.h"
+#include "core/picture/reduced_frame.h"
+#include "core/tracking/tracker.h"
 
 namespace spidar {
 

@@ -8,7 +8,7 @@
 
 #include "core/analysis/analyzer_settings.h"
 #include "core/analysis/frame.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/tracking/luma_row.h"
-#include "core/tracking/serial_opencv.h"
+#include "core/picture/luma_row.h"
+#include "core/picture/serial_opencv.h"
 
 namespace spidar {
 

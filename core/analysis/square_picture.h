@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/analysis/frame.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/choice/choice_frame.h"
+#include "core/choice/chosen.h"
 
 namespace spidar {
 

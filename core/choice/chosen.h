@@ -5,14 +5,28 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/choice/feel_rules.h"
+#include "core/motion/camera/background.h"
 #include "core/motion/objects/moving_object.h"
 #include "core/picture_turn.h"
 
 namespace spidar {
+
+/// A box that somebody else found in a picture: a detector or a tracker. Corners go from (0, 0),
+/// the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
+struct PictureBox {
+  std::string name;             ///< of what is in it, "face"
+  uint64_t track = 0;           ///< the same in all frames of one thing; 0: not known
+  Eigen::Vector2d place{0, 0};  ///< the corner that is nearer to (0, 0)
+  Eigen::Vector2d far_corner{1, 1};
+};
+
+using PictureBoxes = std::vector<PictureBox>;
 
 /// Where a frame is in its film. Places of rules and clicks are those of the picture as it is
 /// shown.
@@ -51,6 +65,22 @@ struct Chosen {
 
   /// Nothing of this: what `motion` says is felt.
   bool is_free() const { return !rule && !is_kept; }
+};
+
+/// What a choice needs of a frame.
+struct ChoiceFrame {
+  const std::vector<MovingObject>& objects;
+  const Background* background;  ///< null when it is not known
+  int width, height;             ///< px
+  double interval_s;             ///< since the frame before; 0 when there is none
+  bool is_cut;                   ///< nothing in it was in the frame before
+  FilmPlace film;
+  const PictureBoxes* boxes = nullptr;  ///< that came with it; null: none did
+
+  /// A place of the picture as it is shown, from the middle of the frame.
+  Eigen::Vector2d px(const Eigen::Vector2d& place) const {
+    return film.in_frame_px(place, width, height);
+  }
 };
 
 }  // namespace spidar

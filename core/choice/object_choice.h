@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "core/choice/boxed_object.h"
-#include "core/choice/choice_frame.h"
 #include "core/choice/chosen.h"
 #include "core/choice/feel_rules.h"
 #include "core/choice/followed_object.h"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/field/light_change.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
@@ -28,6 +27,12 @@ int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
   }
   return difference;
 }
+
+/// A block is lost if what it differs from its best match is more than this share of what it
+/// differs from its own mean: the match shows something else.
+constexpr double kFoundElsewhere = 0.5;
+/// Share of the textured blocks that are lost at a cut.
+constexpr double kLostAtCut = 0.8;
 
 bool is_finite_motion(float x_px, float y_px) {
   constexpr float kMost_px = 4096;
@@ -113,16 +118,16 @@ bool BlockField::is_cut() const {
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
       // Even if all that are left were lost.
-      if (!(lost + left > kNearlyAll * (with_texture + left))) return false;
+      if (!(lost + left > kLostAtCut * (with_texture + left))) return false;
       --left;
       const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
       if (within < kDoubtful_grey * kBlockArea_px) continue;
       ++with_texture;
       const int found = matches_[static_cast<size_t>(row * grid_.columns + column)].difference;
-      lost += found > kMost * within;
+      lost += found > kFoundElsewhere * within;
     }
   }
-  return lost > kNearlyAll * with_texture;
+  return lost > kLostAtCut * with_texture;
 }
 
 /// Searches a picture of a quarter of the resolution, in which each block covers four by four of

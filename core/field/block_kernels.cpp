@@ -2,8 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
-#include "core/difference_sum.h"
-#include "core/vectors.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "core/field/block_kernels.h"
-#include "core/tracking/luma_row.h"
-#include "core/tracking/padded_image.h"
-#include "core/vectors.h"
+#include "core/picture/luma_row.h"
+#include "core/picture/padded_image.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 namespace {

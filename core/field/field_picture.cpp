@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "core/field/block_kernels.h"
-#include "core/tracking/tracker.h"
-#include "core/vectors.h"
+#include "core/picture/image_view.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 namespace {

@@ -3,7 +3,7 @@
 /// The reduced picture in which the motion of blocks is measured.
 #pragma once
 
-#include "core/tracking/padded_image.h"
+#include "core/picture/padded_image.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tracking/luma_row.h"
+#include "core/picture/luma_row.h"
 
 namespace spidar {
 namespace {

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "core/field/block_field.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar {
 

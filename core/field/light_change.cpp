@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "core/tracking/shares.h"
-
 namespace spidar {
 namespace {
 

@@ -3,7 +3,7 @@
 /// Changes of the brightness of a whole picture, which are not motion.
 #pragma once
 
-#include "core/tracking/padded_image.h"
+#include "core/picture/padded_image.h"
 
 namespace spidar {
 

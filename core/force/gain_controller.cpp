@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/force/adaptive_controller.h"
-#include "core/force/require_not_negative.h"
+#include "core/require.h"
 
 namespace spidar {
 

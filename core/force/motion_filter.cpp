@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/force/motion_rendering.h"
-#include "core/force/require_not_negative.h"
+#include "core/require.h"
 
 namespace spidar {
 namespace {

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/force/motion_rendering.h"
 
-#include "core/force/require_not_negative.h"
+#include "core/require.h"
 
 namespace spidar {
 void validate(const AxisGains& gains) {

@@ -3,6 +3,7 @@
 /// A soft transition from the force of one object to that of another.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/wrench.h"
@@ -34,5 +35,20 @@ class WrenchFade {
   Wrench old_;
   Wrench felt_;  ///< in the last frame
 };
+
+inline bool WrenchFade::turn_to(uint64_t object) {
+  const bool begins = object != object_ && object_ != 0;
+  object_ = object;
+  if (!begins) return false;
+  old_ = felt_;
+  old_share_ = 1;
+  return true;
+}
+
+inline Wrench WrenchFade::fade(const Wrench& wrench, double interval_s) {
+  old_share_ = std::max(0.0, old_share_ - interval_s / kFade_s);
+  felt_ = old_share_ > 0 ? interpolate(wrench, old_, old_share_) : wrench;
+  return felt_;
+}
 
 }  // namespace spidar

@@ -6,14 +6,15 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
 
 /// Intervals that differ by less than this share count as equal: rounding and jitter of a clock. So
 /// do speeds.
-constexpr double kSameInterval = 1 - kNearlyAll;
+constexpr double kSameInterval = 0.2;
+/// When so many intervals are equal, the others are accidents and not part of a rhythm.
+constexpr double kRegularShare = 0.8;
 /// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kEnough = 2 * 2;
@@ -135,8 +136,8 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
     }
   }
   if (!repeats) return step;
-  // When nearly all intervals are equal, the others are accidents and not part of a rhythm.
-  if (count_ >= kEnough && static_cast<double>(alike) >= kNearlyAll * static_cast<double>(count_)) {
+  if (count_ >= kEnough &&
+      static_cast<double>(alike) >= kRegularShare * static_cast<double>(count_)) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/tracking/picture_kind.h"
+#include "core/picture/repeated_picture.h"
 
 namespace spidar {
 

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/image_motion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +25,29 @@ ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns) {
   motion.tracked = static_cast<int>(tracks.size());
   motion.velocity_px_s = sum_px / static_cast<double>(tracks.size()) / interval_s;
   return motion;
+}
+
+namespace {
+
+double bounded(double value, double bound) {
+  return std::isfinite(value) ? std::clamp(value, -bound, bound) : 0;
+}
+
+}  // namespace
+
+ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s) {
+  const double frames_1_s = 1 / interval_s;
+  ImageMotion possible = motion;
+  const double speed_px_s = motion.velocity_px_s.stableNorm();
+  const double fastest_px_s = frame_width * frames_1_s;
+  if (!std::isfinite(speed_px_s)) {
+    possible.velocity_px_s.setZero();
+  } else if (speed_px_s > fastest_px_s) {
+    possible.velocity_px_s *= fastest_px_s / speed_px_s;
+  }
+  possible.growth_1_s = bounded(motion.growth_1_s, frames_1_s);
+  possible.roll_rad_s = bounded(motion.roll_rad_s, M_PI * frames_1_s);
+  return possible;
 }
 
 }  // namespace spidar

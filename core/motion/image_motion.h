@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motion of the picture, and the paper's way to compute it from tracks.
+/// The motion of the picture, the paper's way to compute it from tracks, and how fast it can be.
 #pragma once
 
 #include <cstdint>
@@ -28,5 +28,14 @@ struct ImageMotion {
 /// is the difference of the frames' running times and must be positive. Without tracks the velocity
 /// is 0 and `tracked` is 0.
 ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
+
+/// Two frames count as at least so far apart: half a tick of the haptic loop. Timestamps that
+/// differ by a rounding error are no time to divide a displacement by.
+constexpr int64_t kLeastInterval_ns = 500'000;
+
+/// `motion` over `interval_s` > 0, at most what can be seen of any: a displacement of the frame's
+/// width, lengths twice or half as large, half a turn. Directions are kept. What is not finite is
+/// no motion.
+ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
 
 }  // namespace spidar

@@ -10,7 +10,7 @@
 #include "core/motion/camera/background.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/objects/moving_object.h"
-#include "core/tracking/picture_kind.h"
+#include "core/picture/repeated_picture.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {

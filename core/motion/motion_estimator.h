@@ -8,11 +8,11 @@
 
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
-#include "core/field/reduced_frame.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/measured_frame.h"
 #include "core/motion/objects/dominant_object.h"
 #include "core/motion/objects/object_tracker.h"
+#include "core/picture/reduced_frame.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/touch/require.h"
+#include "core/require.h"
 
 namespace spidar {
 namespace {

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "core/touch/energy_budget.h"
-#include "core/touch/moving_relief.h"
 #include "core/touch/proxy.h"
 
 namespace spidar {

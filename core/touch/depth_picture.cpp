@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "core/touch/require.h"
+#include "core/require.h"
 
 namespace spidar {
 namespace {

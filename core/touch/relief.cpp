@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/touch/require.h"
-#include "core/tracking/luma_row.h"
+#include "core/picture/luma_row.h"
+#include "core/require.h"
 
 namespace spidar {
 namespace {

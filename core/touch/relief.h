@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 #include "core/touch/cell_average.h"
 #include "core/touch/height_field.h"
 

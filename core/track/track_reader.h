@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/force/wrench_timeline.h"
-#include "core/track/track_block.h"
+#include "core/track/track_format.h"
 
 namespace spidar {
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Points of a picture that are found again in the next, and the settings of finding them.
+/// The tracker of the paper: Shi–Tomasi points and pyramidal Lucas–Kanade.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "core/image_view.h"
-#include "core/tracking/picture_kind.h"
+#include "core/picture/image_view.h"
+#include "core/picture/repeated_picture.h"
 
 namespace spidar {
-
-/// Height of the reference frame. Lengths in settings are pixels of a frame with 480 lines, so that
-/// a setting has the same effect at 360p and at 2160p.
-constexpr double kReferenceHeight_px = 480.0;
 
 /// Of OpenCvTracker (Shi–Tomasi).
 struct TrackerSettings {
@@ -29,13 +26,6 @@ struct TrackerSettings {
 
 /// Throws std::invalid_argument when a value is out of the range given in TrackerSettings.
 void validate(const TrackerSettings& settings);
-
-/// Minimum width and height that a tracker accepts, px.
-constexpr int kMinSide_px = 16;
-
-/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, a
-/// stride below its width, or a sample format that LumaSample does not support.
-void require_usable(const ImageView& frame);
 
 /// Position in the image frame I, pixels of the frame given to track(); x right, y down, the centre
 /// of the first pixel is (0, 0).
@@ -56,6 +46,34 @@ struct TrackedFrame {
   int features = 0;           ///< points to search in the next frame
   /// With kSame the next frame will be compared with the same picture as this one. Never kWaiting.
   PictureKind picture = PictureKind::kFirst;
+};
+
+/// Follows points in a picture reduced to about 480 px, and builds one pyramid per frame, which is
+/// reused for the next frame. Drops points that leave the picture, are not found, fail the
+/// forward–backward check, or look different. Selects new points when few are left and every few
+/// frames, so that objects that enter are found.
+class OpenCvTracker {
+ public:
+  /// Throws as validate() does.
+  explicit OpenCvTracker(const TrackerSettings& settings = {});
+  ~OpenCvTracker();
+
+  /// Compares `frame` with the previous one. A frame of another size restarts the tracks, as does a
+  /// cut (a frame in which hardly any point is found again). Of a frame that repeats the picture,
+  /// tracks are at rest. With `may_wait`, one that is equal within the noise of coding counts as
+  /// kSame, too, and tracks stay those of the frame before. The result is valid until the next
+  /// call. Throws as require_usable() does.
+  const TrackedFrame& track(const ImageView& frame, bool may_wait = false);
+
+  /// Discards the previous frame, so that the next one starts anew without motion.
+  void restart();
+
+  /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
+  void configure(const TrackerSettings& settings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace spidar

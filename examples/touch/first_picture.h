@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 /// Grey levels of a picture.
 struct GreyPicture {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/force/motion_bounds.h"
+#include "core/motion/image_motion.h"
 #include "plugin/timing/instant_rate.h"
 
 namespace spidar {

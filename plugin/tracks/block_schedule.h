@@ -8,7 +8,7 @@
 #include <memory_resource>
 #include <mutex>
 
-#include "core/track/track_block.h"
+#include "core/track/track_format.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar {

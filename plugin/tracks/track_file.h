@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/track/track_block.h"
+#include "core/track/track_format.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_notes.h"
 

@@ -11,7 +11,7 @@
 #include <gst/audio/audio.h>
 #include <gst/gst.h>
 
-#include "core/track/track_block.h"
+#include "core/track/track_format.h"
 #include "core/track/track_thinner.h"
 
 namespace spidar {

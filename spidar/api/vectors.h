@@ -7,7 +7,7 @@
 #include <gst-spidar/wrench.h>
 
 #include "core/grip/pose.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 #include "core/wrench.h"
 
 namespace gst_spidar {

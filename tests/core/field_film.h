@@ -7,7 +7,7 @@
 
 #include "core/field/block_field.h"
 #include "core/motion/objects/object_tracker.h"
-#include "core/tracking/padded_image.h"
+#include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"
 

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/opencv_tracker.h"
+#include "core/tracking/tracker.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

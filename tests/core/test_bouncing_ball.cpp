@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/tracking/opencv_tracker.h"
+#include "core/tracking/tracker.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
 

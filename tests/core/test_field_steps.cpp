@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/field/area_sums.h"
 #include "core/field/block_field.h"
 #include "core/field/block_kernels.h"
+#include "core/field/block_search.h"
 #include "core/field/field_picture.h"
 #include "tests/core/plain_block_kernels.h"
 #include "tests/support/picture.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/field/fine_windows.h"
-#include "core/field/reduced_frame.h"
+#include "core/picture/reduced_frame.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/luma_row.h"
-#include "core/tracking/padded_image.h"
+#include "core/picture/luma_row.h"
+#include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
 #include "tests/support/word_picture.h"
 

@@ -29,7 +29,7 @@ constexpr int64_t kFrame_ns = 40'000'000;
 constexpr double kFrame_s = 0.04;
 /// Margins are known after some pairs of pictures in which the film moves. What seemed to be an
 /// object is seen at rest then.
-constexpr size_t kKnown = kLastingPictures + 3;
+constexpr size_t kKnown = Margins::kKnownAfterPairs + 3;
 
 const Texture kBackground(1, 10);
 const Texture kForeground(2, 10);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/motion_bounds.h"
+#include "core/motion/image_motion.h"
 
 namespace spidar::test::motion_bounds_test {
 namespace {

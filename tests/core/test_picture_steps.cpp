@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/padded_image.h"
+#include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
 
 namespace spidar::test::picture_steps_test {

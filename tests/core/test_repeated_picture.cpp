@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/repeated_picture.h"
+#include "core/picture/repeated_picture.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 
@@ -168,7 +168,7 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
       large = change;
     }
     const Kind kind = repeated.look(before.view(), now.view());
-    if (stood > kConfirmed) {
+    if (stood > RepeatedPicture::kLeastDips) {
       EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kOther) << n;
     }
     if (kind == Kind::kOther) before = now;

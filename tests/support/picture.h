@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar::test {
 

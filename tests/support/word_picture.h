@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 #include "tests/support/picture.h"
 
 namespace spidar::test {

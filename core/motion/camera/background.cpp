@@ -6,15 +6,20 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
 
 /// An object in front of a plain background hardly has more than this share of the picture's votes.
-constexpr double kMostObject = 1 - kNearlyAll;
+constexpr double kMostObject = 0.2;
 /// If this share of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedShare = 2 * kMostObject;
+
+/// Frames in succession in which a lower rung must have been better: in one or two, a camera may
+/// seem to rest where it turns round.
+constexpr int kLowerAfterFrames = 3;
+/// Frames after which higher rungs are fitted again where they have not helped.
+constexpr int kRetryAfterFrames = 3;
 
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
@@ -76,7 +81,7 @@ void BackgroundEstimator::reset() {
   background_ = Background();
   noise_px_ = kUsualNoise_px;
   patience_ = 0;
-  frames_since_climb_ = kLastingPictures;
+  frames_since_climb_ = kRetryAfterFrames;
   refused_cost_ = 0;
 }
 
@@ -208,7 +213,7 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
     if (kind == ModelKind::kStill) break;
   }
   patience_ = best.model.kind < current.model.kind ? patience_ + 1 : 0;
-  if (patience_ < kLastingPictures) return;
+  if (patience_ < kLowerAfterFrames) return;
   patience_ = 0;
   current = best;
 }
@@ -251,10 +256,10 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   ++frames_since_climb_;
   bool climbed = false;
   const bool is_due =
-      frames_since_climb_ >= kLastingPictures || cost > refused_cost_ || cost > kLost;
+      frames_since_climb_ >= kRetryAfterFrames || cost > refused_cost_ || cost > kLost;
   if (!explained && is_due) {
     climbed = climb(start, votes, current);
-    frames_since_climb_ = climbed ? kLastingPictures : 0;
+    frames_since_climb_ = climbed ? kRetryAfterFrames : 0;
     refused_cost_ = cost;
   }
   if (climbed) {

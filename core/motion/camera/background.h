@@ -52,9 +52,9 @@ Background in_pixels_of(const Background& background, double scale);
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
 /// coordinates of a track, d = 2 for all rungs, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
 /// smallest wins, with hysteresis: a higher rung must be better by kMargin parameters' worth, a
-/// lower one must be better in kLastingPictures frames in succession. Higher rungs are only fitted
+/// lower one must be better in some frames in succession. Higher rungs are only fitted
 /// when the one in use stops explaining the votes. Where that does not help, they are fitted again
-/// after as many frames, or when the mean ρ has risen.
+/// after some frames, or when the mean ρ has risen.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();

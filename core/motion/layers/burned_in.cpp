@@ -6,19 +6,19 @@
 #include <cmath>
 
 #include "core/motion/camera/robust_fit.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
 
 /// Minimum number of pixels needed to decide that a block stays constant: a line across it.
 constexpr int kLeastPixels = kBlock_px;
-/// Minimum share of pixels that are exactly equal: most of them. With noise of one grey level after
-/// reduction, 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly
-/// all of them, or 0.6 if an encoder adds noise; the standard deviation of the count is √n / 2.
+/// Minimum share of pixels that are exactly equal. With noise of one grey level after reduction,
+/// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
+/// or 0.6 if an encoder adds noise; the standard deviation of the count is √n / 2.
+constexpr double kExactShare = 0.5;
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
 /// needs a share halfway to all of them.
-constexpr double kExactShareElsewhere = (1 + kMost) / 2;
+constexpr double kExactShareElsewhere = (1 + kExactShare) / 2;
 /// The search can find a block with static graphics to move by up to kMostOff_px, because part of
 /// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
 /// picture, count as not moved.
@@ -78,7 +78,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   const StayingPixels staying = field.staying_pixels(static_cast<int>(block.index),
                                                      block.background_x_px, block.background_y_px);
   Sign& sign = signs_[block.index];
-  if (is_same(staying, moved_px < kMostOff_px ? kMost : kExactShareElsewhere)) {
+  if (is_same(staying, moved_px < kMostOff_px ? kExactShare : kExactShareElsewhere)) {
     sign = Sign::kStays;
   } else if (own.residual > unexplained_grey2_) {
     const bool is_mixed = block.is_slow && staying.near >= kMixedPixels;

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "core/tracking/shares.h"
-
 namespace spidar {
 namespace {
 
 /// Mean speed on the screen over mean change of the relative velocity: below this the former is an
 /// error. Means, so that a single jump, as where a picture was left out of the film, is no shake.
 constexpr double kOnScreen = 0.4;
+
+/// In this share of the frames a region stands out if it is more than a layer that does so by
+/// chance now and then.
+constexpr double kMostFrames = 0.5;
 
 }  // namespace
 
@@ -49,7 +51,7 @@ bool LayerEvidence::is_on_screen() const {
 }
 
 bool LayerEvidence::mostly_stood_out() const {
-  return stood_out_ >= kMost * contrasts_;
+  return stood_out_ >= kMostFrames * contrasts_;
 }
 
 double LayerEvidence::ratio() const {

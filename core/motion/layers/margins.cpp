@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tracking/shares.h"
-
 namespace spidar {
 namespace {
 
@@ -14,6 +12,10 @@ namespace {
 /// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
 /// scene without noise would pass for a film in a frame.
 constexpr double kMostOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
+
+/// Share of the places along the edge of a film that change while a bar beside them does not: the
+/// rest may be plain or dark.
+constexpr double kChangedShare = 0.8;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
 struct Side {
@@ -57,7 +59,7 @@ struct Side {
       if (mark == 0) mark = has_changed(line, place) || has_changed(line + 1, place);
       all += mark;
     }
-    return all >= kNearlyAll * (places() - 2 * across);
+    return all >= kChangedShare * (places() - 2 * across);
   }
 };
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/field/block_field.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 
@@ -20,7 +19,7 @@ namespace spidar {
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
 /// whole line changes: the edge of a film is straight, that of a thing in front of a wall at rest
 /// is not. A bar is as wide as the one on the opposite side, give or take a block. It is known
-/// after kLastingPictures such pairs of pictures, and until something in it changes.
+/// after kKnownAfterPairs such pairs of pictures, and until something in it changes.
 class Margins {
  public:
   /// Compares the two pictures of the field.
@@ -44,6 +43,9 @@ class Margins {
 
   void reset();
 
+  /// In one or two pairs, an object may look like a bar.
+  static constexpr int kKnownAfterPairs = 3;
+
  private:
   /// The bars on two opposite sides.
   struct Bars {
@@ -52,7 +54,7 @@ class Margins {
     /// Places along both edges that have changed since the bars have been there.
     std::array<std::vector<uint8_t>, 2> changed;
 
-    bool is_known() const { return pairs >= kLastingPictures; }
+    bool is_known() const { return pairs >= kKnownAfterPairs; }
     void begin(int width);
   };
 

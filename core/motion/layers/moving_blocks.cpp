@@ -7,8 +7,6 @@
 
 #include <Eigen/LU>
 
-#include "core/tracking/shares.h"
-
 namespace spidar {
 namespace {
 
@@ -66,6 +64,9 @@ float distance2(const RelativeBlock& relative, const MotionBlock& block,
 bool moves_slowly(const RelativeBlock& relative) {
   return std::hypot(relative.x_px, relative.y_px) <= kDifferentPixels_px;
 }
+
+/// A block of which less was in the previous picture cannot be compared with it.
+constexpr double kSeenBefore = 0.5;
 
 /// Share of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
@@ -135,7 +136,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.y_px = block.moved_y_px - moved_px.y();
     relative.has_texture = block.has_texture();
     // If less of it was in the picture before, the camera has just brought it into view.
-    relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kMost;
+    relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kSeenBefore;
     residuals_.push_back(block.residual);
   }
   const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);

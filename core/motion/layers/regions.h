@@ -10,7 +10,6 @@
 
 #include "core/field/block_field.h"
 #include "core/motion/layers/moving_blocks.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 

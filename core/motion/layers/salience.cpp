@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tracking/shares.h"
-
 namespace spidar {
 namespace {
 
@@ -25,6 +23,13 @@ constexpr double kTrusted = 1.4;
 /// distance.
 constexpr double kLeastLikelihood = 0.25;
 
+/// What moves like a layer and is larger than this share of the background is the other layer of a
+/// scene with two.
+constexpr double kOtherLayer = 0.5;
+/// A region with more of its blocks beside graphics is the edge of these, mixed with the film
+/// behind it.
+constexpr double kMixedShare = 0.5;
+
 }  // namespace
 
 bool stands_out(const Region& region, const CameraMotion& camera) {
@@ -41,15 +46,14 @@ double salience(const Region& region, const LayerEvidence& evidence, const Camer
   const double score = side_px * speed_px;
   if (!camera.moves) return score;
   if (evidence.is_on_screen()) return 0;
-  // What moves like a layer and has most of the background's size is the other layer of a scene
-  // with two: the ground. A large object that the camera follows goes against the background.
+  // The other layer is the ground. A large object that the camera follows goes against the
+  // background.
   const bool is_layer = evidence.mean_ratio() > kTrusted;
-  if (is_layer && region.blocks > kMost * camera.blocks) return 0;
+  if (is_layer && region.blocks > kOtherLayer * camera.blocks) return 0;
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
-  // The edge of graphics, mixed with the film behind it.
-  if (region.graphics_blocks >= kMost * trust * region.blocks) return 0;
+  if (region.graphics_blocks >= kMixedShare * trust * region.blocks) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
   // What stands out now and then only is a layer that does so by chance.
   const double in_noise = evidence.mostly_stood_out() ? trust : 1;

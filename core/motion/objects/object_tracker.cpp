@@ -7,13 +7,13 @@
 
 #include "core/motion/layers/margins.h"
 #include "core/motion/layers/salience.h"
-#include "core/tracking/shares.h"
 
 namespace spidar {
 namespace {
 
-/// An object exists once it has been seen in kConfirmed frames with a total of kBornAfterBlocks
-/// blocks, so that a small one must be seen more often.
+/// An object exists once it has been seen in kBornAfterFrames frames with a total of
+/// kBornAfterBlocks blocks, so that a small one must be seen more often.
+constexpr int kBornAfterFrames = 2;
 constexpr int kBornAfterBlocks = 8;
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
@@ -26,10 +26,22 @@ constexpr int kLeastBlocks = 2;
 /// nearer to that than to rest.
 constexpr double kStillMoves = 0.5;
 
+/// Share of its usual blocks that an object at rest still has where it was.
+constexpr double kRemainingShare = 0.5;
+/// With less of its usual blocks than this, only a rim of an object is visible.
+constexpr double kRimShare = 0.5;
+/// What covers more than this share of the picture, and kTimesBackground as much as agrees with the
+/// background, is an error of the background.
+constexpr double kLargeShare = 0.5;
+constexpr double kTimesBackground = 2;
+/// What was clearly no layer of the scene in so many frames may become more like one: in one or
+/// two, a layer may look like an object.
+constexpr int kProvenAfterFrames = 3;
+
 }  // namespace
 
 bool ObjectTracker::Life::is_born() const {
-  return frames_seen >= kConfirmed && blocks_seen >= kBornAfterBlocks;
+  return frames_seen >= kBornAfterFrames && blocks_seen >= kBornAfterBlocks;
 }
 
 ObjectTracker::ObjectTracker() {
@@ -102,7 +114,7 @@ uint32_t ObjectTracker::create(const Region& region) {
 
 /// Whether most of an object's usual blocks are where they were, none of which clearly moves.
 bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
-  return remains.blocks >= kMost * life.usual_blocks;
+  return remains.blocks >= kRemainingShare * life.usual_blocks;
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
@@ -112,7 +124,7 @@ bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
   const bool is_rim =
-      region.blocks < kMost * life->usual_blocks && remains_there(*life, remains_of(*life));
+      region.blocks < kRimShare * life->usual_blocks && remains_there(*life, remains_of(*life));
   return !life->is_layer && !is_rim;
 }
 
@@ -210,15 +222,13 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.object.has_left = false;
   place(life, frame);
   MovingObject& object = life.object;
-  // What covers most of the picture, and twice what agrees with the background, is its error.
   const double share = life.region.blocks / static_cast<double>(owners_.size());
-  const bool too_large = share > kMost && kMost * share > background_->coverage;
+  const bool too_large = share > kLargeShare && share > kTimesBackground * background_->coverage;
   CameraMotion camera = camera_;
   if (camera.moves) camera.noise_px = noise_around(life);
   life.evidence.add_contrast(stands_out(life.region, camera));
   life.proven += salience(life.region, life.evidence, camera, false) > 0;
-  // What was clearly no layer of the scene for so long may become more like one.
-  const bool was_followed = life.proven >= kLastingPictures;
+  const bool was_followed = life.proven >= kProvenAfterFrames;
   object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
   life.is_layer = object.prominence == 0;
   if (!life.is_born() || life.is_layer) return;
@@ -301,7 +311,7 @@ void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
   life.usual_blocks =
       std::max(blocks, life.usual_blocks + forgotten * (blocks - life.usual_blocks));
   // Only a rim is visible: the rest of the object is hidden.
-  if (blocks < kMost * life.usual_blocks) {
+  if (blocks < kRimShare * life.usual_blocks) {
     go_on_unseen(life, frame);
     return;
   }

@@ -8,7 +8,7 @@
 
 #include <gst/video/video.h>
 
-#include "core/choice/picture_box.h"
+#include "core/choice/chosen.h"
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <gst/video/video.h>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/frame/grip_pointer.h"

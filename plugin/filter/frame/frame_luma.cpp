@@ -6,8 +6,8 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/tracking/luma_row.h"
-#include "core/tracking/packed_luma.h"
+#include "core/picture/luma_row.h"
+#include "core/picture/packed_luma.h"
 
 namespace spidar {
 namespace {

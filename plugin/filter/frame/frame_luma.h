@@ -9,7 +9,7 @@
 #include <gst/video/video.h>
 
 #include "core/field/combing.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar {
 

@@ -4,9 +4,9 @@
 
 #include "core/force/felt_force.h"
 #include "core/force/gain_controller.h"
-#include "core/force/motion_bounds.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/cadence.h"
+#include "core/motion/image_motion.h"
 
 namespace spidar {
 namespace {

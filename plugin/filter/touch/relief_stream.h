@@ -14,7 +14,7 @@
 #include <gst/gst.h>
 
 #include "core/analysis/frame.h"
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include "core/tracking/opencv_tracker.h"
+#include "core/tracking/tracker.h"
 
 namespace spidar::bench {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/luma_row.h"
+#include "core/picture/luma_row.h"
 
 #include <cstring>
 
-#include "core/tracking/luma_words.h"
+#include "core/picture/luma_words.h"
 
 namespace spidar {
 

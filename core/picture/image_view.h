@@ -27,4 +27,15 @@ struct ImageView {
   const uint8_t* at(int x, int y) const { return data + y * stride_bytes + x * sample.bytes; }
 };
 
+/// Height of the reference frame. Lengths in settings are pixels of a frame with 480 lines, so that
+/// a setting has the same effect at 360p and at 2160p.
+constexpr double kReferenceHeight_px = 480.0;
+
+/// Minimum width and height of a frame in which motion is found, px.
+constexpr int kMinSide_px = 16;
+
+/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, a
+/// stride below its width, or a sample format that LumaSample does not support.
+void require_usable(const ImageView& frame);
+
 }  // namespace spidar

@@ -3,10 +3,9 @@
 /// A reduced frame, from which all measurements of motion start.
 #pragma once
 
-#include "core/image_view.h"
-#include "core/tracking/padded_image.h"
-#include "core/tracking/repeated_picture.h"
-#include "core/tracking/tracker.h"
+#include "core/picture/image_view.h"
+#include "core/picture/padded_image.h"
+#include "core/picture/repeated_picture.h"
 
 namespace spidar {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/padded_image.h"
+#include "core/picture/padded_image.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "core/tracking/luma_row.h"
-#include "core/tracking/luma_words.h"
-#include "core/tracking/tracker.h"
-#include "core/vectors.h"
+#include "core/picture/image_view.h"
+#include "core/picture/luma_row.h"
+#include "core/picture/luma_words.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 namespace {

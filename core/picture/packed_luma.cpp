@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/packed_luma.h"
+#include "core/picture/packed_luma.h"
 
 #include <opencv2/imgproc.hpp>
 

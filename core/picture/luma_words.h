@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/image_view.h"
-#include "core/vectors.h"
+#include "core/picture/image_view.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 

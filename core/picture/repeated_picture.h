@@ -5,12 +5,25 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
-#include "core/image_view.h"
-#include "core/tracking/picture_kind.h"
-#include "core/tracking/shares.h"
+#include "core/picture/image_view.h"
 
 namespace spidar {
+
+/// What a frame shows, compared with the picture before.
+enum class PictureKind : uint8_t {
+  kFirst,    ///< there is nothing to compare with: the first one, another size, or a cut
+  kWaiting,  ///< the same picture, and the motion may go on
+  kSame,     ///< the same picture, which is at rest
+  kAlike,    ///< the same picture, apart from the noise of coding
+  kOther,    ///< another picture
+};
+
+/// Whether the picture before is shown again, be it waiting or at rest.
+constexpr bool is_again(PictureKind kind) {
+  return kind != PictureKind::kFirst && kind != PictureKind::kOther;
+}
 
 /// Compares pictures of the same size. Identical pixels are always a repetition, but a lossy
 /// encoder also changes a repeated picture slightly. These changes are small compared with those
@@ -34,13 +47,14 @@ class RepeatedPicture {
 
   /// Largest coding noise, as a share of the change before and after it.
   static constexpr float kShare = 0.3f;
-  /// At least kConfirmed such dips must have occurred within kFrames frames, in whatever rhythm,
+  /// At least kLeastDips such dips must have occurred within kFrames frames, in whatever rhythm,
   /// because an object that slows down and reverses also causes one. 24 pictures per second in 30
   /// frames have two in ten.
+  static constexpr int kLeastDips = 2;
   static constexpr size_t kFrames = 12;
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
-  /// neighbours. A period has at least two frames.
-  static constexpr float kShareWhenDue = kMost;
+  /// neighbours: between the 0.41 and the 0.6 above. A period has at least two frames.
+  static constexpr float kShareWhenDue = 0.5f;
 
  private:
   /// Dips: runs of small changes between two large ones.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/repeated_picture.h"
+#include "core/picture/repeated_picture.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
-#include "core/difference_sum.h"
-#include "core/vectors.h"
+#include "core/picture/vectors.h"
 
 namespace spidar {
 namespace {
@@ -108,7 +107,7 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 
 bool RepeatedPicture::is_small(float change) const {
   const Rhythm any = rhythm(kShare);
-  if (any.dips >= kConfirmed && change < kShare * any.large) return true;
+  if (any.dips >= kLeastDips && change < kShare * any.large) return true;
   const Rhythm periodic = rhythm(kShareWhenDue);
   return change < kShareWhenDue * periodic.large && is_due(periodic);
 }
