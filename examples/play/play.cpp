@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -138,6 +139,34 @@ void draw(const Record& record, const Options& options, const std::string& title
   std::printf("picture: %s\n", png.c_str());
 }
 
+/// Stops a pipeline, and lets go of it and its filter.
+struct Playing {
+  GstElement* const pipeline;
+  GstElement* const filter;
+
+  Playing(GstElement* with, GstElement* of) : pipeline(with), filter(of) {}
+  ~Playing() {
+    gst_element_set_state(pipeline, GST_STATE_NULL);
+    gst_object_unref(pipeline);
+    gst_object_unref(filter);
+  }
+  Playing(const Playing&) = delete;
+  Playing& operator=(const Playing&) = delete;
+};
+
+/// Until the debug window, which still shows the end of the film, is closed, or Ctrl-C is pressed.
+void wait_for_window(GstElement* filter) {
+  constexpr gulong kStep_us = 50'000;
+  static volatile std::sig_atomic_t is_interrupted = 0;
+  std::signal(SIGINT, [](int) { is_interrupted = 1; });
+  std::puts("the film is over; close the debug window, or press Ctrl-C");
+  gboolean is_open = TRUE;
+  while (is_open && !is_interrupted) {
+    g_usleep(kStep_us);
+    g_object_get(filter, "debug-window", &is_open, nullptr);
+  }
+}
+
 int play(const Options& options) {
   prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
@@ -157,6 +186,7 @@ int play(const Options& options) {
                   ? ""
                   : (", in real time but without a window: " + screen.why_none).c_str());
 
+  const Playing playing{pipeline, filter};
   Record record;
   double now_s = 0;
   WindowPicture window_picture(filter, options.window_png);
@@ -180,9 +210,6 @@ int play(const Options& options) {
   const uint64_t shown = frames_shown(screen);
   double max_force_N = 0;
   g_object_get(filter, "max-force", &max_force_N, nullptr);
-  gst_element_set_state(pipeline, GST_STATE_NULL);
-  gst_object_unref(pipeline);
-  gst_object_unref(filter);
 
   const bool has_rows = !record.frames().empty() || !record.devices().empty();
   guint64 track_frames = 0;
@@ -197,6 +224,10 @@ int play(const Options& options) {
     gst_structure_foreach(stats.get(), print_field, nullptr);
   }
   if (has_rows) draw(record, options, title, max_force_N);
+  const bool shows_window = options.window && options.window_png.empty();
+  if (shows_window && ending == Ending::kEndOfVideo && isatty(STDIN_FILENO)) {
+    wait_for_window(filter);
+  }
   return ending == Ending::kFailed ? 1 : 0;
 }
 

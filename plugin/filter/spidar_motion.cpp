@@ -207,7 +207,8 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
      }},
     {"overlay",
      [](auto* self, auto* value) {
-       gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !g_value_get_boolean(value));
+       const bool draws = g_value_get_enum(value) != static_cast<int>(spidar::OverlayKind::kNone);
+       gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !draws);
      }},
 };
 

@@ -5,8 +5,15 @@
 
 namespace spidar {
 
+/// What is drawn into the video.
+enum class OverlayKind {
+  kNone,
+  kForce,   ///< outlines of objects, the force, finger and contact
+  kTracks,  ///< arrows of the motion, too
+};
+
 struct DisplayProperties {
-  bool overlay = false;
+  OverlayKind overlay = OverlayKind::kNone;
   double arrow_scale = 4;
   bool debug_window = false;
   bool attach_meta = false;

@@ -6,10 +6,13 @@ namespace spidar {
 
 std::vector<MotionRow> display_rows() {
   return {
-      MotionRow::on_off(
+      MotionRow::choice<OverlayKind>(
           {"overlay", "Overlay",
-           "Draw tracks and force as arrows into the video. Frames that other elements "
-           "hold are copied first"},
+           "What is drawn into the video. Frames that other elements hold are copied first"},
+          "GstSpidarMotionOverlay",
+          {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
+           {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
+           {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"}},
           kPlaying, KEPT_IN(display.overlay)),
       MotionRow::number(
           {"arrow-scale", "Arrow scale",
@@ -19,7 +22,7 @@ std::vector<MotionRow> display_rows() {
       MotionRow::on_off(
           {"debug-window", "Debug window",
            "Show picture, tracks, grip, tensions and settings in a window. Becomes false "
-           "when the user closes the window"},
+           "when the window is closed or cannot be opened"},
           kPlaying, KEPT_IN(display.debug_window)),
       MotionRow::on_off(
           {"attach-meta", "Attach meta",

@@ -112,7 +112,7 @@ void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
   // A range that is not empty if nothing is felt.
   script << "set yrange [*<-0.1 : 0.1<*]\nset ylabel 'force, N'\n"
             "plot $samples using 1:2 title 'x, right', '' using 1:3 title 'y, up', "
-            "'' using 1:4 title 'z, to the viewer'\n";
+            "'' using 1:4 title 'z, towards the viewer'\n";
   place(script, middle + kGap, height - 4 * kGap, height);
   script << "set yrange [*<-1 : 1<*]\nset ylabel 'torque, mN m'\nset xlabel 'time, s'\n"
             "plot $samples using 1:(1000*$5) title 'about x', '' using 1:(1000*$6) title "

@@ -90,6 +90,22 @@ TEST(Overlay, FollowsTheColorimetryOfTheFrame) {
   EXPECT_EQ(canvas.at(20, 20), (Pixel{63, 102, 240}));
 }
 
+TEST(Overlay, TracksAreDrawnOnlyWhenAskedFor) {
+  SceneView scene = one_track({10, 20}, {34, 20});
+  scene.lost.push_back({50, 10});
+  MovingObject object;
+  object.tracks = 5;
+  object.size_px = {20, 10};
+  scene.objects.push_back(object);
+  Canvas canvas("RGB", 64, 48);
+  canvas.with_frame([&](GstVideoFrame& frame) {
+    draw_overlay(scene, false, {}, visible_part(frame), 1, 3, std::nullopt, frame);
+  });
+  EXPECT_EQ(canvas.at(20, 20), canvas.untouched());
+  EXPECT_EQ(canvas.at(50, 10), canvas.untouched());
+  EXPECT_NE(canvas.at(32, 19), canvas.untouched()) << "the upper side of the object's box";
+}
+
 TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
   const auto expect = [](Rgb got, int r, int g, int b) {
     EXPECT_TRUE(got ==
@@ -210,7 +226,7 @@ size_t differences(GstBuffer* a, GstBuffer* b) {
 }
 
 TEST(OverlayElement, WritesToNoFrameThatSomebodyElseHolds) {
-  ElementHarness h("device=none overlay=true");
+  ElementHarness h("device=none overlay=tracks");
   h.set_caps(make_caps("I420", 323, 241));
   for (int n = 0; n < 3; ++n) {
     GstBuffer* frame = make_frame(h.info(), 3.0 * n, 0, 13);
@@ -254,7 +270,8 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
   h.set_caps(make_caps("NV12", 320, 240));
   for (int n = 0; n < 9; ++n) {
     const bool on = n / 3 == 1;
-    if (n % 3 == 0) g_object_set(h.element(), "overlay", on ? TRUE : FALSE, nullptr);
+    if (n % 3 == 0)
+      g_object_set(h.element(), "overlay", on ? OverlayKind::kTracks : OverlayKind::kNone, nullptr);
     GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
     GstBuffer* before = gst_buffer_copy_deep(frame);
     ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
@@ -266,7 +283,7 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
 }
 
 TEST(OverlayElement, DrawsWithinTheVisiblePart) {
-  ElementHarness h("device=none overlay=true");
+  ElementHarness h("device=none overlay=tracks");
   h.set_caps(make_caps("GRAY8", 640, 480));
   for (int n = 0; n < 2; ++n) {
     GstBuffer* frame = make_frame(h.info(), 0, 0);

@@ -102,7 +102,7 @@ TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
   for (const bool touching : {false, true}) {
     int64_t time_ns = 1'000'000'000;
     ElementHarness h(
-        touching ? "device=sim overlay=true touch=luma" : "device=sim overlay=true touch=off",
+        touching ? "device=sim overlay=tracks touch=luma" : "device=sim overlay=tracks touch=off",
         read_time, &time_ns);
     h.set_caps(make_caps("GRAY8", 320, 240));
     for (int tick = 0; tick < 300; ++tick) h.tick(time_ns += kTick_ns);  // until the device runs

@@ -127,7 +127,7 @@ TEST_P(UnpackedFormats, TooShortFramesAreOnlyPassedOn) {
 }
 
 TEST_P(UnpackedFormats, TheOverlayWarnsAndDrawsNothing) {
-  ElementHarness h("device=none overlay=true");
+  ElementHarness h("device=none overlay=tracks");
   h.set_caps(make_caps(GetParam().c_str(), kWidth, kHeight));
   for (int n = 0; n < 3; ++n) {
     GstBuffer* const frame = converted(h.info(), 2.0 * n, 0);

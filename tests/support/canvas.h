@@ -55,7 +55,7 @@ class Canvas {
             const std::optional<TouchMark>& touch = std::nullopt,
             const std::vector<uint32_t>& felt = {}) {
     with_frame([&](GstVideoFrame& frame) {
-      draw_overlay(scene, felt, visible_part(frame), scale, max_force_N, touch, frame);
+      draw_overlay(scene, true, felt, visible_part(frame), scale, max_force_N, touch, frame);
     });
   }
 

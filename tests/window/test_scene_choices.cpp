@@ -45,8 +45,8 @@ class Film {
   SceneChoices& choices_;
 };
 
-ListedObject object(uint32_t id, double first_s, const Vector2d& place) {
-  ListedObject made;
+Sighting object(uint32_t id, double first_s, const Vector2d& place) {
+  Sighting made;
   made.id = id;
   made.first_ns = static_cast<int64_t>(first_s * 1e9);
   made.first_place = place;
@@ -187,8 +187,50 @@ TEST_F(Choices, NeedATimeInTheFilm) {
   choices.see({});
   choices.choose(object(1, 0, {0.25, 0.5}));
   film.play(0, 1, {1});
-  choices.choose(ListedObject());
+  choices.choose(Sighting());
   EXPECT_TRUE(choices.edits().empty());
+}
+
+FrameFacts seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
+  FrameFacts facts;
+  facts.visible = {0, 0, 200, 100};
+  facts.film.stream_ns = static_cast<int64_t>(at_s * 1e9);
+  facts.film.scene_ns = static_cast<int64_t>(scene_s * 1e9);
+  for (const uint32_t id : objects) {
+    MovingObject object;
+    object.id = id;
+    object.tracks = 10;
+    object.position_px = {50 * at_s, -25};  // to the right, in the upper half
+    object.size_px = {10, 10};
+    facts.scene.objects.push_back(object);
+  }
+  return facts;
+}
+
+TEST(Sightings, AreTheFirstOfTheScene) {
+  Sightings sightings;
+  sightings.see(seen(0, 0, {1}));
+  sightings.see(seen(1, 0, {1, 2}));
+  ASSERT_TRUE(sightings.find(1) && sightings.find(2));
+  EXPECT_EQ(sightings.find(1)->first_ns, 0);
+  EXPECT_EQ(sightings.find(1)->first_place, Vector2d(0.5, 0.25));
+  EXPECT_EQ(sightings.find(2)->first_ns, kSecond);
+  EXPECT_EQ(sightings.find(3), nullptr);
+  sightings.see(seen(2.9, 0, {}));
+  EXPECT_TRUE(sightings.find(1)) << "it may be hidden";
+  sightings.see(seen(3.1, 0, {}));
+  EXPECT_EQ(sightings.find(1), nullptr);
+  sightings.see(seen(3.2, 0, {4}));
+  sightings.see(seen(3.3, 3.3, {4}));
+  EXPECT_EQ(sightings.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
+}
+
+TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
+  FrameFacts facts = seen(1, 0, {1});
+  facts.scene.turn = PictureTurn(1);
+  Sightings sightings;
+  sightings.see(facts);
+  EXPECT_LT((sightings.find(1)->first_place - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
 FilmMoment moment(double now_s, double length_s, const std::string& path = "/film.avi") {

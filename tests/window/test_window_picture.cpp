@@ -112,28 +112,6 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
   EXPECT_NEAR(level_in(window), 60, 1);
 }
 
-TEST_F(WindowTest, DraggingAPlotLooksBackAndAClickDoesNot) {
-  Window window(std::make_shared<FakeSource>());
-  give(window, {}, 60);
-  const Screenshot shot = look(window);
-  const Rect plot = lay_out(shot.width, shot.height, 1).force;
-  Mouse mouse;
-  const auto put = [&](double share, bool down) {
-    mouse.at_px = {plot.x + share * plot.width, plot.y + plot.height / 2};
-    mouse.down = down;
-    set_mouse(window, mouse);
-    look(window);
-  };
-  put(0.5, true);
-  put(0.5, false);
-  give(window, {}, 100);
-  EXPECT_NEAR(level_in(window), 100, 1);
-  put(0.5, true);
-  put(0.6, true);
-  give(window, {}, 160);
-  EXPECT_LE(level_in(window), 101) << "in the past it stays";
-}
-
 TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   auto source = std::make_shared<FakeSource>();
   Window window(source);

@@ -19,7 +19,8 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
                          const AnalyzerSettings& settings, GstVideoFrame& frame) {
   hand_.see(report, GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame));
   const std::shared_ptr<Window> shown_in = window();
-  const bool shown = properties.overlay || properties.attach_meta || shown_in;
+  const bool draws = properties.overlay != OverlayKind::kNone;
+  const bool shown = draws || properties.attach_meta || shown_in;
   if (!report.analyzed || !shown) {
     viewer_.reset();
     return;
@@ -52,8 +53,9 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   }
   const bool can_draw =
       (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);
-  if (properties.overlay && can_draw) {
-    draw_overlay(scene, felt_objects(scene, settings.motion, report.touch), visible,
+  if (draws && can_draw) {
+    const bool has_tracks = properties.overlay == OverlayKind::kTracks;
+    draw_overlay(scene, has_tracks, felt_objects(scene, settings.motion, report.touch), visible,
                  properties.arrow_scale, settings.controller.max_force_N, report.touch_mark, frame);
   }
 }

@@ -101,7 +101,7 @@ void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& v
 
 }  // namespace
 
-void draw_overlay(const SceneView& scene, const std::vector<uint32_t>& felt,
+void draw_overlay(const SceneView& scene, bool has_tracks, const std::vector<uint32_t>& felt,
                   const VisiblePart& visible, double scale, double max_force_N,
                   const std::optional<TouchMark>& touch, GstVideoFrame& frame) {
   ArrowStyle style;
@@ -112,11 +112,12 @@ void draw_overlay(const SceneView& scene, const std::vector<uint32_t>& felt,
   style.pixel_aspect = pixel_aspect(frame.info);
   FramePainter painter(frame, visible);
   style.centre_px = painter.shown_px(force_origin_px(scene, felt, visible));
-  for (const Arrow& arrow : track_arrows(scene, style)) painter.draw(arrow);
-
-  const double cross_px = felt_width_px(style);
-  for (const ImagePoint& lost : scene.lost) {
-    painter.cross(painter.shown_px({lost.x_px, lost.y_px}), cross_px, cross_px / 4, kWhite);
+  if (has_tracks) {
+    for (const Arrow& arrow : track_arrows(scene, style)) painter.draw(arrow);
+    const double cross_px = felt_width_px(style);
+    for (const ImagePoint& lost : scene.lost) {
+      painter.cross(painter.shown_px({lost.x_px, lost.y_px}), cross_px, cross_px / 4, kWhite);
+    }
   }
   for (const MovingObject& object : scene.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();

@@ -83,7 +83,6 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   texture_.emplace();
   past_texture_.emplace();
   relief_texture_.emplace();
-  object_textures_.emplace();
 }
 
 DebugWindow::~DebugWindow() {
@@ -92,7 +91,6 @@ DebugWindow::~DebugWindow() {
   texture_.reset();
   past_texture_.reset();
   relief_texture_.reset();
-  object_textures_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -124,9 +122,10 @@ void DebugWindow::read() {
   }
   if (picture_.is_there() && (frame || width != loaded_width_)) {
     loaded_width_ = width;
-    if (texture_->load(picture_, width) && frame) list_objects();
+    texture_->load(picture_, width);
   }
   if (frame) {
+    sightings_.see(facts_);
     follow_choices(film_before);
     // Another stream, or the same from the beginning: what was learnt is not of it.
     if (facts_.running_ns < before_ns) timeline_.forget();
@@ -155,7 +154,9 @@ void DebugWindow::record(bool is_new) {
     timeline_.add(ForceTick{static_cast<int64_t>(1e9 * now.time_s), now.wanted.force_N});
   }
   timeline_.add(now);
-  if (is_new && timeline_.wants_still(now.time_s)) keep_still(now.time_s);
+  // The first picture of a scene, too, so that a pause does not show the scene before.
+  const bool begins_scene = facts_.interval_s == 0;
+  if (is_new && (begins_scene || timeline_.wants_still(now.time_s))) keep_still(now.time_s);
 }
 
 void DebugWindow::keep_still(double time_s) {
@@ -225,12 +226,11 @@ void DebugWindow::draw_panels(int width, int height) {
   draw_picture(brush, layout.picture, picture, facts);
   const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
   use_mouse(mouse, shown, facts);
-  use_objects(mouse, layout.objects);
   use_plots(mouse, layout);
   if (const std::string line = hint(facts); !line.empty()) draw_hint(brush, shown, line);
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
-  draw_choices(brush, layout, mouse);
+  draw_choices(brush, layout.timeline);
   draw_force(brush, layout.force, timeline_, controller.max_force_N);
   draw_speed(brush, layout.speed, timeline_);
   if (facts.touch.on && state_.device) {

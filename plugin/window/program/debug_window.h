@@ -3,7 +3,6 @@
 /// The window of GLFW and what is drawn in it.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,8 +10,8 @@
 #include <vector>
 
 #include "plugin/window/program/model/object_click.h"
-#include "plugin/window/program/model/object_list.h"
 #include "plugin/window/program/model/scene_choices.h"
+#include "plugin/window/program/model/sightings.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/picture_texture.h"
 #include "plugin/window/program/player_link.h"
@@ -53,12 +52,8 @@ class DebugWindow {
   std::string hint(const FrameFacts& facts) const;
   void use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts);
   void use_plots(const Mouse& mouse, const WindowLayout& layout);
-  void list_objects();
   SceneChoices& choices();
   void follow_choices(const std::string& film_before);
-  bool is_chosen(const ListedObject& object) const;
-  std::vector<ObjectRow> object_list() const;
-  void use_objects(const Mouse& mouse, const Rect& panel);
   void choose(const ObjectWish& wish);
   bool has_unsaved_choices() const;
   void save_choices();
@@ -66,7 +61,7 @@ class DebugWindow {
   void save_choices(const std::string& film, SceneChoices& choices);
   void remove_choice(const FeelRule& rule);
   void end_choices();
-  void draw_choices(const Brush& brush, const WindowLayout& layout, const Mouse& mouse);
+  void draw_choices(const Brush& brush, const Rect& panel);
   void draw_panels(int width, int height);
   void save_here();
   void change(const std::string& setting, double value) { link_.change(setting, value); }
@@ -89,13 +84,9 @@ class DebugWindow {
   std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
   MouseHand hand_;
   ObjectClick click_;
-  ObjectList objects_;
-  std::optional<std::array<PictureTexture, ObjectList::kMost>> object_textures_;
+  Sightings sightings_;
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does
-  bool objects_down_ = false;
-  bool plots_down_ = false;
-  std::optional<double> drag_px_;  ///< where a plot was dragged to
   std::optional<Mouse> given_mouse_;
   bool help_ = false;
   bool detail_ = false;

@@ -3,6 +3,7 @@
 // What the user does to a debug window.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <imgui.h>
 #include <limits>
 
@@ -97,7 +98,12 @@ bool DebugWindow::offers_hand() const {
 
 /// What a click does, until the user has clicked once; then only how deep the hand is.
 std::string DebugWindow::hint(const FrameFacts& facts) const {
-  if (hand_.holds() && facts.touch.on) return hand_line(hand_);
+  if (hand_.holds() && facts.touch.on) {
+    char text[96];
+    std::snprintf(text, sizeof text, "Hand %.1f mm %s. Wheel or Shift+drag: away or near",
+                  std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
+    return text;
+  }
   if (has_clicked_ || timeline_.is_paused()) return {};
   const char* const choosing = "A click on an object has it felt in this scene. ";
   const char* const leading = "The left button, held in the picture, moves the simulated hand.";
@@ -118,19 +124,11 @@ void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture, const Frame
   link_.lead_hand(hand_.update(mouse, picture, map));
 }
 
-/// The wheel shows more or less of the last seconds, dragging moves them.
+/// The wheel shows more or less of the last seconds.
 void DebugWindow::use_plots(const Mouse& mouse, const WindowLayout& layout) {
   const bool is_over =
       !mouse.taken && (layout.force.has(mouse.at_px) || layout.speed.has(mouse.at_px));
   if (is_over && mouse.wheel != 0) timeline_.zoom(std::pow(kZoom, -mouse.wheel));
-  const bool begins = mouse.down && !plots_down_ && is_over;
-  plots_down_ = mouse.down;
-  if (!mouse.down) drag_px_.reset();
-  if (begins) drag_px_ = mouse.at_px.x();
-  if (!drag_px_ || !std::isfinite(mouse.at_px.x()) || mouse.at_px.x() == *drag_px_) return;
-  const double moved = (mouse.at_px.x() - *drag_px_) / std::max(layout.force.width, 1.0);
-  timeline_.look_at(timeline_.cursor_s() - moved * timeline_.plotted_s());
-  drag_px_ = mouse.at_px.x();
 }
 
 }  // namespace spidar

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "core/force/felt_force.h"
-#include "plugin/window/program/hand.h"
 #include "plugin/window/program/model/plot_axis.h"
 #include "plugin/window/program/panels.h"
 
 namespace spidar {
 namespace {
 
-constexpr ImU32 kSkinColor = IM_COL32(226, 178, 146, 255);
-constexpr ImU32 kSkinEdgeColor = IM_COL32(122, 84, 66, 255);
 constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
 /// Of the view: the largest force as a share of the panel's smaller side.
 constexpr double kForceShare = 0.3;
@@ -46,25 +43,6 @@ struct GripView {
     return static_cast<float>((project(tip_m) - project(pose.position_m)).norm());
   }
 };
-
-void draw_stroke(const GripView& view, const HandStroke& stroke, ImU32 color, double wider_px) {
-  const float width = view.px(stroke.width * view.radius_m) + static_cast<float>(wider_px);
-  std::vector<ImVec2> points;
-  for (const Eigen::Vector3d& point : stroke.points) {
-    points.push_back(view.at(view.radius_m * point));
-  }
-  view.brush.list.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, width);
-  // Round joints and ends.
-  for (const ImVec2& point : points) view.brush.list.AddCircleFilled(point, width / 2, color);
-}
-
-void draw_hand(const GripView& view, bool in_front) {
-  for (const HandStroke& stroke : hand_strokes()) {
-    if (stroke.in_front != in_front) continue;
-    draw_stroke(view, stroke, kSkinEdgeColor, 2 * view.brush.scale);
-    draw_stroke(view, stroke, kSkinColor, 0);
-  }
-}
 
 /// The ball that the hand holds, and the rods that the strings are tied to.
 void draw_grip_body(const GripView& view, const DeviceView& device) {
@@ -138,19 +116,23 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
   }
 }
 
-/// The directions x, y and z of the device in a corner.
+/// The directions of the device in a corner.
 void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& project) {
-  constexpr const char* kNames[] = {"x", "y", "z"};
   const double length = std::min(20 * brush.scale, 0.14 * panel.height);
-  const Eigen::Vector2d corner(panel.x + length, panel.bottom() - 0.7 * length);
+  const Eigen::Vector2d corner(panel.x + 2.4 * length, panel.bottom() - 0.7 * length);
   const Eigen::Vector2d origin = project(Eigen::Vector3d::Zero());
   const double unit = (project(Eigen::Vector3d::UnitY()) - origin).norm();
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector2d along = (project(Eigen::Vector3d::Unit(axis)) - origin) / unit;
     const Eigen::Vector2d tip = corner + length * along;
     brush.list.AddLine(im(corner), im(tip), kAxisColors[axis], brush.px(2));
-    draw_text(brush, brush.fonts.small, im(tip.x() + 2 * brush.scale, tip.y() - 12 * brush.scale),
-              kAxisColors[axis], kNames[axis]);
+    const ImFont* const font = brush.fonts.small;
+    const double gap = 3 * brush.scale, y = tip.y() - font->FontSize / 2;
+    if (along.x() < 0) {
+      draw_text_before(brush, font, im(tip.x() - gap, y), kAxisColors[axis], kAxisNames[axis]);
+    } else {
+      draw_text(brush, font, im(tip.x() + gap, y), kAxisColors[axis], kAxisNames[axis]);
+    }
   }
 }
 
@@ -172,9 +154,7 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   const GripView view{brush, project, last.pose, device.geometry.grip_radius_m()};
   draw_compass(brush, content, project);
   if (device.has_strings) draw_strings(brush, project, device);
-  draw_hand(view, false);
   draw_grip_body(view, device);
-  draw_hand(view, true);
   std::vector<Rect> numbers;
   for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
     numbers.push_back(number_rect(brush, project, device, i));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "plugin/window/program/model/film_strip.h"
-#include "plugin/window/program/model/object_list.h"
+#include "plugin/window/program/model/layout.h"
 #include "plugin/window/program/model/timeline.h"
 #include "plugin/window/program/model/window_model.h"
 #include "plugin/window/program/style.h"
@@ -34,7 +34,7 @@ Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const FrameFacts& facts);
 
-/// Frame, strings, the hand on the grip and its force; with no device a line that says so.
+/// Frame, strings, the grip and its force; with no device a line that says so.
 void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state);
 /// The tension of each string as a bar.
 void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state);
@@ -52,22 +52,15 @@ void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene
 /// At the lower edge of the picture: what the mouse does.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
 
-/// The last minute, with a button that pauses it; dragging looks back. Below it the film with its
-/// choices; returns the one that the user clicked, to be removed.
-std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
-                                      double max_force_N, const FilmStrip& strip);
-
-/// An object in the list.
-struct ObjectRow {
-  const ListedObject* object = nullptr;
-  ImTextureID picture{};  ///< 0: there is none yet
-  double aspect = 1;      ///< of the picture, width / height
-  bool is_chosen = false;
+/// What the user wants of the choices.
+struct TimelineUse {
+  std::optional<FeelRule> removed;  ///< this one is to be removed
+  bool saves = false;
 };
-void draw_objects(const Brush& brush, const Rect& panel, const std::vector<ObjectRow>& rows,
-                  const FrameFacts& facts, const Eigen::Vector2d& mouse_px);
-/// In the title of that panel. True when it was pressed.
-bool draw_save_button(const Brush& brush, const Rect& panel);
+/// The last minute, with a button that pauses it; dragging looks back. Below it the film with its
+/// choices, which can be saved if there are some that are not.
+TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
+                          double max_force_N, const FilmStrip& strip, bool has_unsaved);
 
 /// `note`: what the window has to say at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,

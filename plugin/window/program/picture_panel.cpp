@@ -103,7 +103,8 @@ void draw_objects(const Overlay& over) {
     brush.list.AddRect(im(low), im(high), is_felt ? kFeltColor : kOtherColor, rounding, 0,
                        brush.px(is_felt ? 2.5 : 1));
     if (!is_felt && !over.picture.detail) continue;
-    const std::string name = "#" + std::to_string(object.id);
+    const bool is_chosen = is_felt && over.facts.click != 0;
+    const std::string name = "#" + std::to_string(object.id) + (is_chosen ? ", chosen" : "");
     const ImFont* font = brush.fonts.small;
     // Above the box, or within it at the upper edge of the picture.
     const double height = font->FontSize + brush.px(7);

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kLeastForce_N = 0.1, kLeastSpeed_px_s = 100, kHeadroom = 1.1;
 constexpr int kCurvePoints = 64;
-constexpr const char* kAxisNames[] = {"right", "up", "near"};
 
 std::string number(const char* format, double value) {
   char text[48];

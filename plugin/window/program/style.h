@@ -26,6 +26,8 @@ constexpr ImU32 kWarnColor = IM_COL32(255, 96, 88, 255);
 constexpr ImU32 kAxisColors[3] = {IM_COL32(255, 112, 102, 255), IM_COL32(126, 211, 112, 255),
                                   IM_COL32(98, 160, 255, 255)};
 
+constexpr const char* kAxisNames[3] = {"right", "up", "near"};
+
 /// The same colour, `alpha` (0 … 255) opaque.
 constexpr ImU32 faded(ImU32 color, unsigned alpha) {
   return (color & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);

@@ -13,8 +13,8 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav;
 
-std::string where(const Timeline& timeline) {
-  if (!timeline.is_paused()) return "live";
+std::string title_of(const Timeline& timeline) {
+  if (!timeline.is_paused()) return "Last minute";
   char text[48];
   std::snprintf(text, sizeof text, "%.1f s earlier",
                 timeline.moments().back().time_s - timeline.cursor_s());
@@ -32,6 +32,12 @@ std::vector<PlotPoint> profile(const Timeline& timeline, double newest_s, size_t
     x += part_s;
   }
   return points;
+}
+
+/// In whole seconds.
+std::string film_time(int64_t ns) {
+  constexpr int64_t kSecond_ns = 1'000'000'000;
+  return time_text(ns / kSecond_ns * kSecond_ns);
 }
 
 /// The part of the panel with the whole film.
@@ -66,7 +72,9 @@ std::optional<FeelRule> use_strip(const Brush& brush, const Rect& place, const F
   const double share = (ImGui::GetIO().MousePos.x - place.x) / place.width;
   const StripMark* const mark = strip.at(share, kLeastMark_px * brush.scale / place.width);
   if (!mark) {
-    ImGui::SetTooltip("The film, with marks where an object was chosen or another rule holds");
+    const auto at_ns = static_cast<int64_t>(share * static_cast<double>(strip.length_ns));
+    ImGui::SetTooltip("%s. Marks: an object was chosen, or another rule holds",
+                      film_time(at_ns).c_str());
     return std::nullopt;
   }
   ImGui::SetTooltip("%s%s. A click removes it.", rule_text(mark->rule).c_str(),
@@ -76,17 +84,15 @@ std::optional<FeelRule> use_strip(const Brush& brush, const Rect& place, const F
 
 }  // namespace
 
-std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
-                                      double max_force_N, const FilmStrip& strip) {
-  const Rect left = draw_panel(brush, panel, "Last minute");
+TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
+                          double max_force_N, const FilmStrip& strip, bool has_unsaved) {
+  const Rect left = draw_panel(brush, panel, title_of(timeline));
   const double button = std::min(96 * brush.scale, left.width / 3);
   const double margin = 10 * brush.scale;
   const double below = strip.length_ns > 0 ? (kStrip_px + 5) * brush.scale : 0;
   const Rect content{left.x + button + margin, panel.y + 4 * brush.scale,
                      std::max(left.width - button - margin, 1.0),
                      std::max(panel.height - 10 * brush.scale - below, 1.0)};
-  draw_text(brush, brush.fonts.small, im(left.x, left.y + 32 * brush.scale), kMutedColor,
-            where(timeline));
   const double newest_s = timeline.moments().empty() ? 0 : timeline.moments().back().time_s;
   const PlotAxis x = make_axis(-Timeline::kMemory_s, 0, Plot::steps_across(brush, content.width));
   const PlotAxis y =
@@ -104,7 +110,11 @@ std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Tim
 
   const Rect film{plot.area().x, content.bottom() + 3 * brush.scale, plot.area().width,
                   kStrip_px * brush.scale};
-  if (strip.length_ns > 0) draw_strip(brush, film, strip);
+  if (strip.length_ns > 0) {
+    draw_strip(brush, film, strip);
+    const std::string time = film_time(strip.now_ns) + " / " + film_time(strip.length_ns);
+    draw_text(brush, brush.fonts.small, im(left.x, film.y - 2 * brush.scale), kMutedColor, time);
+  }
 
   ImGui::SetNextWindowPos(upper_left(panel));
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
@@ -117,6 +127,16 @@ std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Tim
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Holds what the window shows (P). The video and the force continue.");
   }
+  TimelineUse use;
+  if (has_unsaved) {
+    ImGui::SetCursorScreenPos(im(left.x, left.y + 28 * brush.scale));
+    ImGui::PushFont(brush.fonts.small);
+    use.saves = ImGui::Button("Save choices", im(button, 0));
+    ImGui::PopFont();
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("Writes them as rules into the file beside the film (C)");
+    }
+  }
   ImGui::SetCursorScreenPos(upper_left(plot.area()));
   ImGui::InvisibleButton("scrub", im(plot.area().width, std::max(plot.area().height, 1.0)));
   if (ImGui::IsItemActive()) {
@@ -125,10 +145,9 @@ std::optional<FeelRule> draw_timeline(const Brush& brush, const Rect& panel, Tim
   } else if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Drag to look back");
   }
-  std::optional<FeelRule> removed;
-  if (strip.length_ns > 0) removed = use_strip(brush, film, strip);
+  if (strip.length_ns > 0) use.removed = use_strip(brush, film, strip);
   ImGui::End();
-  return removed;
+  return use;
 }
 
 }  // namespace spidar

@@ -56,7 +56,7 @@ struct UserInput {
   std::optional<Mouse> mouse;
   std::optional<Eigen::Vector2d> size_px;
 };
-/// The window is to close, and has kPatience for it.
+/// The window is to close, and has Window::kPatience for it.
 struct CloseWindow {};
 
 using ToWindow = std::variant<PictureMemory, FrameShown, ElementState, ChoicesSaved, TakePicture,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace spidar {
 std::optional<Eigen::Vector3d> MouseHand::update(const Mouse& mouse, const Rect& picture,
@@ -30,18 +29,6 @@ std::optional<Eigen::Vector3d> MouseHand::update(const Mouse& mouse, const Rect&
   if (!holds_) return std::nullopt;
   const Eigen::Vector2d at_m = map.position_m(place_);
   return Eigen::Vector3d(at_m.x(), at_m.y(), z_m_);
-}
-
-std::string hand_line(const MouseHand& hand) {
-  constexpr const char* kHow = "Wheel or Shift+drag: deeper, nearer";
-  if (!hand.holds()) {
-    return std::string("Hold the left button in the picture to move the simulated hand. ") + kHow;
-  }
-  char text[96];
-  const double z_mm = 1e3 * hand.z_m();
-  std::snprintf(text, sizeof text, "Hand %.1f mm %s the middle. ", std::fabs(z_mm),
-                z_mm > 0 ? "in front of" : "behind");
-  return text + std::string(kHow);
 }
 
 }  // namespace spidar

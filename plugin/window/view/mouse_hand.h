@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include <Eigen/Core>
 
@@ -53,8 +52,5 @@ class MouseHand {
   Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d place_ = Eigen::Vector2d::Zero();
 };
-
-/// The status line: instructions, preceded by the depth of the hand while it is held.
-std::string hand_line(const MouseHand& hand);
 
 }  // namespace spidar

@@ -9,14 +9,9 @@
 namespace spidar {
 namespace {
 
-/// Of height to width, from which on the panels are stacked.
-constexpr double kTall = 1.1;
 // Shares of the window.
-constexpr double kLeft = 0.66, kGrip = 0.27, kTensions = 0.18, kObjects = 0.2;
+constexpr double kLeft = 0.66, kGrip = 0.3, kTensions = 0.2;
 constexpr double kTimeline = 0.13, kPlots = 0.23;
-// The same where they are stacked: below kLower are device and settings.
-constexpr double kTallTimeline = 0.1, kTallPlots = 0.18, kLower = 0.64, kTallTensions = 0.14;
-constexpr double kTallObjects = 0.13;
 /// Of text, in pixels at a scale of 1; a share of the window at most.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
 /// The title, the button, a line and the film below each other; a share of the window at most.
@@ -27,12 +22,6 @@ constexpr double kGap_px = 8;
 constexpr double kTurn = 0.4, kTilt = 0.3;
 /// Of the panel, for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
-
-// Of the list of objects, in pixels at a scale of 1: a picture with a name beside it.
-// It grows with the panel.
-constexpr double kName_px = 46, kRowHeight_px = 28, kMostRowHeight_px = 44, kRowGap_px = 3;
-constexpr double kRowPicture = 4.0 / 3;  // width of the picture over the height of the row
-constexpr double kRowShare = 0.36, kListMargin_px = 10, kListTitle_px = 24;
 
 /// Of the room of a string's bar.
 constexpr double kBarFilled = 0.5;
@@ -48,13 +37,11 @@ Rect fit(const Rect& outer, double aspect) {
 
 WindowLayout lay_out(int width, int height, double scale) {
   const double w = std::max(width, 1), h = std::max(height, 1);
-  const bool tall = h > kTall * w;
-  const double left = tall ? w : kLeft * w, gap = kGap_px * scale / 2;
+  const double left = kLeft * w, gap = kGap_px * scale / 2;
   const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
-  const double lower_y = tall ? kLower * h : status_y;
-  const double plots_y = lower_y - (tall ? kTallPlots : kPlots) * h;
-  const double timeline_y = plots_y - std::max((tall ? kTallTimeline : kTimeline) * h,
-                                               std::min(kTimeline_px * scale, kTimelineMost * h));
+  const double plots_y = status_y - kPlots * h;
+  const double timeline_y =
+      plots_y - std::max(kTimeline * h, std::min(kTimeline_px * scale, kTimelineMost * h));
   const Rect whole = Rect{0, 0, w, h}.inset(gap);
   const auto place = [&](double x, double y, double right_x, double bottom_y) {
     // Within the margin around all.
@@ -66,53 +53,15 @@ WindowLayout lay_out(int width, int height, double scale) {
   WindowLayout layout;
   layout.picture = place(0, 0, left, timeline_y);
   layout.timeline = place(0, timeline_y, left, plots_y);
-  layout.force = place(0, plots_y, 0.42 * left, lower_y);
-  layout.speed = place(0.42 * left, plots_y, 0.71 * left, lower_y);
-  layout.gain = place(0.71 * left, plots_y, left, lower_y);
+  layout.force = place(0, plots_y, 0.42 * left, status_y);
+  layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
+  layout.gain = place(0.71 * left, plots_y, left, status_y);
   layout.status = place(0, status_y, left, h);
-  if (tall) {
-    const double tensions_y = status_y - kTallTensions * h;
-    layout.grip = place(0, lower_y, w / 2, tensions_y);
-    layout.tensions = place(0, tensions_y, w / 2, status_y);
-    const double objects_y = lower_y + kTallObjects * h;
-    layout.objects = place(w / 2, lower_y, w, objects_y);
-    layout.controls = place(w / 2, objects_y, w, status_y);
-    return layout;
-  }
-  const double tensions_y = kGrip * h, objects_y = tensions_y + kTensions * h;
-  const double controls_y = objects_y + kObjects * h;
+  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
   layout.grip = place(left, 0, w, tensions_y);
-  layout.tensions = place(left, tensions_y, w, objects_y);
-  layout.objects = place(left, objects_y, w, controls_y);
+  layout.tensions = place(left, tensions_y, w, controls_y);
   layout.controls = place(left, controls_y, w, h);
   return layout;
-}
-
-std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count) {
-  const double gap = kRowGap_px * scale;
-  Rect room = panel.inset(kListMargin_px * scale);
-  room.height = std::max(panel.bottom() - gap - panel.y - kListTitle_px * scale, 0.0);
-  room.y = panel.y + kListTitle_px * scale;
-  const double height =
-      std::clamp(kRowShare * room.height, kRowHeight_px * scale, kMostRowHeight_px * scale);
-  const auto fitting = [&](double length, double one) {
-    return static_cast<size_t>(std::max((length + gap) / (one + gap), 0.0));
-  };
-  const size_t columns =
-      std::max<size_t>(fitting(room.width, kRowPicture * height + kName_px * scale), 1);
-  const size_t shown = std::min(count, columns * fitting(room.height, height));
-  const double width = (room.width + gap) / static_cast<double>(columns) - gap;
-  std::vector<Rect> rows;
-  for (size_t i = 0; i < shown; ++i) {
-    rows.push_back({room.x + static_cast<double>(i % columns) * (width + gap),
-                    room.y + static_cast<double>(i / columns) * (height + gap), width, height});
-  }
-  return rows;
-}
-
-Rect row_picture(const Rect& row, double aspect) {
-  const Rect room = Rect{row.x, row.y, kRowPicture * row.height, row.height}.inset(row.height / 16);
-  return fit(room, aspect);
 }
 
 std::optional<Rect> place_label(const Rect& panel, const Rect& wanted,

@@ -20,16 +20,10 @@ Rect fit(const Rect& outer, double aspect);
 
 struct WindowLayout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
-  Rect grip, tensions, objects, controls;              ///< right
+  Rect grip, tensions, controls;                       ///< right
 };
 /// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read.
 WindowLayout lay_out(int width, int height, double scale);
-
-/// Places for the objects of a list, beside and below each other in order; as many of `count` as
-/// there is room for below the title of `panel`.
-std::vector<Rect> object_rows(const Rect& panel, double scale, size_t count);
-/// In such a place: a picture of this width / height on the left.
-Rect row_picture(const Rect& row, double aspect);
 
 /// The place for a label that is nearest to `wanted`, within `panel` and beside all that is
 /// `taken`; nothing when there is none.

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/window/program/model/object_click.h"
 
+#include <array>
+
 namespace spidar {
 
 const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place) {
@@ -14,6 +16,27 @@ const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& pl
     if (!found || object.size_px.prod() < found->size_px.prod()) found = &object;
   }
   return found;
+}
+
+Eigen::Vector2d place_of(const FrameFacts& facts, const MovingObject& object) {
+  const Eigen::Vector2d frame_px(facts.visible.width, facts.visible.height);
+  const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
+  const Eigen::Vector2d low_px = (middle_px - object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
+  const Eigen::Vector2d high_px =
+      (middle_px + object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
+  const auto place_at = [&](double across, double down) -> Eigen::Vector2d {
+    const Eigen::Vector2d share(across, down);
+    return (low_px + share.cwiseProduct(high_px - low_px))
+        .cwiseQuotient(frame_px.cwiseMax(Eigen::Vector2d(1, 1)));
+  };
+  constexpr std::array<double, 5> kShares{0.5, 0.3, 0.7, 0.1, 0.9};  // the middle first
+  for (const double down : kShares) {
+    for (const double across : kShares) {
+      const MovingObject* const there = object_at(facts, place_at(across, down));
+      if (there && there->id == object.id) return place_at(across, down);
+    }
+  }
+  return place_at(0.5, 0.5);
 }
 
 bool offers_choice(const FrameFacts& facts) {

@@ -17,6 +17,10 @@ namespace spidar {
 /// Places are shares of the visible part of the frame.
 const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place);
 
+/// A place that is in the box of this object and in no smaller one, if there is such a place: a
+/// click there means it. As a share of the visible part of the frame.
+Eigen::Vector2d place_of(const FrameFacts& facts, const MovingObject& object);
+
 /// Whether objects are known, and not merely touched.
 bool offers_choice(const FrameFacts& facts);
 

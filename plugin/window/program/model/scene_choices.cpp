@@ -81,7 +81,7 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
   choices_.erase(std::remove_if(choices_.begin(), choices_.end(), is_nothing), choices_.end());
 }
 
-void SceneChoices::choose(const ListedObject& object) {
+void SceneChoices::choose(const Sighting& object) {
   if (film_.stream_ns < 0 || object.first_ns < 0) return;
   const int64_t from_ns = whole(object.first_ns);
   take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });

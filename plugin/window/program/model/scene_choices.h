@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "core/choice/feel_edit.h"
-#include "plugin/window/program/model/object_list.h"
-#include "plugin/window/program/model/window_model.h"
+#include "plugin/window/program/model/sightings.h"
 
 namespace spidar {
 
@@ -24,7 +23,7 @@ class SceneChoices {
 
   /// In place of what was chosen in this scene while the object was in sight. Changes nothing where
   /// the time in the film is not known.
-  void choose(const ListedObject& object);
+  void choose(const Sighting& object);
   /// Of the choices in this scene the last one goes.
   void let_go();
   /// No rule holds any more from one time to another.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The list of objects in a debug window: pictures, clicks, and what is saved.
+// Objects that are chosen by clicks in a debug window, and what of that is saved.
 #include <memory>
 
 #include <GLFW/glfw3.h>
@@ -9,15 +9,14 @@
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 
-namespace spidar::test::window_objects_test {
+namespace spidar::test::window_choices_test {
 namespace {
 
 using Eigen::Vector2d;
 
 constexpr int64_t kMillisecond = 1'000'000;
-constexpr int kLevel = 128;
 
-class WindowObjects : public WindowTest {
+class WindowChoices : public WindowTest {
  protected:
   /// Of 320 × 240 px, with two objects whose middles are at a quarter and at three quarters.
   static FrameFacts frame(int64_t ms, const char* path = "/film.avi") {
@@ -38,47 +37,29 @@ class WindowObjects : public WindowTest {
     }
     return facts;
   }
-  /// The list has objects that were seen for 0.2 s.
   void play(const char* path = "/film.avi") {
     for (const int64_t ms : {0, 100, 300}) {
-      give(window, frame(ms, path), kLevel);
+      give(window, frame(ms, path));
       look(window);
     }
   }
-  Rect row(size_t i) {
-    const Screenshot shot = look(window);
-    return object_rows(lay_out(shot.width, shot.height, 1).objects, 1, 2).at(i);
-  }
-  void click(const Rect& place) {
+  void click(uint32_t object) {
     Mouse mouse;
-    mouse.at_px = {place.right() - 5, place.y + place.height / 2};
-    mouse.down = true;
-    set_mouse(window, mouse);
-    look(window);
-    mouse.down = false;
-    set_mouse(window, mouse);
-    look(window);
+    mouse.at_px = map_of(look(window))({object == 1 ? 79.5 : 239.5, 119.5});
+    for (const bool down : {true, false}) {
+      mouse.down = down;
+      set_mouse(window, mouse);
+      look(window);
+    }
   }
 
   std::shared_ptr<FakeSource> source = std::make_shared<FakeSource>();
   Window window{source};
 };
 
-TEST_F(WindowObjects, AreShownWithAPartOfTheFrame) {
+TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {
   play();
-  for (const size_t i : {0, 1}) {
-    const Rect picture = row_picture(row(i), 4.0 / 3);
-    const Color color =
-        at(look(window), picture.x + picture.width / 2, picture.y + picture.height / 2);
-    // Averaged and scaled: off by one level at most, as is the conversion.
-    EXPECT_NEAR(color.r, kLevel, 2) << i;
-    EXPECT_NEAR(color.b, kLevel, 2) << i;
-  }
-}
-
-TEST_F(WindowObjects, AClickOnARowChoosesUntilTheSceneEndsAndIsSaved) {
-  play();
-  click(row(1));
+  click(2);
   const FakeSource::Places places = source->wait_for_choices(1);
   ASSERT_TRUE(places[0]);
   EXPECT_NEAR((*places[0] - Vector2d(0.75, 0.5)).norm(), 0, 1e-9);
@@ -96,29 +77,29 @@ TEST_F(WindowObjects, AClickOnARowChoosesUntilTheSceneEndsAndIsSaved) {
   EXPECT_FALSE(source->wait_for_choices(2)[1]) << "it is let go";
 }
 
-TEST_F(WindowObjects, AClickOnTheChosenRowLetsGo) {
+TEST_F(WindowChoices, SavedOnesAreSavedAgainWhenTheWindowIsClosed) {
   play();
-  FrameFacts chosen = frame(340);
-  chosen.click = 1;
-  chosen.scene.felt_object = 1;
-  chosen.scene.is_free = false;
-  give(window, chosen);
-  click(row(0));
-  EXPECT_FALSE(source->wait_for_choices(1)[0]);
+  click(2);
+  press(window, GLFW_KEY_C);
+  source->wait_for_saves(1);
+  give(window, frame(500));
+  look(window);
+  window.close();
+  EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 540 * kMillisecond);
 }
 
-TEST_F(WindowObjects, ChoicesOfALiveSourceAreNotSaved) {
+TEST_F(WindowChoices, OfALiveSourceAreNotSaved) {
   play("");
-  click(row(0));
+  click(1);
   EXPECT_TRUE(source->wait_for_choices(1)[0]);
   press(window, GLFW_KEY_C);
   look(window);
   EXPECT_TRUE(source->wait_for_saves(0).empty());
 }
 
-TEST_F(WindowObjects, OfAFilmThatIsOverCanStillBeSaved) {
+TEST_F(WindowChoices, OfAFilmThatIsOverCanStillBeSaved) {
   play("/first.avi");
-  click(row(0));
+  click(1);
   source->wait_for_choices(1);
   play("/second.avi");
   press(window, GLFW_KEY_C);
@@ -126,4 +107,4 @@ TEST_F(WindowObjects, OfAFilmThatIsOverCanStillBeSaved) {
 }
 
 }  // namespace
-}  // namespace spidar::test::window_objects_test
+}  // namespace spidar::test::window_choices_test
