@@ -3,19 +3,22 @@
 // Cost of the element in a pipeline, compared with identity, with the duration of a frame, and with
 // a decoder; for moving frames, repeated frames, still frames and gaps.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <map>
 #include <string>
 #include <vector>
 
+#include <gst/app/gstappsrc.h>
 #include <gst/gst.h>
 
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/call_timer.h"
-#include "tests/bench/cost/decoding.h"
-#include "tests/bench/cost/paced_push.h"
+#include "tests/bench/film_frames.h"
 #include "tests/bench/gst_pipeline.h"
-#include "tests/bench/tracking/film_frames.h"
+#include "tests/bench/paced_push.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/temporary_folder.h"
 
@@ -85,6 +88,48 @@ void print_pushed(const Size& size, const std::vector<Picture>& film) {
   gst_caps_unref(caps);
 }
 
+double process_time_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+/// Writes a film of `count` frames, which are those of `film` to and fro: H.264 in MP4.
+void encode(const std::vector<Picture>& film, int count, int rate_Hz, const std::string& file) {
+  const int width = film.front().width;
+  const int height = film.front().height;
+  constexpr double kBitsPerPixel = 0.06;  // as of a film
+  Pipeline pipeline(
+      "appsrc name=source format=time block=true caps=video/x-raw,format=I420,width=" +
+      std::to_string(width) + ",height=" + std::to_string(height) + ",framerate=" +
+      std::to_string(rate_Hz) + "/1,colorimetry=bt709 ! x264enc speed-preset=veryfast bitrate=" +
+      std::to_string(std::lround(1e-3 * kBitsPerPixel * rate_Hz * width * height)) +
+      " ! mp4mux ! filesink location=" + file);
+  pipeline.play();
+  const Element source = pipeline.by_name("source");
+  const int last = static_cast<int>(film.size()) - 1;
+  for (int n = 0; n < count; ++n) {
+    const int at = last - std::abs(n % (2 * last) - last);  // 0 … last … 0
+    GstBuffer* buffer = i420_buffer(film[static_cast<size_t>(at)]);
+    set_time(buffer, n, rate_Hz);
+    gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer);
+  }
+  gst_app_src_end_of_stream(GST_APP_SRC(source.get()));
+  pipeline.wait_for_end();
+}
+
+/// Processor time of a frame of all threads, whoever else uses the machine, for playing `file` of
+/// so many frames through avdec_h264 in one thread and `filter`.
+double decoding_ms(const std::string& file, int frames, const std::string& filter) {
+  Pipeline pipeline("filesrc location=" + file + " ! qtdemux ! avdec_h264 max-threads=1 ! " +
+                    filter + " ! fakesink sync=false");
+  pipeline.preroll();
+  const double begin_ms = process_time_ms();
+  pipeline.play();
+  pipeline.wait_for_end();
+  return (process_time_ms() - begin_ms) / (frames - 1);  // one was decoded before
+}
+
 void print_decoded(const Size& size, const std::vector<Picture>& film, const std::string& file) {
   constexpr int kPasses = 5;
   constexpr int kFrames = 88;  // as long as a decoder needs to get going
@@ -115,12 +160,6 @@ int spidar::bench::cost(int, char**) {
     print_pushed(size, films.back());
   }
   std::printf("\n### Beside avdec_h264, one thread\n\n");
-  const std::string missing = missing_for_decoding();
-  if (!missing.empty()) {
-    std::printf("left out: %s\n", missing.c_str());
-    return 0;
-  }
-  std::printf("film written by %s\n\n", h264_encoder().c_str());
   std::printf("| size | decoding, ms | element, ms | %% of decoding |\n|---|---|---|---|\n");
   for (size_t i = 0; i < sizes.size(); ++i) {
     print_decoded(sizes[i], films[i], folder.path / (std::to_string(i) + ".mp4"));

@@ -17,8 +17,8 @@
 #include "core/grip/tension_solver.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/call_timer.h"
-#include "tests/bench/tracking/film_frames.h"
-#include "tests/bench/tracking/peers.h"
+#include "tests/bench/film_frames.h"
+#include "tests/bench/opencv_flow.h"
 #include "tests/core/tension_reference.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/string_samples.h"
@@ -90,7 +90,7 @@ double cost_ratio() {
       const double begin_ms = thread_ms();
       analyzer.analyze(frame.view(), now_ns);
       const double middle_ms = thread_ms();
-      dis->track(frame.view());
+      dis->find(frame.view());
       ours_ms.push_back(middle_ms - begin_ms);
       dis_ms.push_back(thread_ms() - middle_ms);
     }

@@ -9,11 +9,13 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gst/gst.h>
 
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/call_timer.h"
 #include "tests/bench/skew/busy_cores.h"
 #include "tests/bench/skew/clip.h"
 #include "tests/bench/skew/measure.h"
@@ -40,17 +42,19 @@ void print_head() {
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
+/// `share` between 0 and 1: of the sizes.
+double size_of(std::vector<double> values, double share) {
+  for (double& value : values) value = std::abs(value);
+  return quantile(std::move(values), share);
+}
+
 void print_row(const Scenario& scenario, const char* cores, const Measurement& m) {
-  const Histogram& skew_ms = m.skew.signed_ms();
-  const double worst_ms =
-      std::fabs(skew_ms.min()) > std::fabs(skew_ms.max()) ? skew_ms.min() : skew_ms.max();
   std::printf(
-      "| %-35s | %-5s | %6llu | %+6.2f | %6.2f | %+7.2f | %8llu | %7llu | %7.2f | %6.2f | %4ld "
-      "|\n",
-      scenario.what, cores, static_cast<unsigned long long>(m.shown), skew_ms.quantile(0.5),
-      m.skew.size_ms().quantile(0.99), worst_ms, static_cast<unsigned long long>(m.not_felt()),
-      static_cast<unsigned long long>(m.dropped), m.picture_ms.quantile(0.99),
-      m.force.size_ms().quantile(0.99), std::lround(m.clock_ppm));
+      "| %-35s | %-5s | %6zu | %+6.2f | %6.2f | %7.2f | %8llu | %7llu | %7.2f | %6.2f | %4ld |\n",
+      scenario.what, cores, m.picture_ms.size(), quantile(m.skew_ms, 0.5), size_of(m.skew_ms, 0.99),
+      size_of(m.skew_ms, 1), static_cast<unsigned long long>(m.not_felt()),
+      static_cast<unsigned long long>(m.dropped), quantile(m.picture_ms, 0.99),
+      size_of(m.force_ms, 0.99), std::lround(m.clock_ppm));
 }
 
 /// False when there is nothing to report.
@@ -59,7 +63,7 @@ bool report(const Scenario& scenario, const char* cores, const std::string& clip
   try {
     const Measurement measurement = measure(scenario, clip, seconds);
     scheduling = measurement.scheduling;
-    if (measurement.skew.signed_ms().count() == 0) {
+    if (measurement.skew_ms.empty()) {
       throw std::runtime_error("no frame was both shown and felt");
     }
     print_row(scenario, cores, measurement);

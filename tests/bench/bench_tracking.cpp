@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Speed and error of trackers on films of known motion; the columns:
-//   ms      time of a frame on one thread: tracks, and the object by motion=object
-//   EPE     distance between the measured and the true end of a track, px of the frame
-//   lost    points looked for and not found; wrong: tracks more than 1 px off
-//   A       error of the mean of all tracks (eq. 10), px a frame
-//   B       error of the dominant object's motion against the background, px a frame
-//   missed  frames without B; ghosts: frames with an object in films that have none
-// "naive" is a first attempt with OpenCV: 200 new points and full size on each frame. "motion=mean"
-// uses the same functions with care. B of all pipelines comes from the same search for objects.
+// Time of the analysis, beside what OpenCV offers, and error of the dominant object's motion
+// against the background on films of known motion.
+//   ms      processor time of a frame on one thread
+//   error   px a frame at a width of 640; of a frame without an object, what it moved
+//   missed  frames in which an object in view is not found; ghosts: with one in films that have
+//   none
+// "naive" is a first attempt with OpenCV: 200 new points and full size on each frame. motion=mean
+// uses the same functions with care.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <deque>
+#include <ctime>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,89 +20,133 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "core/analysis/motion_analyzer.h"
 #include "tests/bench/benchmarks.h"
-#include "tests/bench/tracking/film_frames.h"
-#include "tests/bench/tracking/report.h"
-#include "tests/bench/tracking/run.h"
+#include "tests/bench/call_timer.h"
+#include "tests/bench/film_frames.h"
+#include "tests/bench/opencv_flow.h"
 #include "tests/support/motion_cases.h"
 
 namespace {
 
 using namespace spidar;
 using namespace spidar::bench;
-using test::CaseGroup;
-using test::MotionCase;
+using Eigen::Vector2d;
 
-/// Sizes say nothing new about these, pictures do.
-constexpr int kHardWidth = 1280;
-constexpr int kHardHeight = 720;
-constexpr int kHardScenes = 4;
+constexpr int64_t kFrame_ns = 33'333'333;
+constexpr double kFrame_s = 1e-9 * static_cast<double>(kFrame_ns);
+constexpr double kReferenceWidth_px = 640;
 
-class Benchmark {
+/// What frames are put through, one after the other.
+struct Method {
+  const char* name;
+  std::function<void(const ImageView&, int64_t now_ns)> take;
+  std::vector<double> ms;
+};
+
+/// Over all films of a size.
+class Errors {
  public:
-  void run(const std::vector<std::pair<int, int>>& sizes) {
-    for (const auto& [width, height] : sizes) {
-      std::vector<Score> sum(pipelines().size());
-      for (const auto& [name, each] : score(width, height, CaseGroup::kUsual)) {
-        for (size_t k = 0; k < sum.size(); ++k) sum[k].add(each[k]);
-      }
-      print_usual(std::to_string(width) + "x" + std::to_string(height), pipelines(), sum);
+  void add(const test::Film& film, int frame, const MovingObject* found) {
+    ghost_frames_ += film.objects.empty();
+    ghosts_ += film.objects.empty() && found;
+    const double unit = kReferenceWidth_px / film.width();
+    double least_px = -1;  // of several objects, that whose motion is nearest
+    for (const test::FilmObject& object : film.objects) {
+      if (!film.is_in_view(frame, object)) continue;
+      // Of an object that turns, the truth is that of the place that the velocity is said to be of.
+      const Vector2d place_px =
+          (found ? Vector2d(found->position_px - found->on_screen_px_s * kFrame_s)
+                 : object.centre_px(frame - 1)) +
+          film.middle_px();
+      const Vector2d moved_px = film.object_displacement_px(frame, object, place_px);
+      const Vector2d found_px = found ? found->relative_px_s * kFrame_s : Vector2d(0, 0);
+      const double error_px = unit * (found_px - moved_px).norm();
+      if (least_px < 0 || error_px < least_px) least_px = error_px;
     }
-    print_hard(pipelines(), score(kHardWidth, kHardHeight, CaseGroup::kHard));
-    print_silent(pipelines(), score(kHardWidth, kHardHeight, CaseGroup::kSilent));
+    if (least_px < 0) return;
+    error_px_.push_back(least_px);
+    missed_ += !found;
+  }
+  void print() const {
+    std::printf("| %.3f | %.3f | %.1f | %.1f |\n", quantile(error_px_, 0.5),
+                quantile(error_px_, 0.95), 100.0 * missed_ / static_cast<double>(error_px_.size()),
+                100.0 * ghosts_ / ghost_frames_);
   }
 
  private:
-  std::deque<Runner> runners() const {
-    std::deque<Runner> all;
-    for (const Pipeline& pipeline : pipelines()) all.emplace_back(pipeline);
-    return all;
-  }
-
-  /// Cases of a group at one size; those that cannot be made are named and left out.
-  CaseScores score(int width, int height, CaseGroup group) {
-    CaseScores scores;
-    for (const MotionCase& each : test::motion_cases()) {
-      if (each.group == group)
-        scores.emplace_back(each.name, std::vector<Score>(pipelines().size()));
-    }
-    std::deque<Runner> all = runners();
-    const int scenes = group == CaseGroup::kUsual ? 1 : kHardScenes;
-    for (int scene = 1; scene <= scenes; ++scene) {
-      for (auto& [name, sums] : scores) {
-        const MotionCase& each = test::motion_case(name);
-        test::Film film = each.film(width, height, static_cast<uint32_t>(scene));
-        std::vector<test::Picture> frames = draw_all(film, test::kFilmFrames);
-        try {
-          if (each.coded) frames = coded(frames);
-        } catch (const std::runtime_error& error) {
-          std::printf("%s is left out: %s\n", name.c_str(), error.what());
-          continue;
-        }
-        const std::vector<Score> found = run_all(all, film, frames);
-        for (size_t k = 0; k < found.size(); ++k) sums[k].add(found[k]);
-      }
-    }
-    return scores;
-  }
+  std::vector<double> error_px_;
+  int missed_ = 0, ghosts_ = 0, ghost_frames_ = 0;
 };
 
-/// "640x360".
-std::pair<int, int> size_of(const std::string& text) {
-  int width = 0, height = 0;
-  if (std::sscanf(text.c_str(), "%dx%d", &width, &height) != 2 || width < 64 || height < 64) {
-    throw std::invalid_argument(text + " is not a size such as 640x360");
+double thread_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+void measure(int width, int height) {
+  MotionAnalyzer object, mean{paper_settings()};
+  const Frame* found = nullptr;
+  std::unique_ptr<Flow> naive, dis;
+  Method methods[] = {
+      {"motion=object",
+       [&](const ImageView& view, int64_t now_ns) { found = &object.analyze(view, now_ns); },
+       {}},
+      {"motion=mean",
+       [&](const ImageView& view, int64_t now_ns) { mean.analyze(view, now_ns); },
+       {}},
+      {"DIS ultrafast at 480 px", [&](const ImageView& view, int64_t) { dis->find(view); }, {}},
+      {"naive wiring of OpenCV", [&](const ImageView& view, int64_t) { naive->find(view); }, {}}};
+  Errors errors;
+  for (const test::MotionCase& each : test::motion_cases()) {
+    if (each.group != test::CaseGroup::kUsual) continue;
+    test::Film film = each.film(width, height, 1);
+    std::vector<test::Picture> frames = draw_all(film, test::kFilmFrames);
+    try {
+      if (each.coded) frames = coded(frames);
+    } catch (const std::runtime_error& error) {
+      std::printf("%s is left out: %s\n", each.name.c_str(), error.what());
+      continue;
+    }
+    object.restart();
+    mean.restart();
+    naive = make_naive();
+    dis = make_dis_ultrafast();
+    for (size_t n = 0; n < frames.size(); ++n) {
+      for (Method& method : methods) {  // in turn, so that what disturbs hits all
+        const double begin_ms = thread_ms();
+        method.take(frames[n].view(), static_cast<int64_t>(n) * kFrame_ns);
+        if (n > 0) method.ms.push_back(thread_ms() - begin_ms);
+      }
+      if (n > 0) errors.add(film, static_cast<int>(n), found->dominant_object());
+    }
   }
-  return {width, height};
+  std::printf(
+      "\n### %dx%d\n\n| | ms median | 99 %% | error median | 95 %% | missed %% | ghosts %% |\n"
+      "|---|---|---|---|---|---|---|\n",
+      width, height);
+  for (const Method& method : methods) {
+    std::printf("| %s | %.2f | %.2f ", method.name, quantile(method.ms, 0.5),
+                quantile(method.ms, 0.99));
+    if (&method == methods)
+      errors.print();
+    else
+      std::puts("| – | – | – | – |");
+  }
 }
 
 }  // namespace
 
 int spidar::bench::tracking(int argc, char** argv) {
   cv::setNumThreads(1);
-  std::vector<std::pair<int, int>> sizes;
-  for (int i = 1; i < argc; ++i) sizes.push_back(size_of(argv[i]));
-  if (sizes.empty()) sizes = {{640, 360}, {1280, 720}};
-  Benchmark().run(sizes);
+  std::vector<std::string> sizes(argv + 1, argv + argc);
+  if (sizes.empty()) sizes = {"640x360", "1280x720"};
+  for (const std::string& size : sizes) {
+    int width = 0, height = 0;
+    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2 || width < 64 || height < 64)
+      throw std::invalid_argument(size + " is not a size such as 640x360");
+    measure(width, height);
+  }
   return 0;
 }

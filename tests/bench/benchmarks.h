@@ -14,7 +14,6 @@ int regression(int argc, char** argv);
 int safety(int argc, char** argv);
 int skew(int argc, char** argv);
 int tension(int argc, char** argv);
-int tension_hard(int argc, char** argv);
 int touch_strings(int argc, char** argv);
 int tracking(int argc, char** argv);
 

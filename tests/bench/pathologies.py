@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Compares the force of variants of a film with that of the plain film. pathologies.py BUILD [CLIP...] makes the variants
-with ffmpeg, plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
+"""Compares the force of variants of a film with that of the plain film. pathologies.py BUILD [CLIP|FOLDER...] makes the
+variants with ffmpeg, plays them through the spidarmotion of a meson build folder, and prints a table with a row for each.
 
 Without a CLIP the films are made, too: one with a moving object in front of a pan, and the pan alone. A CLIP is
-something that ffmpeg reads, with one shot of two seconds or more.
+something that ffmpeg reads, with one shot of two seconds or more; a FOLDER is as for real_films.py.
 
 strength: root mean square of the force, over that of the plain film. angle: between the two curves of force, as vectors
 over time. steps: root mean square of the change of force in a millisecond, over that of the plain film. rest: largest
-force, N, where none belongs: in films without an object, in a freeze. Within: strength 0.9 … 1.1 and angle below 15
+force, N, where none belongs: in films without an object, in a freeze. Within: strength 0.9 … 1.1 and angle below 10
 degrees, both beyond what coding the film at crf 17 … 23 does to it; steps at most 1.5; rest below 2 mN. Not counted are
 the first half second, in which the rhythm of the frames is learnt, and the time of a fade and three frames after it.
 
@@ -26,11 +26,13 @@ import tempfile
 from pathlib import Path
 
 from pathology_films import LOSSLESS, RATE, SETTLED_S, SKIPPED_S, ffmpeg, make_films, variants, x264
+from real_films import films_of
 
+PROFILES = Path(__file__).resolve().parents[2] / "spidar" / "profiles" / "shipped"
 SAMPLE_S = 0.001
 CHANNELS = 6
 FULL_SCALE_N = 10
-STRENGTH, ANGLE, STEPS, REST_N = 0.1, 15, 1.5, 0.002
+STRENGTH, ANGLE, STEPS, REST_N = 0.1, 10, 1.5, 0.002
 
 
 class Player:
@@ -39,7 +41,7 @@ class Player:
     def __init__(self, build, folder):
         self.environment = dict(os.environ, GST_PLUGIN_PATH=str(build / "plugin"),
                                 GST_REGISTRY=str(folder / "registry"))
-        self.environment.setdefault("SPIDAR_PROFILE_PATH", "spidar/profiles")
+        self.environment.setdefault("SPIDAR_PROFILE_PATH", str(PROFILES))
         self.samples = folder / "force.f32"
 
     def force(self, film, behind_decoder=""):
@@ -199,7 +201,7 @@ def measure(name, film, player, folder, table):
 
 def main():
     if len(sys.argv) < 2:
-        sys.exit("usage: pathologies.py BUILD [CLIP...]")
+        sys.exit("usage: pathologies.py BUILD [CLIP|FOLDER...]")
     for tool in ("ffmpeg", "ffprobe", "gst-launch-1.0"):
         if not shutil.which(tool):
             sys.exit(f"pathologies.py: needs {tool}")
@@ -208,7 +210,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         player = Player(build, folder)
-        clips = [Path(c) for c in sys.argv[2:]]
+        clips = [clip for given in map(Path, sys.argv[2:]) for clip in (films_of([given]) if given.is_dir() else [given])]
         films = []
         for clip in clips:
             film = folder / f"plain-{clip.stem}.mkv"

@@ -4,7 +4,8 @@
 """Measures whether the right motion is felt in real films:
 
   tests/bench/real_films.sh FOLDER...                        the spidarmotion of build/
-  BUILD=FOLDER OLDER=FOLDER tests/bench/real_films.sh ...    of other build folders; OLDER: a row for another version
+  BUILD=FOLDER OLDER=FOLDER tests/bench/real_films.sh ...    of other build folders; OLDER: beside another version,
+                                                             with the frames that are judged in another way
 
 A FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
@@ -16,6 +17,10 @@ listed: some object of the frame is right, whether it is felt or not. Counted ar
 true motion, of a frame 480 lines high, not the first two. false: frames of films without an object in which some
 motion is felt. felt: more than 2.1 px/s of a frame 480 lines high. jitter: root mean square of the second
 difference of the motion, px of a frame 480 lines high, median over the films, beside that of the truth.
+
+not right, in per cent of the counted frames, by cause: not yet, the object has not been listed so far; no camera, how
+the camera moves is not known; not found, no listed object is right; not felt, one is right and nothing is felt; another,
+one is right and another is felt.
 
 Calm, over all films, a minute: changes, how often another object is felt; turns, how often the force turns
 by more than 90 degrees from one frame to the next; starts, how often a force begins that a hand feels.
@@ -30,6 +35,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 REFERENCE_LINES = 480
@@ -41,8 +47,9 @@ UNSEEN = 2  # frames at the beginning of a film
 # Of `spidar-bench real_film`, and their names in the table.
 METHODS = {"dis": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
-COLUMNS = ["", "right %", "wrong %", "any force %", "false %", "listed %", "changes, turns, starts a minute",
-           "jitter (true), px", "ms"]
+CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
+COLUMNS = ["", "right %", "wrong %", "any force %", "false %", "listed %", "not right: " + ", ".join(CAUSES),
+           "changes, turns, starts a minute", "jitter (true), px", "ms"]
 
 
 def print_head(*columns):
@@ -61,8 +68,8 @@ def read_truth(film):
 class Frame:
     """What was found in a frame: its motion and those of all objects, px since the frame before; the force, N."""
 
-    def __init__(self, motion, seconds, height, objects=(), force_N=None, felt_object=0):
-        self.motion, self.seconds, self.height = motion, seconds, height
+    def __init__(self, motion, seconds, height, objects=(), force_N=None, felt_object=0, has_camera=True):
+        self.motion, self.seconds, self.height, self.has_camera = motion, seconds, height, has_camera
         self.objects, self.force_N, self.felt_object = objects, force_N, felt_object
         self.is_felt = math.hypot(*motion) > FELT_PX_S * seconds * height / REFERENCE_LINES and seconds > 0
 
@@ -85,7 +92,7 @@ def play(build, film, properties=()):
         moved = lambda of: tuple(v * seconds for v in of["velocity_px_s"])
         frames.append(Frame(moved(row["motion"]), seconds, row["height_px"],
                             [moved(each) for each in row.get("objects") or ()], row["wrench"]["force_N"],
-                            row.get("object", 0)))
+                            row.get("object", 0), (row.get("background") or {}).get("coverage", 0) > 0))
     return frames
 
 
@@ -128,6 +135,7 @@ class Tally:
     def __init__(self):
         self.counted = self.right = self.wrong = self.felt = self.listed = 0
         self.without_object = self.false = 0
+        self.causes = Counter()
         self.jitters, self.true_jitters, self.times_ms = [], [], []
         self.changes = self.turns = self.starts = 0
         self.seconds = 0.0
@@ -142,7 +150,7 @@ class Tally:
             return []
         unit = frames[0].height / REFERENCE_LINES
         known = [n for n in truth if UNSEEN <= n < len(frames)]
-        verdicts = []
+        verdicts, ever_listed = [], False
         for n in known:
             if math.hypot(*truth[n]) <= LEAST_TRUE_PX * unit:
                 continue
@@ -152,7 +160,12 @@ class Tally:
             self.felt += frames[n].is_felt
             self.right += found == "right"
             self.wrong += found == "wrong"
-            self.listed += any(verdict(each, truth[n]) == "right" for each in frames[n].objects)
+            listed = any(verdict(each, truth[n]) == "right" for each in frames[n].objects)
+            self.listed += listed
+            ever_listed |= listed
+            if found != "right":
+                self.causes["another" if listed and frames[n].is_felt else "not felt" if listed else
+                            "no camera" if not frames[n].has_camera else "not found" if ever_listed else "not yet"] += 1
         motion = [frame.motion for frame in frames]
         for each, to in ((motion, self.jitters), (truth, self.true_jitters)):
             value = jitter_px(each, set(known))
@@ -180,11 +193,12 @@ class Tally:
         middle = lambda values: f"{statistics.median(values):.2f}" if values else "-"
         calm = ", ".join(f"{60 * n / self.seconds:.1f}" for n in (self.changes, self.turns, self.starts)
                          ) if self.has_force and self.seconds else "-"
+        causes = ", ".join(share(self.causes[cause], self.counted) for cause in CAUSES) if self.has_force else "-"
         times = sorted(self.times_ms)
         ms = f"{times[len(times) // 2]:.2f}, {times[len(times) * 99 // 100]:.2f}, {times[-1]:.2f}" if times else "-"
         return (f"| {name} | {share(self.right, self.counted)} | {share(self.wrong, self.counted)} "
                 f"| {share(self.felt, self.counted)} | {share(self.false, self.without_object)} "
-                f"| {share(self.listed, self.counted) if self.has_force else '-'} | {calm} "
+                f"| {share(self.listed, self.counted) if self.has_force else '-'} | {causes} | {calm} "
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) | {ms} |")
 
 
@@ -205,24 +219,29 @@ def main():
         if not list((each / "plugin").glob("libgstspidar.*")):
             sys.exit(f"real_films.py: no plugin in {each}/plugin: build it with meson compile")
     program = build / "tests" / "bench" / "spidar-bench"
+    measures = "real_film" in subprocess.run([program], check=False, stdout=subprocess.PIPE, text=True).stdout
+    if not measures:
+        print("No ms and no other methods: spidar-bench was built without libavformat-dev.\n")
 
     rows = {}  # name of a row: the verdict of each frame, by film
-    each_film = []
+    each_film = {}
     print_head(*COLUMNS)
     runs = [("this version", build, ()), ("closest to the paper", build, PAPER)]
     runs += [("the other version", Path(older).resolve(), ())] if older else []
     for name, which, properties in runs:
         tally = Tally()
         for film in films:
-            times_ms = measure(program, "paper" if properties else "default", film)[1] if which == build else ()
+            times_ms = (measure(program, "paper" if properties else "default", film)[1]
+                        if measures and which == build else ())
             frames, truth = play(which, film, properties), read_truth(film)
             rows.setdefault(name, {})[film.name] = tally.add(frames, truth, times_ms)
-            if name == "this version":
+            if not properties:
                 alone = Tally()
                 alone.add(frames, truth, times_ms)
-                each_film.append(alone.row(film.name))
+                each_film.setdefault(film.name, []).append(
+                    alone.row(film.name if which == build else f"{film.name}, the other version"))
         print(tally.row(name), flush=True)
-    for method, name in METHODS.items():
+    for method, name in METHODS.items() if measures else ():
         tally = Tally()
         for film in films:
             frames, times_ms = measure(program, method, film)
@@ -231,7 +250,7 @@ def main():
 
     print("\nEach film:\n")
     print_head(*COLUMNS)
-    print("\n".join(each_film))
+    print("\n".join(row for rows_of_film in each_film.values() for row in rows_of_film))
     if older:
         print("\nFrames that are judged in another way by the other version:\n")
         for film, verdicts in rows["this version"].items():

@@ -17,7 +17,7 @@ run() { # NAME
     case $1 in
     tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 ;;
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
-    films) python3 tests/bench/pathologies.py "$build" ;;
+    films) BUILD=$build tests/bench/pathologies.sh ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
     paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
     *) bench "$1" ;;
@@ -26,7 +26,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar
-[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films} skew loop cost tension tension_hard pose safety hazards touch_strings paper
+[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films} skew loop cost tension pose safety hazards touch_strings paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

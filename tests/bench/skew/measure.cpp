@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -132,17 +133,21 @@ Measurement measure(const Scenario& scenario, const std::string& clip, double se
     return frame.monotonic_ns < begin_ns || frame.monotonic_ns > end_ns;
   };
   shown.erase(std::remove_if(shown.begin(), shown.end(), is_outside), shown.end());
-  result.shown = shown.size();
   result.clock_ppm = drift_ppm(shown);
-  for (const ShownFrame& frame : shown) {
-    result.skew.shown(frame.running_ns, frame.monotonic_ns);
-    result.force.shown(frame.running_ns, frame.due_ns);
-    result.picture_ms.add(1e-6 * static_cast<double>(frame.monotonic_ns - frame.due_ns));
-  }
+  std::map<int64_t, int64_t>
+      felt_ns;  // CLOCK_MONOTONIC of the first tick of a frame, by running time
   for (const FeltFrame& frame : scenario.track ? felt.reached(shown, begin_ns) : felt.frames()) {
-    if (frame.monotonic_ns < begin_ns) continue;
-    result.skew.felt(frame.running_ns, frame.monotonic_ns);
-    result.force.felt(frame.running_ns, frame.monotonic_ns);
+    if (frame.monotonic_ns >= begin_ns) felt_ns.emplace(frame.running_ns, frame.monotonic_ns);
+  }
+  const auto ms = [](int64_t later_ns, int64_t earlier_ns) {
+    return 1e-6 * static_cast<double>(later_ns - earlier_ns);
+  };
+  for (const ShownFrame& frame : shown) {
+    result.picture_ms.push_back(ms(frame.monotonic_ns, frame.due_ns));
+    const auto tick = felt_ns.find(frame.running_ns);
+    if (tick == felt_ns.end()) continue;
+    result.skew_ms.push_back(ms(tick->second, frame.monotonic_ns));
+    result.force_ms.push_back(ms(tick->second, frame.due_ns));
   }
   return result;
 }

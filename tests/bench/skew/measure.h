@@ -5,23 +5,23 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "tests/bench/skew/histogram.h"
 #include "tests/bench/skew/scenario.h"
-#include "tests/bench/skew/skew.h"
 
 namespace spidar::bench {
 
 struct Measurement {
-  Skew skew;             ///< force − picture
-  Skew force;            ///< force − when the picture was due, see ShownFrame
-  Histogram picture_ms;  ///< picture − when it was due
-  uint64_t shown = 0;    ///< frames
-  uint64_t dropped = 0;  ///< frames that came to the sink too late
-  double clock_ppm = 0;  ///< drift of the pipeline's clock against CLOCK_MONOTONIC
+  // Of each frame that was both shown and felt, ms.
+  std::vector<double> skew_ms;   ///< force − picture
+  std::vector<double> force_ms;  ///< force − when the picture was due, see ShownFrame
+  // Of each frame shown.
+  std::vector<double> picture_ms;  ///< picture − when it was due
+  uint64_t dropped = 0;            ///< frames that came to the sink too late
+  double clock_ppm = 0;            ///< drift of the pipeline's clock against CLOCK_MONOTONIC
   std::string scheduling;
 
-  uint64_t not_felt() const { return shown - skew.signed_ms().count(); }
+  uint64_t not_felt() const { return picture_ms.size() - skew_ms.size(); }
 };
 
 /// Plays for `seconds` and joins every frame shown with the first tick of the haptic loop that had

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "tests/bench/cost/paced_push.h"
+#include "tests/bench/paced_push.h"
 
 #include <ctime>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "tests/bench/tracking/film_frames.h"
+#include "tests/bench/film_frames.h"
 
 #include <cstring>
 #include <stdexcept>
@@ -52,16 +52,12 @@ std::vector<Picture> draw_all(test::Film& film, int frames) {
   return pictures;
 }
 
-std::vector<Picture> coded(const std::vector<Picture>& frames, Coder coder) {
+std::vector<Picture> coded(const std::vector<Picture>& frames) {
   const Picture& first = frames.front();
   constexpr double kBitsPerPixel = 0.06;
   const double kbit_s = kBitsPerPixel * 30e-3 * first.width * first.height;
   const std::string encoder =
-      coder == Coder::kX264
-          ? "x264enc threads=1 speed-preset=veryfast bitrate=" +
-                std::to_string(static_cast<int>(kbit_s))
-          : "openh264enc bitrate=" + std::to_string(static_cast<int>(1000 * kbit_s)) +
-                " ! h264parse";
+      "x264enc threads=1 speed-preset=veryfast bitrate=" + std::to_string(static_cast<int>(kbit_s));
   const std::string size =
       "width=" + std::to_string(first.width) + ",height=" + std::to_string(first.height);
   Pipeline pipeline("appsrc name=source format=time max-bytes=0 caps=video/x-raw,format=I420," +
@@ -86,17 +82,6 @@ std::vector<Picture> coded(const std::vector<Picture>& frames, Coder coder) {
                              " frames: " + pipeline.problem());
   }
   return result;
-}
-
-Picture read_picture(const std::string& file) {
-  Pipeline pipeline(
-      "filesrc name=file ! decodebin ! videoconvert ! video/x-raw,format=GRAY8 ! "
-      "appsink name=sink sync=false");
-  g_object_set(pipeline.by_name("file").get(), "location", file.c_str(), nullptr);
-  pipeline.play();
-  GstSample* sample = gst_app_sink_pull_sample(GST_APP_SINK(pipeline.by_name("sink").get()));
-  if (!sample) throw std::runtime_error(file + ": " + pipeline.problem());
-  return picture_of(sample);
 }
 
 }  // namespace spidar::bench
