@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "core/image_view.h"
+#include "core/picture/image_view.h"
 
 namespace spidar::bench {
 
