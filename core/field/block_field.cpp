@@ -213,6 +213,21 @@ bool BlockField::is_in_reach(int left_px, int top_px) const {
          top_px + 1 + kBlock_px <= now_.height() + kBlockReach_px;
 }
 
+size_t BlockField::origin_of(size_t index) const {
+  const MotionBlock& block = blocks_[index];
+  const int column = static_cast<int>(index) % grid_.columns;
+  const int row = static_cast<int>(index) / grid_.columns;
+  const auto back = [](int place, float moved_px, int count) {
+    // Clamped first: half a block outside is the first or the last one. std::lround() would be a
+    // call, three times for each block.
+    const float from = static_cast<float>(place) - moved_px / kBlock_px;
+    const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
+    return static_cast<int>(inside + 0.5);
+  };
+  return static_cast<size_t>(back(row, block.moved_y_px, grid_.rows) * grid_.columns +
+                             back(column, block.moved_x_px, grid_.columns));
+}
+
 int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
   if (!is_finite_motion(x_px, y_px)) return -1;
   const int left = grid_.x_px(block % grid_.columns);

@@ -38,6 +38,11 @@ struct MotionBlock {
   /// Whether the motion is known in one direction at least: the structure is more than what is
   /// added to both.
   bool has_texture() const { return xx + yy > 2 * kRegularization; }
+  /// Smaller eigenvalue above which the motion is known to a fraction of a pixel.
+  static constexpr double kLeastVoteTexture = static_cast<double>(kRegularization);
+  /// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a
+  /// match along the edge would only follow noise.
+  static constexpr double kLeastRoundness = 0.05;
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.
   float weakest_texture() const;
@@ -71,6 +76,9 @@ class BlockField {
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
   /// Pixels of the base to one pixel of the picture.
   double scale() const { return pixels_to_one(scale_); }
+
+  /// Block of the previous picture from which block `index` has come: the nearest one of the grid.
+  size_t origin_of(size_t index) const;
 
   /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smaller of the values at
   /// the exact place and at the nearest whole pixels. Negative when that place is out of reach.

@@ -8,15 +8,6 @@
 namespace spidar {
 namespace {
 
-/// Blocks this close to the border of the picture count as being at the border.
-constexpr int kBorderBlocks = 2;
-/// Smaller eigenvalue of the structure tensor, (grey / px)²: a block may vote where its motion is
-/// known to a fraction of a pixel, and its vote approaches a full one well above kFullTexture.
-constexpr auto kLeastVoteTexture = static_cast<double>(MotionBlock::kRegularization);
-constexpr double kFullTexture = 24;
-/// A block whose own motion leaves this residual has half a vote, grey².
-constexpr double kBadResidual = 60;
-
 /// Mean of ρ over the votes, see point_cost().
 double mean_cost(const MotionModel& model, const BackgroundVotes& votes, double sigma_px) {
   double sum = 0;
@@ -41,65 +32,9 @@ FieldPlace place_of(const BlockField& field, const ReducedFrame& reduced) {
 }  // namespace
 
 MotionEstimator::MotionEstimator() {
-  votes_.points.reserve(kMostDisplacements);
-  votes_.weights.reserve(kMostDisplacements);
-  votes_.at_border.reserve(kMostDisplacements);
-  votes_.sources.reserve(kMostDisplacements);
+  votes_.reserve(kMostDisplacements);
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
-}
-
-/// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
-/// block has in both directions and the better its motion fits; it counts twice at the border of
-/// the picture, and half for a block that moved by itself until now. Rest at the border counts
-/// once: graphics are mostly there, whereas a camera at rest shows it all over the picture. How an
-/// edge moves along itself is not known; edges therefore vote only where little else does, as in a
-/// picture out of focus. Returns whether the voters together have edges in more than one direction.
-bool MotionEstimator::collect_votes(Voters voters) {
-  votes_.clear();
-  votes_.with_edges = voters == Voters::kEdgesToo;
-  MotionBlock together;
-  const BlockGrid& grid = field_.grid();
-  const std::vector<float>& persistence = objects_.persistence();
-  const int left = objects_.margins().columns();
-  const int top = objects_.margins().rows();
-  votes_.size_px = {(grid.columns - 2 * left) * kBlock_px, (grid.rows - 2 * top) * kBlock_px};
-  for (int row = top; row < grid.rows - top; ++row) {
-    for (int column = left; column < grid.columns - left; ++column) {
-      const bool at_border = std::min(column, grid.columns - 1 - column) < left + kBorderBlocks ||
-                             std::min(row, grid.rows - 1 - row) < top + kBorderBlocks;
-      votes_.all += at_border ? kBorderVotes : 1;
-      const auto i = static_cast<size_t>(row * grid.columns + column);
-      const MotionBlock& block = field_.blocks()[i];
-      const double texture = static_cast<double>(block.weakest_texture());
-      const bool may_vote = voters == Voters::kEdgesToo ? block.has_texture() && texture > 0
-                                                        : texture >= kLeastVoteTexture;
-      if (!may_vote || votes_.points.size() >= kMostDisplacements) continue;
-      if (objects_.is_burned_in(i)) continue;
-      double weight = texture / (texture + kFullTexture) /
-                      (1 + static_cast<double>(block.residual) / kBadResidual);
-      // Right to half a pixel, as all motion is before it is refined.
-      const bool rests = std::hypot(block.moved_x_px, block.moved_y_px) < kMostOff_px / 2;
-      if (at_border && !rests) weight *= kBorderVotes;
-      if (!persistence.empty()) {
-        weight *= 1 - static_cast<double>(persistence[origin_of(field_, i)]) / 2;
-      }
-      const Eigen::Vector2d moved_px =
-          Eigen::Vector2f(block.moved_x_px, block.moved_y_px).cast<double>();
-      const Eigen::Vector2d at_px = Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
-      votes_.points.push_back({0, at_px - moved_px, moved_px});
-      votes_.weights.push_back(weight);
-      votes_.at_border.push_back(at_border);
-      votes_.sources.push_back(i);
-      const float all_texture = block.xx + block.yy;
-      together.xx += block.xx / all_texture;
-      together.xy += block.xy / all_texture;
-      together.yy += block.yy / all_texture;
-    }
-  }
-  const auto across = static_cast<double>(together.weakest_texture());
-  const auto both = static_cast<double>(together.xx + together.yy);
-  return across > kLeastRoundness * (both - across);
 }
 
 /// Refines the model with the windows that agree with it: blocks are accurate to a tenth of a
@@ -158,8 +93,9 @@ void MotionEstimator::report_tracks(const FieldPlace& place, std::vector<Track>&
   const Eigen::Vector2f centre_px = place.centre_px.cast<float>();
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
-    const bool shows_motion = objects_.is_measured(i) ||
-                              static_cast<double>(block.weakest_texture()) >= kLeastVoteTexture;
+    const bool shows_motion =
+        objects_.is_measured(i) ||
+        static_cast<double>(block.weakest_texture()) >= MotionBlock::kLeastVoteTexture;
     if (!shows_motion) continue;
     const ImagePoint to{centre_px.x() + scale * block.x_px, centre_px.y() + scale * block.y_px};
     const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
@@ -182,8 +118,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
   const FieldPlace place = place_of(field_, reduced);
   const std::vector<FineMotion>& fine = windows_.find(image, field_, place);
-  collect_votes(Voters::kTextured);
-  if (votes_.are_few() && !collect_votes(Voters::kEdgesToo)) collect_votes(Voters::kTextured);
+  collect_votes(field_, objects_.past(), votes_);
   Background background = estimator_.estimate(votes_);
   refine_background(background, fine);
   frame.background = in_pixels_of(background, place.scale);

@@ -9,6 +9,7 @@
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
 #include "core/motion/camera/background.h"
+#include "core/motion/camera/block_votes.h"
 #include "core/motion/measured_frame.h"
 #include "core/motion/objects/dominant_object.h"
 #include "core/motion/objects/object_tracker.h"
@@ -32,9 +33,6 @@ class MotionEstimator {
   void reset();
 
  private:
-  enum class Voters { kTextured, kEdgesToo };
-
-  bool collect_votes(Voters voters);
   void refine_background(Background& background, const std::vector<FineMotion>& fine);
   void keep_windows(const ImageView& frame, const FieldPlace& place);
   void report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const;

@@ -51,7 +51,7 @@ constexpr double kMaxReturn_px = 0.2;
 constexpr double kRounding = 1.0;
 
 /// Settings of one search for points.
-struct Search {
+struct PointSearch {
   int level;      ///< coarsest pyramid level
   bool expected;  ///< start at the last displacement, not at the old place
   /// Largest difference of the windows, as a share of the contrast in them. The limit is relative
@@ -63,7 +63,7 @@ struct Search {
 /// Few points change their motion much: the two finest levels find them. This also keeps a periodic
 /// texture from jumping by a period, to which the coarse levels are prone. Only a clear match
 /// counts. For the other points all levels are searched.
-constexpr Search kSearches[] = {{1, true, 0.12}, {kMaxLevel, false, 0.4}};
+constexpr PointSearch kSearches[] = {{1, true, 0.12}, {kMaxLevel, false, 0.4}};
 
 /// The pyramid levels of a picture and their derivatives.
 using Pyramid = std::vector<cv::Mat>;
@@ -116,7 +116,7 @@ struct Flow {
 
 /// Searches those of `features` that are not `found` yet, forwards, and back in the same way. Moves
 /// them and marks them.
-void follow_missing(const Pyramid& before, const Pyramid& now, const Search& search,
+void follow_missing(const Pyramid& before, const Pyramid& now, const PointSearch& search,
                     std::vector<Feature>& features, std::vector<bool>& found) {
   std::vector<size_t> missing;
   std::vector<cv::Point2f> from;
@@ -202,7 +202,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
 /// Moves the features to the new picture and drops the lost ones. Returns false at a cut.
 bool OpenCvTracker::Impl::follow() {
   std::vector<bool> found(features.size(), false);
-  for (const Search& search : kSearches) follow_missing(before, now, search, features, found);
+  for (const PointSearch& search : kSearches) follow_missing(before, now, search, features, found);
   size_t kept = 0;
   for (size_t i = 0; i < features.size(); ++i) {
     if (!found[i]) continue;

@@ -41,6 +41,13 @@ ModelKind next(ModelKind kind, int step) {
 
 }  // namespace
 
+void BackgroundVotes::reserve(size_t votes) {
+  points.reserve(votes);
+  weights.reserve(votes);
+  at_border.reserve(votes);
+  sources.reserve(votes);
+}
+
 void BackgroundVotes::clear() {
   points.clear();
   weights.clear();

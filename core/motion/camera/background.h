@@ -33,6 +33,7 @@ struct BackgroundVotes {
   /// Whether a single object could have cast them all, or they are too few for any model.
   bool are_few() const;
   void clear();
+  void reserve(size_t votes);
 };
 
 /// The same background in smaller pixels: `scale` of them make one of the old.

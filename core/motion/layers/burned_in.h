@@ -50,6 +50,8 @@ class BurnedIn {
 
   /// Whether a block shows burned-in graphics; false for blocks not examined in the latest pairs.
   bool holds(size_t index) const { return index < holds_.size() && holds_[index] != 0; }
+  /// The same of all blocks, 1 or 0; empty before the first pair.
+  const std::vector<uint8_t>& held() const { return holds_; }
 
   /// Whether the graphics in a block, or next to it, have lasted. They cover the film, and the
   /// motion behind them is unknown. Stricter than holds(), because a sign in a single pair may be

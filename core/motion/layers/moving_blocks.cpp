@@ -95,22 +95,6 @@ bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px) {
   return (a_px - b_px).squaredNorm() < most_px * most_px;
 }
 
-size_t origin_of(const BlockField& field, size_t index) {
-  const BlockGrid& grid = field.grid();
-  const MotionBlock& block = field.blocks()[index];
-  const int column = static_cast<int>(index) % grid.columns;
-  const int row = static_cast<int>(index) / grid.columns;
-  const auto back = [](int place, float moved_px, int count) {
-    // Clamped first: half a block outside is the first or the last one. std::lround() would be a
-    // call, three times for each block.
-    const float from = static_cast<float>(place) - moved_px / kBlock_px;
-    const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
-    return static_cast<int>(inside + 0.5);
-  };
-  return static_cast<size_t>(back(row, block.moved_y_px, grid.rows) * grid.columns +
-                             back(column, block.moved_x_px, grid.columns));
-}
-
 void MovingBlocks::reset() {
   persistence_.clear();
   stood_out_.clear();
@@ -242,7 +226,7 @@ void MovingBlocks::remember_judgements(const BlockField& field) {
   stood_out_.resize(n);
   const auto columns = static_cast<size_t>(field.grid().columns);
   for (size_t i = 0; i < n; ++i) {
-    const size_t origin = origin_of(field, i);
+    const size_t origin = field.origin_of(i);
     StoodOut before = stood_out_before_[origin];
     const auto look = [&](size_t beside) {
       if (stood_out_before_[beside].share > before.share) before = stood_out_before_[beside];
@@ -265,7 +249,7 @@ void MovingBlocks::remember_motion(const BlockField& field) {
   if (persistence_before_.size() != n) persistence_before_.assign(n, 0);
   persistence_.resize(n);
   for (size_t i = 0; i < n; ++i) {
-    const float before = persistence_before_[origin_of(field, i)];
+    const float before = persistence_before_[field.origin_of(i)];
     const float now = relative_[i].moves ? 1.0f : 0.0f;
     persistence_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
   }

@@ -92,7 +92,4 @@ class MovingBlocks {
   float picture_noise_ = 0;  ///< mean squared difference of the best explained blocks, grey²
 };
 
-/// Block of the previous frame from which block `index` has come: the nearest one of the grid.
-size_t origin_of(const BlockField& field, size_t index);
-
 }  // namespace spidar

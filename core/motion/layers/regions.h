@@ -34,10 +34,6 @@ struct Region {
   double roundness = 0;
 };
 
-/// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a
-/// match along the edge would only follow noise.
-constexpr double kLeastRoundness = 0.05;
-
 /// Label of blocks that belong to no region.
 constexpr int16_t kNoRegion = -1;
 

@@ -38,7 +38,7 @@ bool stands_out(const Region& region, const CameraMotion& camera) {
 
 double salience(const Region& region, const LayerEvidence& evidence, const CameraMotion& camera,
                 bool was_followed) {
-  if (region.roundness < kLeastRoundness) return 0;
+  if (region.roundness < MotionBlock::kLeastRoundness) return 0;
   const double speed_px = region.relative_px.norm();
   if (speed_px == 0) return 0;
   const double touching = region.border_blocks / std::sqrt(static_cast<double>(region.blocks));

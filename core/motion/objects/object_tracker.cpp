@@ -329,7 +329,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   expected_.resize(n);
   around_px_.reserve(n);
   for (size_t i = 0; i < n; ++i) {
-    owners_before_[i] = owners_[origin_of(field, i)];
+    owners_before_[i] = owners_[field.origin_of(i)];
     const uint32_t owner = owners_before_[i];
     expected_[i] = owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
                      return life.key == owner && life.is_born();
@@ -340,7 +340,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   camera_ = {background.model.kind != ModelKind::kStill, 0,
              background.coverage * static_cast<double>(n)};
 
-  if (margins().have_changed()) {  // and with them what touches the border
+  if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
     for (Life& life : lives_) life.proven = 0;
   }
   claim(frame);

@@ -11,6 +11,7 @@
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
 #include "core/motion/camera/background.h"
+#include "core/motion/camera/block_votes.h"
 #include "core/motion/camera/motion_models.h"
 #include "core/motion/layers/layer_evidence.h"
 #include "core/motion/layers/moving_blocks.h"
@@ -48,12 +49,14 @@ class ObjectTracker {
   /// picture.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
 
-  /// How likely each block is not part of the background, see MovingBlocks::persistence().
-  const std::vector<float>& persistence() const { return moving_.persistence(); }
+  /// What the next frame's votes on the camera depend on.
+  Past past() const {
+    const BurnedIn& burned_in = moving_.burned_in();
+    return {moving_.persistence(), burned_in.held(), burned_in.margins().columns(),
+            burned_in.margins().rows()};
+  }
   /// Whether a block belongs to the screen, see BurnedIn.
   bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
-  /// Bars and frames around the film.
-  const Margins& margins() const { return moving_.burned_in().margins(); }
   /// A number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/motion/camera/block_votes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spidar {
+namespace {
+
+/// Blocks this close to the border of the picture count as being at the border.
+constexpr int kBorderBlocks = 2;
+/// Smaller eigenvalue of the structure tensor, (grey / px)²: the vote of a block approaches a full
+/// one well above it.
+constexpr double kFullTexture = 24;
+/// A block whose own motion leaves this residual has half a vote, grey².
+constexpr double kBadResidual = 60;
+
+enum class Voters { kTextured, kEdgesToo };
+
+/// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
+/// block has in both directions and the better its motion fits; it counts twice at the border of
+/// the picture, and half for a block that moved by itself until now. Rest at the border counts
+/// once: graphics are mostly there, whereas a camera at rest shows it all over the picture. How an
+/// edge moves along itself is not known; edges therefore vote only where little else does, as in a
+/// picture out of focus. Returns whether the voters together have edges in more than one direction.
+bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
+  votes.clear();
+  votes.with_edges = voters == Voters::kEdgesToo;
+  MotionBlock together;
+  const BlockGrid& grid = field.grid();
+  const int left = past.margin_columns;
+  const int top = past.margin_rows;
+  votes.size_px = {(grid.columns - 2 * left) * kBlock_px, (grid.rows - 2 * top) * kBlock_px};
+  for (int row = top; row < grid.rows - top; ++row) {
+    for (int column = left; column < grid.columns - left; ++column) {
+      const bool at_border = std::min(column, grid.columns - 1 - column) < left + kBorderBlocks ||
+                             std::min(row, grid.rows - 1 - row) < top + kBorderBlocks;
+      votes.all += at_border ? kBorderVotes : 1;
+      const auto i = static_cast<size_t>(row * grid.columns + column);
+      const MotionBlock& block = field.blocks()[i];
+      const double texture = static_cast<double>(block.weakest_texture());
+      const bool may_vote = voters == Voters::kEdgesToo ? block.has_texture() && texture > 0
+                                                        : texture >= MotionBlock::kLeastVoteTexture;
+      if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
+      if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
+      double weight = texture / (texture + kFullTexture) /
+                      (1 + static_cast<double>(block.residual) / kBadResidual);
+      // Right to half a pixel, as all motion is before it is refined.
+      const bool rests = std::hypot(block.moved_x_px, block.moved_y_px) < kMostOff_px / 2;
+      if (at_border && !rests) weight *= kBorderVotes;
+      if (!past.persistence.empty()) {
+        weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
+      }
+      const Eigen::Vector2d moved_px =
+          Eigen::Vector2f(block.moved_x_px, block.moved_y_px).cast<double>();
+      const Eigen::Vector2d at_px = Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
+      votes.points.push_back({0, at_px - moved_px, moved_px});
+      votes.weights.push_back(weight);
+      votes.at_border.push_back(at_border);
+      votes.sources.push_back(i);
+      const float all_texture = block.xx + block.yy;
+      together.xx += block.xx / all_texture;
+      together.xy += block.xy / all_texture;
+      together.yy += block.yy / all_texture;
+    }
+  }
+  const auto across = static_cast<double>(together.weakest_texture());
+  const auto both = static_cast<double>(together.xx + together.yy);
+  return across > MotionBlock::kLeastRoundness * (both - across);
+}
+
+}  // namespace
+
+void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
+  collect(field, past, Voters::kTextured, votes);
+  if (!votes.are_few() || collect(field, past, Voters::kEdgesToo, votes)) return;
+  collect(field, past, Voters::kTextured, votes);
+}
+
+}  // namespace spidar

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The votes of blocks on the motion of the camera.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/field/block_field.h"
+#include "core/motion/camera/background.h"
+
+namespace spidar {
+
+/// What the frame before tells about the votes of this one. Vectors have one value for each block,
+/// or none after a cut.
+struct Past {
+  /// How likely the block was not part of the background, 0 … 1.
+  const std::vector<float>& persistence;
+  const std::vector<uint8_t>& burned_in;  ///< 1: it showed graphics
+  /// Blocks of bars and frames around the film, on each side.
+  int margin_columns = 0;
+  int margin_rows = 0;
+};
+
+/// Sets `votes` to those of the textured blocks of `field`. Where little else votes, edges do, too,
+/// if together they have more than one direction.
+void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes);
+
+}  // namespace spidar
