@@ -56,7 +56,7 @@ def note(x, y, words):
 lane(40, 190, "Streaming thread (GStreamer's)", "May lock for a moment. Allocates nothing after the first frames.")
 frame = box(30, 110, 110, 70, "outside", "decoder", "video frames")
 luma = box(180, 100, 150, 90, "plugin", "spidarmotion", "maps the frame,", "gives it on unchanged")
-field = box(370, 100, 150, 90, "core", "field, tracking", "motion of each block,", "points")
+field = box(370, 100, 150, 90, "core", "field", "where each block", "went since before")
 motion = box(560, 100, 150, 90, "core", "motion", "camera, objects,", "which one is felt")
 force = box(750, 100, 150, 90, "core", "force", "filter, controller:", "velocity to wrench")
 schedule = box(940, 100, 210, 90, "plugin", "WrenchSchedule", "keeps what the loop", "has no room for yet")

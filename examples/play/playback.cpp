@@ -125,6 +125,13 @@ void follow_buffering(Playback& playback, GstMessage* message) {
   gst_element_set_state(playback.pipeline, buffering ? GST_STATE_PAUSED : GST_STATE_PLAYING);
 }
 
+/// The debug window asks to pause or to play.
+void set_requested_state(const Playback& playback, GstMessage* message) {
+  GstState state = GST_STATE_PLAYING;
+  gst_message_parse_request_state(message, &state);
+  gst_element_set_state(playback.pipeline, state);
+}
+
 gboolean on_message(GstBus*, GstMessage* message, void* data) {
   auto& playback = *static_cast<Playback*>(data);
   switch (GST_MESSAGE_TYPE(message)) {
@@ -152,6 +159,9 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
     case GST_MESSAGE_CLOCK_LOST:
       gst_element_set_state(playback.pipeline, GST_STATE_PAUSED);
       gst_element_set_state(playback.pipeline, GST_STATE_PLAYING);
+      break;
+    case GST_MESSAGE_REQUEST_STATE:
+      set_requested_state(playback, message);
       break;
     case GST_MESSAGE_LATENCY:
       gst_bin_recalculate_latency(GST_BIN(playback.pipeline));

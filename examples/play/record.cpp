@@ -33,6 +33,12 @@ void Record::add_frame(const GstStructure* message) {
   }
   FrameRow row;
   row.time_s = 1e-9 * static_cast<double>(running_ns);
+  // After a seek the running time begins again, and the record with it.
+  if (!frames_.empty() && row.time_s < frames_.back().time_s) {
+    frames_.clear();
+    devices_.clear();
+    shown_ = 0;
+  }
   // In the picture y points down.
   row.velocity_px_s = {number_of(message, "velocity-x"), -number_of(message, "velocity-y")};
   row.force_N = force_of(message);

@@ -17,8 +17,8 @@
 #include <unistd.h>
 #include <utility>
 
-#include "plugin/window/picture_slots.h"
 #include "plugin/window/view/channel.h"
+#include "plugin/window/view/shared_pictures.h"
 #include "plugin/window/window_process.h"
 #include "spidar/realtime/thread_setup.h"
 
@@ -260,6 +260,10 @@ void Window::Session::obey(Channel& channel, FromWindow&& message) {
     source_->choose(choose->place);
   } else if (const auto* save = std::get_if<SaveChoices>(&message)) {
     channel.send(to_bytes(source_->save(save->film, save->edits)));
+  } else if (const auto* play = std::get_if<PlayFilm>(&message)) {
+    source_->play(play->plays);
+  } else if (const auto* seek = std::get_if<SeekFilm>(&message)) {
+    source_->seek(seek->to_ns);
   } else if (const auto* taken = std::get_if<PictureTaken>(&message)) {
     end_waiting(taken->problem);
   } else if (const auto* failed = std::get_if<CannotOpen>(&message)) {

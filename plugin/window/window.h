@@ -4,16 +4,41 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include <Eigen/Core>
 #include <gst/video/video.h>
 
 #include "plugin/window/view/messages.h"
-#include "plugin/window/window_source.h"
 
 namespace spidar {
+
+/// Called on the thread of the Window only. messages.h says what is asked for.
+class WindowSource {
+ public:
+  virtual ~WindowSource() = default;
+
+  /// Does nothing when there is nothing to look at any more.
+  virtual void read(ElementState& state) = 0;
+  virtual void set(const std::string& setting, double value) = 0;
+  virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
+  virtual void choose(const std::optional<Eigen::Vector2d>& place) = 0;
+  /// From then on the rules hold.
+  virtual ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
+  /// Asks the player, which may not do it.
+  virtual void play(bool plays) = 0;
+  /// Does nothing where the player cannot seek, as in live video.
+  virtual void seek(int64_t to_ns) = 0;
+  /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
+  virtual void warn(const std::string& what, const std::string& advice) = 0;
+  /// The window is gone, and not because close was called.
+  virtual void closed() = 0;
+};
 
 /// One window, which is a process of its own (spidar-window). Opening returns at once; what goes
 /// wrong then is said by source->warn(). Neither a window that is slow nor one that crashes holds

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/window/window_source.h"
+#include "plugin/window/window.h"
 
 namespace spidar::test {
 
@@ -41,6 +41,10 @@ class FakeSource final : public WindowSource {
     note([&] { saves_.emplace_back(film, edits); });
     return {true, "saved"};
   }
+  void play(bool plays) override {
+    note([&] { plays_.push_back(plays); });
+  }
+  void seek(int64_t) override {}
   void warn(const std::string& what, const std::string&) override {
     note([&] { warnings_.push_back(what); });
   }
@@ -50,6 +54,7 @@ class FakeSource final : public WindowSource {
 
   using Sets = std::vector<std::pair<std::string, double>>;
   Sets wait_for_sets(size_t count) { return wait_for(sets_, count); }
+  std::vector<bool> wait_for_plays(size_t count) { return wait_for(plays_, count); }
   using Led = std::vector<std::optional<Eigen::Vector3d>>;
   Led wait_for_led(size_t count) { return wait_for(led_, count); }
   using Places = std::vector<std::optional<Eigen::Vector2d>>;
@@ -80,6 +85,7 @@ class FakeSource final : public WindowSource {
   std::condition_variable changed_;
   ElementState state_;
   Sets sets_;
+  std::vector<bool> plays_;
   Led led_;
   Places choices_;
   Saves saves_;

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/program/model/frame_queue.h"
+#include "plugin/window/program/player_link.h"
 
 namespace spidar::test::frame_queue_test {
 namespace {

@@ -47,6 +47,8 @@ std::vector<FromWindow> from_window_messages() {
           LeadHand{},
           ChooseObject{Eigen::Vector2d(0.25, 0.5)},
           some_choices(),
+          PlayFilm{true},
+          SeekFilm{1'500'000'000},
           PictureTaken{"no room"},
           CannotOpen{"no display", "start one"}};
 }

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/window/program/model/film_strip.h"
 #include "plugin/window/program/model/scene_choices.h"
 
 namespace spidar::test::scene_choices_test {

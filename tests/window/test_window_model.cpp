@@ -11,7 +11,7 @@
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/window/program/model/layout.h"
 #include "plugin/window/program/model/timeline.h"
-#include "plugin/window/program/model/window_model.h"
+#include "plugin/window/view/window_view.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
@@ -27,12 +27,6 @@ TEST(FeltLine, SaysWhyNothingIsFelt) {
   EXPECT_EQ(felt_line(state), "not felt: only the camera moves");
 }
 
-TEST(CountOf, OneIsNotMany) {
-  EXPECT_EQ(count_of(0, "object"), "0 objects");
-  EXPECT_EQ(count_of(1, "object"), "1 object");
-  EXPECT_EQ(count_of(2, "object"), "2 objects");
-}
-
 TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
   FrameFacts facts;
   for (const uint32_t id : {3u, 5u, 8u}) {
@@ -42,21 +36,22 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
     object.relative_px_s = {10.0 * id, 1};
     facts.scene.objects.push_back(object);
   }
+  const auto felt = [&] { return felt_objects(facts.scene, facts.motion, facts.touch); };
   facts.scene.felt_object = 5;
   facts.motion = MotionKind::kObject;
-  EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5});
+  EXPECT_EQ(felt(), std::vector<uint32_t>{5});
   facts.motion = MotionKind::kObjects;
   facts.scene.is_free = false;
-  EXPECT_EQ(felt_objects(facts), std::vector<uint32_t>{5}) << "by a click";
+  EXPECT_EQ(felt(), std::vector<uint32_t>{5}) << "by a click";
   facts.scene.felt_object = 0;
   facts.scene.is_free = true;
-  EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
+  EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
   facts.touch.on = true;
-  EXPECT_TRUE(felt_objects(facts).empty()) << "only the surface is";
+  EXPECT_TRUE(felt().empty()) << "only the surface is";
   facts.touch.motion_share = 0.5;
-  EXPECT_EQ(felt_objects(facts), (std::vector<uint32_t>{3, 5}));
+  EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
   facts.motion = MotionKind::kCamera;
-  EXPECT_TRUE(felt_objects(facts).empty());
+  EXPECT_TRUE(felt().empty());
 }
 
 TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
@@ -102,22 +97,6 @@ TEST(Layout, TheTimelineHasRoomForItsLines) {
   }
 }
 
-TEST(Layout, LabelsCoverNothing) {
-  const Rect panel{10, 10, 200, 100}, wanted{50, 50, 60, 20};
-  const Rect free = place_label(panel, wanted, {}).value();
-  EXPECT_EQ(free.x, 50);
-  EXPECT_EQ(free.y, 50);
-  const Rect inside = place_label(panel, {190, -5, 60, 20}, {}).value();
-  EXPECT_EQ(inside.right(), panel.right());
-  EXPECT_EQ(inside.y, panel.y);
-  const std::vector<Rect> numbers = {{60, 55, 8, 12}, {60, 20, 8, 12}, {100, 80, 8, 12}};
-  const Rect beside = place_label(panel, wanted, numbers).value();
-  for (const Rect& number : numbers) EXPECT_FALSE(beside.overlaps(number));
-  // The first number is passed on the right: by 18 px and at most one step of 140 / 16 px.
-  EXPECT_LE(std::hypot(beside.x - wanted.x, beside.y - wanted.y), 18 + 140.0 / 16 + 80.0 / 16);
-  EXPECT_FALSE(place_label(panel, wanted, {panel}));
-}
-
 TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {
   const Rect panel{10, 20, 400, 300};
   // Pixels twice as wide as high: 100 × 100 of them are 2 : 1.
@@ -128,30 +107,6 @@ TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {
   // The first pixel shown is (5, 6); its centre is half a pixel from the corner.
   EXPECT_NEAR((map({5, 6}) - Eigen::Vector2d(12, 71)).norm(), 0, kRounding);
   EXPECT_NEAR((map({104, 105}) - Eigen::Vector2d(408, 269)).norm(), 0, kRounding);
-}
-
-TEST(Layout, TensionBarsShowTheirShareOfTheRange) {
-  DeviceView device;
-  device.geometry.count = 3;
-  device.geometry.exit_m[0] = {0.1, 0, 0};
-  device.geometry.exit_m[1] = {-0.1, 0.1, 0};
-  device.geometry.exit_m[2] = {0, -0.1, 0};
-  device.min_tension_N.head<3>() << 0.5, 0.5, 0;
-  device.max_tension_N.head<3>() << 5, 5, 0;  // the last one has no range
-  device.last.tension_N.head<3>() << 2, 9, 1;
-  const Rect panel{0, 0, 300, 300};
-  const auto bars = tension_bars(panel, device);
-  ASSERT_EQ(bars.size(), 3u);
-  EXPECT_NEAR(bars[0].filled.height, 0.4 * bars[0].range.height, kRounding);
-  EXPECT_NEAR(bars[0].filled.bottom(), bars[0].range.bottom(), kRounding);
-  EXPECT_NEAR(bars[0].range.bottom() - bars[0].least_y, 0.1 * bars[0].range.height, kRounding);
-  EXPECT_NEAR(bars[1].filled.height, bars[1].range.height, kRounding) << "not above its range";
-  EXPECT_EQ(bars[2].filled.height, 0);
-  for (size_t i = 0; i < bars.size(); ++i) {
-    EXPECT_NEAR(bars[i].range.x + bars[i].range.width / 2, 50.0 + 100.0 * static_cast<double>(i),
-                kRounding)
-        << "side by side, in the order of the strings";
-  }
 }
 
 TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
@@ -188,6 +143,38 @@ TEST(Settings, AreThoseThatCanBeChangedWhilePlayingWithTheirDefaults) {
   gst_object_unref(element);
 }
 
+TEST(Play, IsAskedOfTheApplication) {
+  ElementHarness h("device=none");
+  const std::shared_ptr<WindowSource> source =
+      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+  GstBus* const bus = gst_bus_new();
+  gst_element_set_bus(h.element(), bus);
+  source->play(false);
+  GstMessage* const message = gst_bus_pop_filtered(bus, GST_MESSAGE_REQUEST_STATE);
+  ASSERT_NE(message, nullptr);
+  GstState state = GST_STATE_NULL;
+  gst_message_parse_request_state(message, &state);
+  EXPECT_EQ(state, GST_STATE_PAUSED);
+  gst_message_unref(message);
+  gst_object_unref(bus);
+}
+
+TEST(Seek, GoesUpstreamAsTimeInTheFilm) {
+  ElementHarness h("device=none");
+  const std::shared_ptr<WindowSource> source =
+      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+  constexpr gint64 kTo_ns = 2'500'000'000;
+  source->seek(kTo_ns);
+  gint64 start_ns = -1;
+  while (GstEvent* const event = gst_harness_try_pull_upstream_event(h.harness())) {
+    if (GST_EVENT_TYPE(event) == GST_EVENT_SEEK) {
+      gst_event_parse_seek(event, nullptr, nullptr, nullptr, nullptr, &start_ns, nullptr, nullptr);
+    }
+    gst_event_unref(event);
+  }
+  EXPECT_EQ(start_ns, kTo_ns);
+}
+
 TEST(GainCurve, IsThatOfTheController) {
   Timeline timeline;
   Moment moment;
@@ -198,21 +185,21 @@ TEST(GainCurve, IsThatOfTheController) {
   moment.interval_s = 0;
   timeline.add(moment);
   ControllerSettings settings;  // eq. 15: 2 · 3 / π · atan(0.01 v)
-  const std::vector<double> nonlinear = gain_curve(settings, timeline, 200, 3);
+  const std::vector<double> nonlinear = timeline.gain_curve(settings, 200, 3);
   ASSERT_EQ(nonlinear.size(), 3u);
   EXPECT_EQ(nonlinear[0], 0);
   EXPECT_NEAR(nonlinear[1], 1.5, kRounding);
   EXPECT_NEAR(nonlinear[2], 6 / M_PI * std::atan(2.0), kRounding);
   settings.kind = ControllerKind::kLinear;  // eq. 12: k = 3 / 400
-  const std::vector<double> linear = gain_curve(settings, timeline, 200, 3);
+  const std::vector<double> linear = timeline.gain_curve(settings, 200, 3);
   EXPECT_NEAR(linear[2], 1.5, kRounding);
   // The same as one that was given the frame, once.
   settings.kind = ControllerKind::kAdaptive;
   const auto adaptive = make_controller(settings);
   adaptive->force_N({400, 0.04});
-  EXPECT_NEAR(gain_curve(settings, timeline, 200, 3)[1], adaptive->force_N(100), kRounding);
+  EXPECT_NEAR(timeline.gain_curve(settings, 200, 3)[1], adaptive->force_N(100), kRounding);
   settings.max_force_N = -1;
-  EXPECT_TRUE(gain_curve(settings, timeline, 200, 3).empty());
+  EXPECT_TRUE(timeline.gain_curve(settings, 200, 3).empty());
 }
 
 TEST(GainCurve, SpeedIsThatOfTheReferenceFrame) {

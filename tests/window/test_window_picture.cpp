@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The contents of a debug window, read back from the frame buffer.
-#include <chrono>
 #include <memory>
-#include <thread>
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
@@ -63,37 +61,39 @@ TEST_F(WindowTest, ATensionBarHasItsHeight) {
   Window window(std::make_shared<FakeSource>(state));
   const Screenshot shot = look(window);
   const WindowLayout layout = lay_out(shot.width, shot.height, 1);
-  const auto bars = tension_bars(tension_area(layout.tensions, 1), device);
   const double share[] = {0.8, 0.3};
-  for (size_t i = 0; i < 2; ++i) {
-    const Rect& range = bars[i].range;
-    int blue = 0;
-    for (double y = range.y + 1.5; y < range.bottom() - 1; ++y) {
-      const Color c = at(shot, range.x + range.width / 2, y);
-      blue += c.b > 200 && c.r < 100;
+  for (int i = 0; i < 2; ++i) {
+    // The middle of the string's bar is where its column has most of the bar's colours.
+    double best = 0, filled = 0;
+    const double x0 = layout.tensions.x + i * layout.tensions.width / 2;
+    for (double x = x0; x < x0 + layout.tensions.width / 2; ++x) {
+      int blue = 0, dark = 0;
+      for (double y = layout.tensions.y; y < layout.tensions.bottom(); ++y) {
+        const Color c = at(shot, x, y);
+        blue += c.b > 200 && c.r < 100;
+        dark += c.r == 38 && c.g == 43 && c.b == 53;
+      }
+      if (blue + dark <= best) continue;
+      best = blue + dark;
+      filled = blue;
     }
-    // The loop leaves out two and a half lines at the ends, the mark of the smallest tension covers
-    // two, for it lies between lines, and the bar's own end may be half covered.
-    EXPECT_NEAR(blue, share[i] * range.height, 5) << "string " << i;
+    ASSERT_GT(best, 30) << "string " << i;
+    // The mark of the smallest tension covers two lines, for it lies between lines, and both ends
+    // may be half covered.
+    EXPECT_NEAR(filled, share[i] * best, 4) << "string " << i;
   }
 }
 
-TEST_F(WindowTest, APauseHoldsThePictureAndLooksBack) {
-  Window window(std::make_shared<FakeSource>());
-  give(window, {}, 60);
-  EXPECT_NEAR(level_in(window), 60, 1);
-  press(window, GLFW_KEY_P);
-  EXPECT_NEAR(level_in(window), 60, 1) << "the small picture of it";
-  // Pictures are kept a quarter of a second apart: this one as well, however slow the window is.
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  give(window, {}, 160);
-  EXPECT_NEAR(level_in(window), 60, 1) << "in a pause it stays";
-  press(window, GLFW_KEY_P);
-  EXPECT_NEAR(level_in(window), 160, 1) << "and then shows the newest";
-  press(window, GLFW_KEY_P);
-  EXPECT_NEAR(level_in(window), 160, 1);
-  for (int i = 0; i < 600; ++i) press(window, GLFW_KEY_COMMA);
-  EXPECT_NEAR(level_in(window), 60, 1) << "the oldest, a minute of steps back";
+TEST_F(WindowTest, PAsksThePlayerToPauseAndToPlay) {
+  for (const bool is_playing : {true, false}) {
+    ElementState state;
+    state.is_playing = is_playing;
+    auto source = std::make_shared<FakeSource>(state);
+    Window window(source);
+    look(window);
+    press(window, GLFW_KEY_P);
+    EXPECT_EQ(source->wait_for_plays(1)[0], !is_playing);
+  }
 }
 
 TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
@@ -147,9 +147,6 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   click(199.5, 89.5);
   places = source->wait_for_choices(2);
   EXPECT_FALSE(places.back()) << "a second click lets go";
-  press(window, GLFW_KEY_P);
-  click(199.5, 89.5);
-  EXPECT_EQ(source->wait_for_choices(2).size(), 2u) << "not in the past";
 }
 
 }  // namespace

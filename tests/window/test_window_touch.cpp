@@ -9,8 +9,8 @@
 
 #include "plugin/filter/frame/touch_view.h"
 #include "plugin/window/program/model/relief_view.h"
-#include "plugin/window/program/model/window_model.h"
 #include "plugin/window/view/mouse_hand.h"
+#include "plugin/window/view/window_view.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test::window_touch_test {
@@ -134,11 +134,10 @@ HeightField roof() {
 }
 
 TEST(ReliefView, IsLitFromTheUpperLeft) {
-  Still picture;
-  shade_relief(roof(), picture);
-  ASSERT_EQ(picture.rgba.size(), size_t{4} * HeightField::kCells);
+  const std::vector<uint8_t> rgba = shade_relief(roof());
+  ASSERT_EQ(rgba.size(), size_t{4} * HeightField::kCells);
   const auto grey = [&](int x, int y) {
-    return picture.rgba[4 * static_cast<size_t>(y * HeightField::kColumns + x)];
+    return rgba[4 * static_cast<size_t>(y * HeightField::kColumns + x)];
   };
   // A level surface has 0.15 + 0.85 · 1.6 / √4.56 of 255; slopes of 1/15 change that.
   const double left = 1.6 + 1 / 15.0, right = 1.6 - 1 / 15.0, size = std::sqrt(4.56 * 226 / 225);

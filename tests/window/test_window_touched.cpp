@@ -121,23 +121,20 @@ TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
   EXPECT_FALSE(led[3].has_value()) << "the window was closed";
 }
 
-TEST_F(WindowTest, TheMouseLeadsNoOtherHandAndNoneInAPause) {
-  for (const bool paused : {false, true}) {
-    ElementState state = touching_state();
-    state.device->has_hand = paused;
-    auto source = std::make_shared<FakeSource>(state);
-    Window window(source);
-    give(window, {});
-    const Rect picture = map_of(look(window)).shown;
-    if (paused) press(window, GLFW_KEY_P);
-    Mouse mouse;
-    mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
-    mouse.down = true;
-    set_mouse(window, mouse);
-    look(window);
-    look(window);
-    EXPECT_TRUE(source->wait_for_led(0).empty());
-  }
+TEST_F(WindowTest, TheMouseLeadsNoOtherHand) {
+  ElementState state = touching_state();
+  state.device->has_hand = false;
+  auto source = std::make_shared<FakeSource>(state);
+  Window window(source);
+  give(window, {});
+  const Rect picture = map_of(look(window)).shown;
+  Mouse mouse;
+  mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
+  mouse.down = true;
+  set_mouse(window, mouse);
+  look(window);
+  look(window);
+  EXPECT_TRUE(source->wait_for_led(0).empty());
 }
 
 }  // namespace

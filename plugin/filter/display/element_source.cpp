@@ -91,6 +91,7 @@ class ElementSource final : public WindowSource {
     if (!held) return;
     state = {};
     state.name = GST_OBJECT_NAME(held.get());
+    state.is_playing = GST_STATE(held.get()) == GST_STATE_PLAYING;
     if (settings_.empty()) list_settings(held.get(), settings_);
     state.settings = settings_;
     for (Setting& setting : state.settings) {
@@ -156,6 +157,25 @@ class ElementSource final : public WindowSource {
       if (!folder.empty() && why.rfind(folder, 0) == 0) why.erase(0, folder.size());
       return {false, "Not saved: " + why + "."};
     }
+  }
+
+  /// Only the application may change the state of its pipeline.
+  void play(bool plays) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held) return;
+    const GstState state = plays ? GST_STATE_PLAYING : GST_STATE_PAUSED;
+    gst_element_post_message(held.get(),
+                             gst_message_new_request_state(GST_OBJECT(held.get()), state));
+  }
+
+  /// From the element upstream, as a sink would: whatever reads the film seeks for all streams.
+  void seek(int64_t to_ns) override {
+    const Ref<GstElement> held = hold(element_);
+    if (!held || to_ns < 0) return;
+    const auto flags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT);
+    gst_element_send_event(held.get(),
+                           gst_event_new_seek(1, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET, to_ns,
+                                              GST_SEEK_TYPE_NONE, 0));
   }
 
   void warn(const std::string& what, const std::string& advice) override {

@@ -9,7 +9,7 @@
 
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/engine/motion_engine.h"
-#include "plugin/window/window_source.h"
+#include "plugin/window/window.h"
 
 namespace spidar {
 

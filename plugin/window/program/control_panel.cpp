@@ -2,32 +2,31 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "plugin/window/program/panels.h"
 
 namespace spidar {
 namespace {
 
-/// A range of more than this is dragged, by a hundredth of the value for each pixel.
-constexpr double kSlidable = 1e6, kDragged = 0.01;
-/// A range over more than this factor has a logarithmic slider.
-constexpr double kWide = 100;
+/// A slider is logarithmic over a range of more than kLinear, or over more than the factor kWide.
+constexpr double kLinear = 1e6, kWide = 100;
 constexpr double kTooltip_px = 340, kNameShare = 0.4, kReset_px = 46;
 
+/// "1 object", "2 objects".
+std::string count_of(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 /// True when it was moved.
-template <typename Number>
-bool number_widget(ImGuiDataType type, const char* format, Number low, Number high, Number& value) {
-  const double range = static_cast<double>(high) - static_cast<double>(low);
-  ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
-  if (range > kSlidable) {
-    const double size = std::max(std::fabs(static_cast<double>(value)), 1.0);
-    return ImGui::DragScalar("##value", type, &value, static_cast<float>(kDragged * size), &low,
-                             &high, format, flags);
-  }
-  if (low > 0 && static_cast<double>(high) / static_cast<double>(low) > kWide) {
-    flags |= ImGuiSliderFlags_Logarithmic;
-  }
-  return ImGui::SliderScalar("##value", type, &value, &low, &high, format, flags);
+bool number_widget(const Setting& setting, double& value) {
+  const double range = setting.high - setting.low;
+  const bool is_wide = range > kLinear || (setting.low > 0 && setting.high / setting.low > kWide);
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp | (is_wide ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool is_whole = setting.kind == Setting::Kind::kWhole;
+  return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &setting.low, &setting.high,
+                             is_whole ? "%.0f" : "%.4g", flags);
 }
 
 bool choice_widget(const Setting& setting, double& value) {
@@ -58,17 +57,11 @@ bool value_widget(const Setting& setting, double& value) {
     }
     case Setting::Kind::kChoice:
       return choice_widget(setting, value);
-    case Setting::Kind::kWhole: {
-      auto whole = static_cast<int64_t>(std::llround(value));
-      const bool moved = number_widget(ImGuiDataType_S64, "%lld", static_cast<int64_t>(setting.low),
-                                       static_cast<int64_t>(setting.high), whole);
-      value = static_cast<double>(whole);
-      return moved;
-    }
+    case Setting::Kind::kWhole:
     case Setting::Kind::kNumber:
       break;
   }
-  return number_widget(ImGuiDataType_Double, "%.4g", setting.low, setting.high, value);
+  return number_widget(setting, value);
 }
 
 void explain(const Brush& brush, const Setting& setting) {
@@ -169,47 +162,49 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* 
   ImGui::PopStyleVar(2);
 }
 
-void draw_help(double scale) {
-  ImGui::SetNextWindowPos(im(40 * scale, 40 * scale), ImGuiCond_Always);
-  ImGui::Begin("Help", nullptr,
-               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoInputs);
-  constexpr const char* kRows[][2] = {
-      {"Space", "takes the force to rest, and lets it return"},
-      {"Left, right", "shorter or longer arrows"},
-      {"Up, down", "more or less force"},
-      {"D", "detail in the picture"},
-      {"R", "the relief over the picture, while it is touched"},
-      {"P", "pauses the window; the video and the force continue"},
-      {", and .", "a tenth of a second back or forward, in a pause"},
-      {"Wheel", "on force or speed: more or fewer seconds"},
-      {"C", "saves the choices of objects as rules beside the film"},
-      {"S", "saves the window as a PNG file in the current folder"},
-      {"H", "this help"},
-      {"Q", "closes the window; the video continues"},
-      {"", ""},
-      {"Left button", "held in the picture: the hand of the simulated device is there"},
-      {"Wheel, Shift+drag", "the hand goes away from the viewer, or near"},
-      {"", ""},
-      {"Click on an object", "it is felt in this scene, or no more"},
-      {"Click on a mark", "of the film below the last minute: removes this choice"},
-      {"Outline", "an object; the thick one is felt"},
-      {"White arrow", "the force as it pushes the hand"},
-      {"Ring, disc", "the finger, and the point of the surface that it touches"},
-      {"Small arrows", "where points went since the frame before; hue is direction"},
-      {"Circle, red cross", "a new point, a lost point (detail)"},
-      {"Bars", "tension of each string; the line is its smallest one"}};
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const auto& row : kRows) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row[0]);
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", row[1]);
-    }
-    ImGui::EndTable();
+void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
+                 const FrameFacts& facts, const std::string& note) {
+  brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor, brush.px(6));
+  brush.list.AddRect(upper_left(panel), lower_right(panel), kBorderColor, brush.px(6));
+  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
+  const ImFont* font = brush.fonts.body;
+  const ImFont* small = brush.fonts.small;
+  const double middle = panel.y + panel.height / 2;
+  const bool is_felt = state.no_force.empty();
+  const ImU32 color = is_felt ? kGoodColor : kFeltColor;
+  const float radius = brush.px(5);
+  ImVec2 at = im(panel.x + 10 * brush.scale, middle);
+  brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
+  at.x += 2 * radius + brush.px(7);
+  const std::string said = note.empty() ? felt_line(state, facts.touch) : note;
+  draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
+  const double left = at.x + text_size(font, said).x + 16 * brush.scale;
+
+  // From the right, as much as there is room for.
+  std::vector<std::string> parts;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(facts.running_ns));
+  parts.emplace_back(text);
+  std::snprintf(text, sizeof text, "analysis %.1f ms", facts.analysis_ms);
+  parts.emplace_back(text);
+  parts.push_back(count_of(facts.scene.tracks.size(), "track"));
+  parts.push_back(count_of(facts.scene.objects.size(), "object"));
+  if (state.device) {
+    const TickRecord& last = state.device->last;
+    parts.push_back(std::string(to_string(last.device)) + (last.playing ? "" : ", not playing"));
+    std::snprintf(text, sizeof text, "loop %.0f \xC2\xB5s late",
+                  1e-3 * static_cast<double>(last.lateness_ns));
+    parts.emplace_back(text);
+    parts.push_back(count_of(state.device->overruns, "overrun"));
   }
-  ImGui::End();
+  double x = panel.right() - 10 * brush.scale;
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    const double width = text_size(small, *part).x;
+    if (x - width < left) break;
+    draw_text_before(brush, small, im(x, middle - small->FontSize / 2), kMutedColor, *part);
+    x -= width + 16 * brush.scale;
+  }
+  brush.list.PopClipRect();
 }
 
 }  // namespace spidar

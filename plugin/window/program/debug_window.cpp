@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <imgui.h>
+#include <stb/stb_image_write.h>
 #include <stdexcept>
 
 #include <GLFW/glfw3.h>
@@ -24,10 +28,6 @@ constexpr int kLeastWidth = 640, kLeastHeight = 480;
 constexpr double kNote_s = 4;
 /// So long after a frame the plots stand still, so that the end of a film stays to be looked at.
 constexpr double kIdle_s = 1;
-/// Of the small pictures of the last minute: 240 of them take some 20 MB, and while the picture is
-/// touched their reliefs 35 MB.
-constexpr int kStillWidth_px = 256;
-
 /// Of text, in the coordinates of the window: where a screen has several pixels to one of them, as
 /// with Wayland, the frame buffer has them already.
 double text_scale(GLFWwindow* window) {
@@ -43,6 +43,27 @@ double text_scale(GLFWwindow* window) {
 /// CLOCK_MONOTONIC, as the ticks of the haptic loop have it.
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Pixels of three bytes, the lowest row first. Returns empty, or why the file cannot be written.
+std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
+                      const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (!file) return std::strerror(errno);
+  bool complete = true;
+  stbi_flip_vertically_on_write(1);
+  const auto write = [&](void* data, int size) {
+    const auto bytes = static_cast<size_t>(size);
+    if (std::fwrite(data, 1, bytes, file) != bytes) complete = false;
+  };
+  const bool encoded = stbi_write_png_to_func(
+                           [](void* context, void* data, int size) {
+                             (*static_cast<decltype(write)*>(context))(data, size);
+                           },
+                           const_cast<void*>(static_cast<const void*>(&write)), width, height, 3,
+                           rgb.data(), 3 * width) != 0;
+  const bool closed = std::fclose(file) == 0;
+  return encoded && complete && closed ? "" : "it cannot be written; is the disk full?";
 }
 
 }  // namespace
@@ -81,7 +102,6 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the one above, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
-  past_texture_.emplace();
   relief_texture_.emplace();
 }
 
@@ -89,7 +109,6 @@ DebugWindow::~DebugWindow() {
   end_choices();
   link_.lead_hand(std::nullopt);
   texture_.reset();
-  past_texture_.reset();
   relief_texture_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
@@ -131,7 +150,6 @@ void DebugWindow::read() {
     if (facts_.running_ns < before_ns) timeline_.forget();
   }
   record(frame.has_value());
-  show_past();
 }
 
 void DebugWindow::record(bool is_new) {
@@ -143,107 +161,66 @@ void DebugWindow::record(bool is_new) {
   now.speed_px_s = facts_.speed_px_s;
   now.wanted = facts_.scene.wrench;
   if (state_.device) {
-    const TickRecord& last = state_.device->last;
-    now.felt = last.delivered;
-    now.asked = last.wanted;
-    now.tension_N = last.tension_N;
-    now.pose = last.pose;
-    now.contact = last.contact;
+    now.felt = state_.device->last.delivered;
     for (const ForceTick& tick : ticks) timeline_.add(tick);
   } else {
     timeline_.add(ForceTick{static_cast<int64_t>(1e9 * now.time_s), now.wanted.force_N});
   }
   timeline_.add(now);
-  // The first picture of a scene, too, so that a pause does not show the scene before.
-  const bool begins_scene = facts_.interval_s == 0;
-  if (is_new && (begins_scene || timeline_.wants_still(now.time_s))) keep_still(now.time_s);
-}
-
-void DebugWindow::keep_still(double time_s) {
-  auto still = std::make_shared<Still>();
-  if (!texture_->copy_to(*still, kStillWidth_px)) return;
-  still->time_s = time_s;
-  still->facts = facts_;
-  timeline_.add_still(std::move(still));
-}
-
-/// In a pause the window shows the grip and the picture of the moment that is looked at.
-void DebugWindow::show_past() {
-  const Timeline::Part moments = timeline_.plotted();
-  if (!timeline_.is_paused() || moments.empty()) {
-    past_.reset();
-    return;
-  }
-  if (state_.device) {
-    TickRecord& last = state_.device->last;
-    last.delivered = moments.back().felt;
-    last.wanted = moments.back().asked;
-    last.tension_N = moments.back().tension_N;
-    last.pose = moments.back().pose;
-    last.contact = moments.back().contact;
-  }
-  std::shared_ptr<const Still> still = timeline_.still();
-  if (still && still != past_) past_texture_->load(*still);
-  past_ = std::move(still);
 }
 
 void DebugWindow::show_relief(const TouchScene& touch) {
   if (touch.relief == relief_) return;
   relief_ = touch.relief;
   if (!relief_) return;
-  Still shaded;
-  shade_relief(*relief_, shaded);
-  relief_texture_->load(shaded);
+  relief_texture_->upload(shade_relief(*relief_).data(), HeightField::kColumns, HeightField::kRows);
 }
 
-ShownPicture DebugWindow::shown_picture(const FrameFacts& facts) const {
+ShownPicture DebugWindow::shown_picture() const {
   ShownPicture picture;
   picture.arrow_scale = state_.value("arrow-scale", 1);
   picture.max_force_N = facts_.controller.max_force_N;
   picture.detail = detail_;
   if (show_relief_ && relief_) picture.relief = (ImTextureID)uintptr_t{relief_texture_->id()};
-  if (state_.device) picture.touch = touch_mark(facts.touch, state_.device->last);
-  const PictureTexture& texture = past_ ? *past_texture_ : *texture_;
-  if (texture.empty()) return picture;
+  if (state_.device) picture.touch = touch_mark(facts_.touch, state_.device->last);
+  if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
   // pointer or, since 1.91.4, a number: a cast as in C makes either.
-  picture.texture = (ImTextureID)uintptr_t{texture.id()};
-  picture.frame_width = texture.frame_width();
-  picture.frame_height = texture.frame_height();
-  picture.pixel_aspect = texture.pixel_aspect();
+  picture.texture = (ImTextureID)uintptr_t{texture_->id()};
+  picture.frame_width = texture_->frame_width();
+  picture.frame_height = texture_->frame_height();
+  picture.pixel_aspect = texture_->pixel_aspect();
   return picture;
 }
 
 void DebugWindow::draw_panels(int width, int height) {
   const WindowLayout layout = lay_out(width, height, scale_);
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
-  const FrameFacts& facts = past_ ? past_->facts : facts_;
-  const ControllerSettings& controller = facts.controller;
+  const ControllerSettings& controller = facts_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
-  show_relief(facts.touch);
-  const ShownPicture picture = shown_picture(facts);
-  const Rect shown = shown_rect(layout.picture, picture, facts);
-  draw_picture(brush, layout.picture, picture, facts);
+  show_relief(facts_.touch);
+  const ShownPicture picture = shown_picture();
+  const Rect shown = shown_rect(layout.picture, picture, facts_);
+  draw_picture(brush, layout.picture, picture, facts_);
   const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
-  use_mouse(mouse, shown, facts);
+  use_mouse(mouse, shown);
   use_plots(mouse, layout);
-  if (const std::string line = hint(facts); !line.empty()) draw_hint(brush, shown, line);
+  if (const std::string line = hint(); !line.empty()) draw_hint(brush, shown, line);
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
   draw_choices(brush, layout.timeline);
   draw_force(brush, layout.force, timeline_, controller.max_force_N);
   draw_speed(brush, layout.speed, timeline_);
-  if (facts.touch.on && state_.device) {
-    draw_section(brush, layout.gain, facts.touch, state_.device->last);
+  if (facts_.touch.on && state_.device) {
+    draw_section(brush, layout.gain, facts_.touch, state_.device->last);
   } else {
     draw_gain(brush, layout.gain, timeline_, controller);
   }
   if (now_s() > note_until_s_) note_.clear();
-  draw_status(brush, layout.status, state_, facts, note_);
+  draw_status(brush, layout.status, state_, facts_, note_);
   draw_controls(brush, layout.controls, state_,
                 [this](const std::string& setting, double value) { change(setting, value); });
   draw_switches(brush, layout.picture, detail_, relief_ ? &show_relief_ : nullptr);
-  if (help_) draw_help(scale_);
 }
 
 void DebugWindow::draw() {

@@ -11,7 +11,6 @@
 
 #include "plugin/window/program/model/object_click.h"
 #include "plugin/window/program/model/scene_choices.h"
-#include "plugin/window/program/model/sightings.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/picture_texture.h"
 #include "plugin/window/program/player_link.h"
@@ -44,13 +43,11 @@ class DebugWindow {
  private:
   void read();
   void record(bool is_new);
-  void keep_still(double time_s);
-  void show_past();
-  ShownPicture shown_picture(const FrameFacts& facts) const;
+  ShownPicture shown_picture() const;
   void show_relief(const TouchScene& touch);
   bool offers_hand() const;
-  std::string hint(const FrameFacts& facts) const;
-  void use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts);
+  std::string hint() const;
+  void use_mouse(const Mouse& mouse, const Rect& picture);
   void use_plots(const Mouse& mouse, const WindowLayout& layout);
   SceneChoices& choices();
   void follow_choices(const std::string& film_before);
@@ -71,7 +68,7 @@ class DebugWindow {
   GLFWwindow* window_ = nullptr;
   double scale_ = 1;
   Fonts fonts_;
-  std::optional<PictureTexture> texture_, past_texture_, relief_texture_;
+  std::optional<PictureTexture> texture_, relief_texture_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;
@@ -79,7 +76,6 @@ class DebugWindow {
   FrameFacts facts_;
   double frame_s_ = 0;  ///< when the last frame came
   Timeline timeline_;
-  std::shared_ptr<const Still> past_;          // what past_texture_ shows
   int shown_width_ = 0, loaded_width_ = 0;     // of the picture in the window, and its texture
   std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
   MouseHand hand_;
@@ -88,7 +84,6 @@ class DebugWindow {
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does
   std::optional<Mouse> given_mouse_;
-  bool help_ = false;
   bool detail_ = false;
   bool show_relief_ = true;
   bool save_wanted_ = false;

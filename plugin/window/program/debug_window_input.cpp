@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the user does to a debug window.
+// What the user does to a debug window, and chooses of the objects in the picture.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +14,7 @@
 namespace spidar {
 namespace {
 
-constexpr double kStep_s = 0.1, kZoom = 1.25;
+constexpr double kZoom = 1.25;
 constexpr double kLongerArrows = 1.25, kForceStep_N = 0.1;
 
 }  // namespace
@@ -66,22 +66,13 @@ void DebugWindow::on_key(int key) {
       show_relief_ = !show_relief_;
       break;
     case GLFW_KEY_P:
-      timeline_.is_paused() ? timeline_.resume() : timeline_.pause();
-      break;
-    case GLFW_KEY_COMMA:
-      timeline_.look_at(timeline_.cursor_s() - kStep_s);
-      break;
-    case GLFW_KEY_PERIOD:
-      timeline_.look_at(timeline_.cursor_s() + kStep_s);
+      link_.play(!state_.is_playing);
       break;
     case GLFW_KEY_C:
       save_choices();
       break;
     case GLFW_KEY_S:
       save_wanted_ = true;
-      break;
-    case GLFW_KEY_H:
-      help_ = !help_;
       break;
     case GLFW_KEY_Q:
       glfwSetWindowShouldClose(window_, GLFW_TRUE);
@@ -91,36 +82,34 @@ void DebugWindow::on_key(int key) {
   }
 }
 
-/// Only a simulated device has a hand, and in the past nothing can be moved.
+/// Only a simulated device has a hand.
 bool DebugWindow::offers_hand() const {
-  return state_.device && state_.device->has_hand && !timeline_.is_paused();
+  return state_.device && state_.device->has_hand;
 }
 
 /// What a click does, until the user has clicked once; then only how deep the hand is.
-std::string DebugWindow::hint(const FrameFacts& facts) const {
-  if (hand_.holds() && facts.touch.on) {
+std::string DebugWindow::hint() const {
+  if (hand_.holds() && facts_.touch.on) {
     char text[96];
     std::snprintf(text, sizeof text, "Hand %.1f mm %s. Wheel or Shift+drag: away or near",
                   std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
     return text;
   }
-  if (has_clicked_ || timeline_.is_paused()) return {};
+  if (has_clicked_) return {};
   const char* const choosing = "A click on an object has it felt in this scene. ";
   const char* const leading = "The left button, held in the picture, moves the simulated hand.";
-  return std::string(offers_choice(facts) && !facts.scene.objects.empty() ? choosing : "") +
+  return std::string(offers_choice(facts_) && !facts_.scene.objects.empty() ? choosing : "") +
          (offers_hand() ? leading : "");
 }
 
-void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture, const FrameFacts& facts) {
+void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
   has_clicked_ = has_clicked_ || (mouse.down && !mouse.taken && picture.has(mouse.at_px));
-  if (const auto wish = click_.update(mouse, timeline_.is_paused() ? Rect() : picture, facts)) {
-    choose(*wish);
-  }
+  if (const auto wish = click_.update(mouse, picture, facts_)) choose(*wish);
   if (!offers_hand() || picture.width <= 0 || click_.holds()) {
     hand_.let_go();
     return link_.lead_hand(std::nullopt);
   }
-  const TouchMap map{GripPointer(state_.device->geometry), facts.scene.turn};
+  const TouchMap map{GripPointer(state_.device->geometry), facts_.scene.turn};
   link_.lead_hand(hand_.update(mouse, picture, map));
 }
 
@@ -129,6 +118,76 @@ void DebugWindow::use_plots(const Mouse& mouse, const WindowLayout& layout) {
   const bool is_over =
       !mouse.taken && (layout.force.has(mouse.at_px) || layout.speed.has(mouse.at_px));
   if (is_over && mouse.wheel != 0) timeline_.zoom(std::pow(kZoom, -mouse.wheel));
+}
+
+SceneChoices& DebugWindow::choices() {
+  return choices_[facts_.film.name()];
+}
+
+void DebugWindow::follow_choices(const std::string& film_before) {
+  bool has_ended = false;
+  if (film_before != facts_.film.name()) has_ended = choices_[film_before].end_scene();
+  // Without this, nothing would be felt until the object is given up.
+  if (choices().see(facts_) || has_ended) link_.choose(std::nullopt);
+  save_late_ends();
+}
+
+void DebugWindow::choose(const ObjectWish& wish) {
+  link_.choose(wish.place);
+  const Sighting* const object = sightings_.find(wish.object);
+  if (!wish.place) {
+    choices().let_go();
+  } else if (object) {
+    choices().choose(*object);
+  }
+}
+
+bool DebugWindow::has_unsaved_choices() const {
+  for (const auto& [film, choices] : choices_)
+    if (!film.empty() && choices.has_unsaved()) return true;
+  return false;
+}
+
+void DebugWindow::save_choices() {
+  for (auto& [film, choices] : choices_)
+    if (choices.has_unsaved()) save_choices(film, choices);
+}
+
+void DebugWindow::save_late_ends() {
+  for (auto& [film, choices] : choices_)
+    if (choices.has_late_end()) save_choices(film, choices);
+}
+
+void DebugWindow::save_choices(const std::string& film, SceneChoices& choices) {
+  if (film.empty()) return;
+  const ChoicesSaved saved = link_.save(film, choices.edits());
+  say(saved.what);
+  saved.is_done ? choices.saved() : choices.not_saved();
+}
+
+void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
+  const FilmStrip strip = film_strip(facts_.film, state_.rules.get(), choices().edits());
+  const double max_force_N = facts_.controller.max_force_N;
+  const TimelineUse use = draw_timeline(brush, panel, timeline_, state_.is_playing, max_force_N,
+                                        strip, has_unsaved_choices());
+  if (use.removed) remove_choice(*use.removed);
+  if (use.saves) save_choices();
+  if (use.plays) link_.play(*use.plays);
+  if (use.seek_ns) link_.seek(*use.seek_ns);
+}
+
+/// Removing the choice that is felt lets go of its object.
+void DebugWindow::remove_choice(const FeelRule& rule) {
+  const int64_t now_ns = facts_.film.stream_ns;
+  if (rule.from_ns <= now_ns && now_ns < rule.to_ns && facts_.click != 0) {
+    link_.choose(std::nullopt);
+  }
+  choices().remove(rule.from_ns, rule.to_ns);
+}
+
+void DebugWindow::end_choices() {
+  for (auto& [film, choices] : choices_) choices.end_scene();
+  save_late_ends();
 }
 
 }  // namespace spidar

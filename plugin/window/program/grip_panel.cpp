@@ -2,13 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/force/felt_force.h"
-#include "plugin/window/program/model/plot_axis.h"
 #include "plugin/window/program/panels.h"
+#include "plugin/window/program/plot.h"
 
 namespace spidar {
 namespace {
@@ -16,6 +14,12 @@ namespace {
 constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
 /// Of the view: the largest force as a share of the panel's smaller side.
 constexpr double kForceShare = 0.3;
+
+constexpr ImU32 kRangeColor = IM_COL32(38, 43, 53, 255);
+/// Of a string's bar: half of its width, as a share of its room.
+constexpr double kHalfBar = 0.25;
+/// Of the axis, where a device says nothing of its motors.
+constexpr double kLeastTension_N = 0.1;
 
 /// Blue at the smallest tension, red at the largest.
 ImU32 tension_color(double share) {
@@ -57,15 +61,6 @@ void draw_grip_body(const GripView& view, const DeviceView& device) {
   view.brush.list.AddCircle(centre, radius, kTextColor, 32, view.brush.px(1));
 }
 
-/// Where the number of a string is, beside its exit.
-Rect number_rect(const Brush& brush, const GripProjection& project, const DeviceView& device,
-                 int i) {
-  const Eigen::Vector2d exit = project(device.geometry.exit_m[static_cast<size_t>(i)]);
-  const ImVec2 size = text_size(brush.fonts.small, std::to_string(i));
-  const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;
-  return {exit.x() + side * 12 * brush.scale - size.x / 2, exit.y() - size.y / 2, size.x, size.y};
-}
-
 void draw_strings(const Brush& brush, const GripProjection& project, const DeviceView& device) {
   const TickRecord& last = device.last;
   const Eigen::Matrix3d R = last.pose.orientation.toRotationMatrix();
@@ -77,15 +72,20 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
                        color, brush.px(1.2 + 2.5 * std::clamp(share, 0.0, 1.0)));
     brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
-    draw_text(brush, brush.fonts.small, upper_left(number_rect(brush, project, device, i)),
-              kMutedColor, std::to_string(i));
+    // Its number, beside the exit.
+    const std::string number = std::to_string(i);
+    const ImVec2 size = text_size(brush.fonts.small, number);
+    const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;
+    draw_text(brush, brush.fonts.small,
+              im(exit.x() + side * 12 * brush.scale - size.x / 2, exit.y() - size.y / 2),
+              kMutedColor, number);
   }
 }
 
-/// A force at the hand, as a line in space, with its newtons and `which` force it is, beside what
-/// is `taken`. Without a name it is a faint line.
+/// A force at the hand, as a line in space, with its newtons and `which` force it is, within the
+/// panel. Without a name it is a faint line.
 void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, double most_N,
-                const char* which, const std::vector<Rect>& taken) {
+                const char* which) {
   const double force_N = wrench.force_N.norm();
   if (force_N < kFeltForce_N || most_N <= 0) return;
   const Eigen::Vector2d from = view.project(view.pose.position_m);
@@ -103,17 +103,15 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
   brush.list.AddTriangleFilled(im(to + head * along), im(to + 0.6 * head * side),
                                im(to - 0.6 * head * side), color);
   if (!which) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", force_N);
-  const Eigen::Vector2d at = to + 2.2 * head * along;
-  // Without its name where there is no room for that.
-  for (const std::string& label : {text + (" " + std::string(which)), std::string(text)}) {
-    const ImVec2 size = text_size(brush.fonts.bold, label);
-    const Rect wanted{at.x() - (along.x() < 0 ? size.x + 6 : 0), at.y() - size.y / 2,
-                      size.x + brush.px(10), size.y + brush.px(4)};
-    const std::optional<Rect> place = place_label(panel, wanted, taken);
-    if (place) return draw_label(brush, brush.fonts.bold, upper_left(*place), kFeltColor, label);
-  }
+  char text[48];
+  std::snprintf(text, sizeof text, "%.1f N %s", force_N, which);
+  const ImVec2 text_px = text_size(brush.fonts.bold, text);
+  const Eigen::Vector2d size(text_px.x + brush.px(10), text_px.y + brush.px(4));
+  const Eigen::Vector2d low(panel.x, panel.y), high(panel.right(), panel.bottom());
+  Eigen::Vector2d corner = to + 2.2 * head * along - Eigen::Vector2d(0, size.y() / 2);
+  if (along.x() < 0) corner.x() -= size.x();
+  draw_label(brush, brush.fonts.bold, im(corner.cwiseMin(high - size).cwiseMax(low)), kFeltColor,
+             text);
 }
 
 /// The directions of the device in a corner.
@@ -155,12 +153,8 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   draw_compass(brush, content, project);
   if (device.has_strings) draw_strings(brush, project, device);
   draw_grip_body(view, device);
-  std::vector<Rect> numbers;
-  for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
-    numbers.push_back(number_rect(brush, project, device, i));
-  }
-  draw_force(view, content, last.wanted, last.max_force_N, nullptr, numbers);
-  draw_force(view, content, last.delivered, last.max_force_N, "delivered", numbers);
+  draw_force(view, content, last.wanted, last.max_force_N, nullptr);
+  draw_force(view, content, last.delivered, last.max_force_N, "delivered");
   brush.list.PopClipRect();
 }
 
@@ -170,49 +164,29 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
       draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
   if (!strings || !state.device || state.device->geometry.count == 0) return;
   const DeviceView& device = *state.device;
-  const Rect area = tension_area(panel, brush.scale);
-  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
+  const int count = device.geometry.count;
+  const double most_N = std::max(device.max_tension_N.head(count).maxCoeff(), kLeastTension_N);
+  const PlotAxis strings_axis = make_axis(-0.5, count - 0.5, count);
+  const Plot plot(brush, content, strings_axis,
+                  make_axis(0, most_N, Plot::steps_up(brush, content.height)), "", "");
   const ImFont* font = brush.fonts.small;
-  const float half = font->FontSize / 2;
-  const std::vector<TensionBar> bars = tension_bars(area, device);
-  // The axis is that of all bars where their motors are alike.
-  const double most_N = device.max_tension_N.head(device.geometry.count).maxCoeff();
-  const bool alike = device.max_tension_N.head(device.geometry.count).minCoeff() == most_N;
-  const PlotAxis axis =
-      make_axis(0, most_N, std::max(3, static_cast<int>(area.height / (18 * brush.scale))));
-  if (alike) {
-    for (const double tick : axis.ticks()) {
-      const double y = area.bottom() - axis.share(tick) * area.height;
-      brush.list.AddLine(im(area.x, y), im(area.right(), y), kGridColor);
-      draw_text_before(brush, font, im(area.x - 4 * brush.scale, y - half), kMutedColor,
-                       axis.label(tick));
-    }
-  }
-  for (size_t i = 0; i < bars.size(); ++i) {
-    const TensionBar& bar = bars[i];
-    const auto string = static_cast<Eigen::Index>(i);
-    const bool at_fault = device.last.faulty_string == static_cast<int>(i);
-    brush.list.AddRectFilled(upper_left(bar.range), lower_right(bar.range),
-                             IM_COL32(38, 43, 53, 255));
-    brush.list.AddRectFilled(upper_left(bar.filled), lower_right(bar.filled),
-                             at_fault ? kWarnColor : kAccentColor);
-    brush.list.AddLine(im(bar.range.x - 3 * brush.scale, bar.least_y),
-                       im(bar.range.right() + 3 * brush.scale, bar.least_y), kTextColor);
-    char value[16];
-    std::snprintf(value, sizeof value, "%.1f", device.last.tension_N[string]);
-    const double middle = bar.range.x + bar.range.width / 2;
-    const auto centred = [&](double y, ImU32 color, const std::string& text) {
-      draw_text(brush, font, im(middle - text_size(font, text).x / 2, y), color, text);
+  brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
+  for (int i = 0; i < count; ++i) {
+    const double tension_N = device.last.tension_N[i], range_N = device.max_tension_N[i];
+    const auto fill = [&](double to_N, ImU32 color) {
+      const double top_N = std::clamp(to_N, 0.0, range_N);
+      brush.list.AddRectFilled(plot.at(i - kHalfBar, top_N), plot.at(i + kHalfBar, 0), color);
     };
-    const double above = bar.range.y - font->FontSize - 3 * brush.scale;
-    if (above >= content.y - 2 * brush.scale) centred(above, kTextColor, value);
-    centred(bar.range.bottom() + 4 * brush.scale, kMutedColor, std::to_string(i));
-  }
-  const std::string below = "string";
-  const double caption_y = area.bottom() + 5 * brush.scale + font->FontSize;
-  if (caption_y + font->FontSize <= panel.bottom()) {
-    const double middle = area.x + (area.width - text_size(font, below).x) / 2;
-    draw_text(brush, font, im(middle, caption_y), kMutedColor, below);
+    fill(range_N, kRangeColor);
+    fill(tension_N, device.last.faulty_string == i ? kWarnColor : kAccentColor);
+    const double least_N = device.min_tension_N[i];
+    brush.list.AddLine(plot.at(i - 1.2 * kHalfBar, least_N), plot.at(i + 1.2 * kHalfBar, least_N),
+                       kTextColor);
+    char value[16];
+    std::snprintf(value, sizeof value, "%.1f", tension_N);
+    const ImVec2 top = plot.at(i, most_N);
+    draw_text(brush, font, {top.x - text_size(font, value).x / 2, top.y - font->FontSize - 2},
+              kTextColor, value);
   }
   brush.list.PopClipRect();
 }

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "plugin/window/program/model/film_strip.h"
 #include "plugin/window/program/model/layout.h"
+#include "plugin/window/program/model/scene_choices.h"
 #include "plugin/window/program/model/timeline.h"
-#include "plugin/window/program/model/window_model.h"
 #include "plugin/window/program/style.h"
 #include "plugin/window/view/mouse_hand.h"
+#include "plugin/window/view/window_view.h"
 
 namespace spidar {
 
@@ -55,12 +55,15 @@ void draw_hint(const Brush& brush, const Rect& picture, const std::string& line)
 /// What the user wants of the choices.
 struct TimelineUse {
   std::optional<FeelRule> removed;  ///< this one is to be removed
+  std::optional<int64_t> seek_ns;   ///< the film is to go on from there
+  std::optional<bool> plays;        ///< the film is to play, or to pause
   bool saves = false;
 };
-/// The last minute, with a button that pauses it; dragging looks back. Below it the film with its
+/// The last minute, with a button that pauses the film or plays it. Below it the film with its
 /// choices, which can be saved if there are some that are not.
-TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
-                          double max_force_N, const FilmStrip& strip, bool has_unsaved);
+TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                          bool is_playing, double max_force_N, const FilmStrip& strip,
+                          bool has_unsaved);
 
 /// `note`: what the window has to say at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
@@ -71,12 +74,7 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* 
 /// Widgets for the settings of the element, the button for rest first.
 void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                    const std::function<void(const std::string&, double)>& set);
-void draw_help(double scale);
 
 /// The mouse in the frame of the window that is drawn, from Dear ImGui.
 Mouse read_mouse();
-/// Writes pixels of three bytes, the lowest row first. Empty, or why the file cannot be written.
-std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
-                      const std::string& path);
-
 }  // namespace spidar

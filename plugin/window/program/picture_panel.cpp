@@ -216,7 +216,8 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   style.height_px = map.shown.height;
   style.max_force_N = picture.max_force_N;
   style.turn = facts.scene.turn;
-  const Overlay over{brush, map, facts, picture, felt_objects(facts)};
+  const Overlay over{brush, map, facts, picture,
+                     felt_objects(facts.scene, facts.motion, facts.touch)};
   draw_tracks(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);
@@ -224,6 +225,14 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   draw_force(over, facts.scene.wrench, " wanted", from_px, style);
   if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
+}
+
+void draw_hint(const Brush& brush, const Rect& picture, const std::string& line) {
+  const ImFont* font = brush.fonts.small;
+  const double margin = 8 * brush.scale;
+  draw_label(brush, font,
+             im(picture.x + margin, picture.bottom() - margin - font->FontSize - brush.px(4)),
+             kTextColor, line);
 }
 
 }  // namespace spidar

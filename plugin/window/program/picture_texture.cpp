@@ -71,13 +71,6 @@ bool PictureTexture::load(const SharedPicture& picture, int most_width) {
   return true;
 }
 
-void PictureTexture::load(const Still& still) {
-  upload(still.rgba.data(), still.width, still.height);
-  frame_width_ = still.frame_width;
-  frame_height_ = still.frame_height;
-  pixel_aspect_ = still.pixel_aspect;
-}
-
 void PictureTexture::upload(const void* rgba, int width, int height) {
   glBindTexture(GL_TEXTURE_2D, id_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -88,28 +81,6 @@ void PictureTexture::upload(const void* rgba, int width, int height) {
   }
   width_ = width;
   height_ = height;
-}
-
-bool PictureTexture::copy_to(Still& still, int widest) const {
-  return cut_to(still, {0, 0, 1, 1}, widest);
-}
-
-bool PictureTexture::cut_to(Still& still, const Rect& part, int widest) const {
-  const int x0 = std::clamp(static_cast<int>(std::floor(part.x * width_)), 0, width_);
-  const int y0 = std::clamp(static_cast<int>(std::floor(part.y * height_)), 0, height_);
-  const int width = std::min(static_cast<int>(std::ceil(part.right() * width_)), width_) - x0;
-  const int height = std::min(static_cast<int>(std::ceil(part.bottom() * height_)), height_) - y0;
-  GstMapInfo map;
-  if (width <= 0 || height <= 0 || !converted_) return false;
-  if (!gst_buffer_map(converted_, &map, GST_MAP_READ)) return false;
-  const int stride = GST_VIDEO_INFO_PLANE_STRIDE(&target_, 0);
-  const uint8_t* const first = map.data + static_cast<ptrdiff_t>(y0) * stride + ptrdiff_t{4} * x0;
-  shrink_into(still, first, width, height, stride, widest);
-  gst_buffer_unmap(converted_, &map);
-  still.frame_width = frame_width_;
-  still.frame_height = frame_height_;
-  still.pixel_aspect = pixel_aspect_;
-  return true;
 }
 
 }  // namespace spidar

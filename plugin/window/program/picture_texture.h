@@ -8,9 +8,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/window/program/model/shared_picture.h"
-#include "plugin/window/program/model/still.h"
-#include "plugin/window/view/rect.h"
+#include "plugin/window/view/shared_pictures.h"
 
 namespace spidar {
 
@@ -25,14 +23,8 @@ class PictureTexture {
   /// pixels wide, and uploads it. False when the frame cannot be converted: the texture stays.
   bool load(const SharedPicture& picture, int most_width);
 
-  /// Shows a picture of the past instead.
-  void load(const Still& still);
-  /// Fills in the size and pixels of what was loaded from a SharedPicture, no wider than `widest`.
-  /// False when there is none.
-  bool copy_to(Still& still, int widest) const;
-
-  /// The same of a part, in shares of the frame. False also when that is empty.
-  bool cut_to(Still& still, const Rect& part, int widest) const;
+  /// RGBA, rows from the top, without padding.
+  void upload(const void* rgba, int width, int height);
 
   /// Of the frame that it was made from.
   int frame_width() const { return frame_width_; }
@@ -45,7 +37,6 @@ class PictureTexture {
   unsigned id() const { return id_; }
 
  private:
-  void upload(const void* rgba, int width, int height);
   bool prepare(const GstVideoInfo& source, int width, int height);
 
   unsigned id_ = 0;

@@ -17,6 +17,25 @@ constexpr std::chrono::seconds kSavePatience{2};
 
 }  // namespace
 
+void FrameQueue::add(WindowFrame frame) {
+  if (!waiting_.empty() && frame.facts.running_ns < waiting_.back().facts.running_ns) {
+    waiting_.clear();
+  }
+  waiting_.push_back(std::move(frame));
+}
+
+std::optional<WindowFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
+  const auto is_due = [&](const WindowFrame& frame) {
+    return !running_ns || frame.facts.running_ns <= *running_ns || waiting_.size() > kMost;
+  };
+  std::optional<WindowFrame> shown;
+  while (!waiting_.empty() && is_due(waiting_.front())) {
+    shown = std::move(waiting_.front());
+    waiting_.pop_front();
+  }
+  return shown;
+}
+
 /// Until something has come. False when the time is over, or the player is gone.
 bool PlayerLink::wait(Clock::time_point until) {
   while (!channel_->is_gone()) {

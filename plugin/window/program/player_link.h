@@ -4,16 +4,43 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "plugin/window/program/model/frame_queue.h"
 #include "plugin/window/view/channel.h"
 #include "plugin/window/view/messages.h"
+#include "plugin/window/view/shared_pictures.h"
+#include "plugin/window/view/window_view.h"
 
 namespace spidar {
+
+struct WindowFrame {
+  SharedPicture picture;
+  FrameFacts facts;
+};
+
+/// The element sees a frame before the sink shows it, and the grip feels it when the sink does:
+/// what a window draws beside the grip waits here until then.
+class FrameQueue {
+ public:
+  /// With more of them, as between the element and a sink with a long queue, the oldest is shown
+  /// although it is not on the screen yet.
+  static constexpr size_t kMost = 8;
+
+  /// An earlier running time than before is another stream, or a seek: all that waits is forgotten.
+  void add(WindowFrame frame);
+  /// The newest frame that is on the screen at this running time; without one, while nothing is
+  /// felt, the newest of all. Nothing when there is no other than before.
+  std::optional<WindowFrame> show(std::optional<int64_t> running_ns);
+
+ private:
+  std::deque<WindowFrame> waiting_;
+};
 
 /// One thread.
 class PlayerLink {
@@ -45,6 +72,8 @@ class PlayerLink {
   void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m);
   void choose(const std::optional<Eigen::Vector2d>& place) { send(ChooseObject{place}); }
+  void play(bool plays) { send(PlayFilm{plays}); }
+  void seek(int64_t to_ns) { send(SeekFilm{to_ns}); }
   /// Waits for the answer, but not for long.
   ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits);
   void cannot_open(const std::string& what, const std::string& advice);

@@ -126,12 +126,19 @@ void Plot::area(const std::vector<PlotPoint>& points, ImU32 color) const {
   brush_.list.PopClipRect();
 }
 
-void Plot::level(double y, ImU32 color) const {
-  brush_.list.AddLine(at(x_.low, y), at(x_.high, y), color, brush_.px(1));
-}
-
 void Plot::upright(double x, ImU32 color) const {
   brush_.list.AddLine(at(x, y_.low), at(x, y_.high), color, brush_.px(1.5));
+}
+
+std::optional<double> Plot::hovered_x() const {
+  if (ImGui::GetIO().WantCaptureMouse) return std::nullopt;
+  if (!ImGui::IsMouseHoveringRect(upper_left(area_), lower_right(area_), false)) {
+    return std::nullopt;
+  }
+  const double share = (ImGui::GetMousePos().x - area_.x) / area_.width;
+  const double x = x_.low + share * (x_.high - x_.low);
+  upright(x, kLineColor);
+  return x;
 }
 
 void Plot::dot(double x, double y, ImU32 color) const {

@@ -3,6 +3,7 @@
 /// A plot with axes, grid and legend, drawn into a rectangle.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,6 @@ class Plot {
   void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
   /// The area between a line and y = 0.
   void area(const std::vector<PlotPoint>& points, ImU32 color) const;
-  void level(double y, ImU32 color) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
   /// Names beside each other at the upper right, in their colours, as many as there is room for.
@@ -47,6 +47,8 @@ class Plot {
 
   const Rect& area() const { return area_; }
   ImVec2 at(double x, double y) const;
+  /// Where the mouse is on the axis of x, with a line there; nothing while it is elsewhere.
+  std::optional<double> hovered_x() const;
 
   /// How many steps fit on an axis of this length.
   static int steps_across(const Brush& brush, double width_px);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "core/force/felt_force.h"
+#include "plugin/window/program/model/relief_view.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 
@@ -19,7 +22,7 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-/// The last seconds before the cursor, as seconds before it.
+/// The last seconds, as seconds before the newest moment.
 PlotAxis time_axis(const Brush& brush, const Rect& panel, const Timeline& timeline) {
   return make_axis(-timeline.plotted_s(), 0, Plot::steps_across(brush, panel.width));
 }
@@ -28,7 +31,7 @@ template <typename Value>
 std::vector<PlotPoint> series(const Timeline& timeline, const Value& value) {
   std::vector<PlotPoint> points;
   for (const Moment& moment : timeline.plotted()) {
-    points.push_back({moment.time_s - timeline.cursor_s(), value(moment)});
+    points.push_back({moment.time_s - timeline.newest_s(), value(moment)});
   }
   return points;
 }
@@ -44,12 +47,28 @@ std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Inde
   return all;
 }
 
+/// Beside the mouse: what was delivered in this pixel's width, where it is largest.
+void tell_force(double at_s, const ForceColumn& column) {
+  if (column.is_empty) return;
+  std::string text = number("%.2f s", at_s) + number(": %.2f N", column.most_N);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double low_N = column.delivered_low_N[axis], high_N = column.delivered_high_N[axis];
+    const double largest_N = -low_N > high_N ? low_N : high_N;
+    text += std::string("\n") + kAxisNames[axis] + number(" %+.2f N", largest_N);
+  }
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
 /// Upper end of an axis of speed: fits what is plotted, whatever one frame says.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
 }
+
+constexpr int kSectionPoints = 200;
+/// Margin of the height axis beyond relief and grip.
+constexpr double kMargin_mm = 1;
 
 }  // namespace
 
@@ -62,7 +81,7 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const double most_N = std::max(max_force_N, kLeastForce_N);
   const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "N");
-  const double end_s = timeline.cursor_s(), begin_s = end_s - timeline.plotted_s();
+  const double end_s = timeline.newest_s(), begin_s = end_s - timeline.plotted_s();
   const auto pixels = static_cast<size_t>(std::max(plot.area().width, 1.0));
   const std::vector<ForceColumn> columns = timeline.columns(begin_s, end_s, pixels);
   for (Eigen::Index axis = 2; axis >= 0; --axis) {
@@ -71,6 +90,11 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
               faded(color, 95), 3.5);
     plot.band(spans(columns, axis, &ForceColumn::delivered_low_N, &ForceColumn::delivered_high_N),
               color);
+  }
+  if (const std::optional<double> at_s = plot.hovered_x()) {
+    const double share = 1 + *at_s / timeline.plotted_s();
+    const auto column = static_cast<size_t>(share * static_cast<double>(columns.size()));
+    if (column < columns.size()) tell_force(*at_s, columns[column]);
   }
   plot.legend({{kAxisNames[0], kAxisColors[0]},
                {kAxisNames[1], kAxisColors[1]},
@@ -90,6 +114,11 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
       series(timeline, [](const Moment& m) { return m.speed_px_s; });
   plot.area(speed, faded(kSpeedColor, 40));
   plot.line(speed, kSpeedColor);
+  const std::optional<double> at_s = plot.hovered_x();
+  if (!at_s) return;
+  const auto after = std::find_if(speed.begin(), speed.end(),
+                                  [&](const PlotPoint& point) { return point.x >= *at_s; });
+  if (after != speed.end()) ImGui::SetTooltip("%.2f s: %.0f px/s", after->x, after->y);
 }
 
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
@@ -100,7 +129,7 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const PlotAxis x = make_axis(0, highest_px_s, Plot::steps_across(brush, content.width));
   const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "px/s", "N");
-  const std::vector<double> curve_N = gain_curve(controller, timeline, highest_px_s, kCurvePoints);
+  const std::vector<double> curve_N = timeline.gain_curve(controller, highest_px_s, kCurvePoints);
   std::vector<PlotPoint> curve;
   for (size_t i = 0; i < curve_N.size(); ++i) {
     curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
@@ -110,6 +139,37 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   if (moments.empty()) return;
   // The controller's force, a part of which may have become torque.
   plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
+}
+
+void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
+                  const TickRecord& tick) {
+  const Rect content = draw_panel(brush, panel, "Under the finger", depth_line(scene, tick));
+  if (!scene.relief) {
+    draw_text(brush, brush.fonts.small, im(content.x + brush.px(6), content.y + brush.px(6)),
+              kMutedColor, "No relief yet");
+    return;
+  }
+  const Eigen::Vector3d& grip_m = tick.pose.position_m;
+  std::vector<PlotPoint> line;
+  double highest_mm = std::fabs(1e3 * grip_m.z());
+  for (const Eigen::Vector2d& at_m : touched_section(*scene.relief, tick, kSectionPoints)) {
+    line.push_back({1e3 * at_m.x(), 1e3 * at_m.y()});
+    highest_mm = std::max(highest_mm, std::fabs(line.back().y));
+  }
+  const double half_mm = 500 * scene.relief->width_m();
+  const double most_mm = highest_mm + kMargin_mm;
+  const PlotAxis x = make_axis(-half_mm, half_mm, Plot::steps_across(brush, content.width));
+  const PlotAxis y = make_axis(-most_mm, most_mm, Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, x, y, "mm", "mm near");
+  plot.line(line, kMutedColor);
+  const Eigen::Vector3d& proxy_m = tick.contact.proxy_m;
+  const ImVec2 finger = plot.at(1e3 * grip_m.x(), 1e3 * grip_m.z());
+  if (tick.contact.touching) {
+    const ImVec2 proxy = plot.at(1e3 * proxy_m.x(), 1e3 * proxy_m.z());
+    brush.list.AddLine(finger, proxy, kTextColor, brush.px(1.5));
+    brush.list.AddCircleFilled(proxy, brush.px(4), kFeltColor);
+  }
+  brush.list.AddCircle(finger, brush.px(6), kTextColor, 0, brush.px(2));
 }
 
 }  // namespace spidar

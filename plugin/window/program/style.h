@@ -19,7 +19,7 @@ constexpr ImU32 kTextColor = IM_COL32(226, 230, 237, 255);
 constexpr ImU32 kMutedColor = IM_COL32(154, 163, 178, 255);  ///< text of less weight
 constexpr ImU32 kAccentColor = IM_COL32(64, 160, 255, 255);
 constexpr ImU32 kFeltColor = IM_COL32(255, 190, 60, 255);
-constexpr ImU32 kSpeedColor = IM_COL32(110, 210, 130, 255);
+constexpr ImU32 kSpeedColor = IM_COL32(190, 150, 255, 255);
 constexpr ImU32 kGoodColor = IM_COL32(92, 200, 120, 255);
 constexpr ImU32 kWarnColor = IM_COL32(255, 96, 88, 255);
 /// x, y, z of the device frame: right, up, towards the viewer.

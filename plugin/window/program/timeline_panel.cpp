@@ -13,25 +13,26 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoSavedSettings |
                                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav;
 
-std::string title_of(const Timeline& timeline) {
-  if (!timeline.is_paused()) return "Last minute";
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f s earlier",
-                timeline.moments().back().time_s - timeline.cursor_s());
-  return text;
-}
-
 /// The largest force in each part of the width.
-std::vector<PlotPoint> profile(const Timeline& timeline, double newest_s, size_t parts) {
+std::vector<PlotPoint> profile(const Timeline& timeline, size_t parts) {
   std::vector<PlotPoint> points;
   const double part_s = Timeline::kMemory_s / static_cast<double>(parts);
   double x = 0.5 * part_s - Timeline::kMemory_s;
   for (const ForceColumn& column :
-       timeline.columns(newest_s - Timeline::kMemory_s, newest_s, parts)) {
+       timeline.columns(timeline.newest_s() - Timeline::kMemory_s, timeline.newest_s(), parts)) {
     if (!column.is_empty) points.push_back({x, column.most_N});
     x += part_s;
   }
   return points;
+}
+
+/// Beside the mouse: the largest force there.
+void tell_force(const Plot& plot, const std::vector<PlotPoint>& force) {
+  const double x_px = ImGui::GetMousePos().x;
+  const auto after = std::find_if(force.begin(), force.end(), [&](const PlotPoint& point) {
+    return plot.at(point.x, 0).x >= x_px;
+  });
+  if (after != force.end()) ImGui::SetTooltip("%.0f s: %.2f N", after->x, after->y);
 }
 
 /// In whole seconds.
@@ -65,48 +66,46 @@ void draw_strip(const Brush& brush, const Rect& place, const FilmStrip& strip) {
 }
 
 /// With the mouse over it.
-std::optional<FeelRule> use_strip(const Brush& brush, const Rect& place, const FilmStrip& strip) {
+void use_strip(const Brush& brush, const Rect& place, const FilmStrip& strip, TimelineUse& use) {
   ImGui::SetCursorScreenPos(im(place.x, place.y - 2 * brush.scale));
   ImGui::InvisibleButton("film", im(place.width, place.height + 4 * brush.scale));
-  if (!ImGui::IsItemHovered()) return std::nullopt;
+  if (!ImGui::IsItemHovered()) return;
   const double share = (ImGui::GetIO().MousePos.x - place.x) / place.width;
   const StripMark* const mark = strip.at(share, kLeastMark_px * brush.scale / place.width);
   if (!mark) {
     const auto at_ns = static_cast<int64_t>(share * static_cast<double>(strip.length_ns));
-    ImGui::SetTooltip("%s. Marks: an object was chosen, or another rule holds",
-                      film_time(at_ns).c_str());
-    return std::nullopt;
+    ImGui::SetTooltip("A click plays from %s.", film_time(at_ns).c_str());
+    if (ImGui::IsItemClicked()) use.seek_ns = at_ns;
+    return;
   }
   ImGui::SetTooltip("%s%s. A click removes it.", rule_text(mark->rule).c_str(),
                     mark->is_new ? ", not saved" : "");
-  return ImGui::IsItemClicked() ? std::optional(mark->rule) : std::nullopt;
+  if (ImGui::IsItemClicked()) use.removed = mark->rule;
 }
 
 }  // namespace
 
-TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timeline,
-                          double max_force_N, const FilmStrip& strip, bool has_unsaved) {
-  const Rect left = draw_panel(brush, panel, title_of(timeline));
+TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                          bool is_playing, double max_force_N, const FilmStrip& strip,
+                          bool has_unsaved) {
+  const Rect left = draw_panel(brush, panel, "Last minute");
   const double button = std::min(96 * brush.scale, left.width / 3);
   const double margin = 10 * brush.scale;
   const double below = strip.length_ns > 0 ? (kStrip_px + 5) * brush.scale : 0;
   const Rect content{left.x + button + margin, panel.y + 4 * brush.scale,
                      std::max(left.width - button - margin, 1.0),
                      std::max(panel.height - 10 * brush.scale - below, 1.0)};
-  const double newest_s = timeline.moments().empty() ? 0 : timeline.moments().back().time_s;
   const PlotAxis x = make_axis(-Timeline::kMemory_s, 0, Plot::steps_across(brush, content.width));
   const PlotAxis y =
       make_axis(0, std::max(max_force_N, 0.1), Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "s", "N");
   const std::vector<PlotPoint> force =
-      profile(timeline, newest_s, static_cast<size_t>(std::max(plot.area().width / 2, 1.0)));
+      profile(timeline, static_cast<size_t>(std::max(plot.area().width / 2, 1.0)));
   plot.area(force, faded(kFeltColor, 60));
   plot.line(force, kFeltColor, 1.2);
   // What the plots below show.
-  const double cursor = timeline.cursor_s() - newest_s;
-  const double from = std::max(cursor - timeline.plotted_s(), -Timeline::kMemory_s);
-  brush.list.AddRectFilled(plot.at(from, y.high), plot.at(cursor, y.low), faded(kTextColor, 28));
-  plot.upright(cursor, timeline.is_paused() ? kTextColor : kLineColor);
+  brush.list.AddRectFilled(plot.at(-timeline.plotted_s(), y.high), plot.at(0, y.low),
+                           faded(kTextColor, 28));
 
   const Rect film{plot.area().x, content.bottom() + 3 * brush.scale, plot.area().width,
                   kStrip_px * brush.scale};
@@ -120,14 +119,9 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timel
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
   ImGui::Begin("timeline", nullptr, kBare);
   ImGui::SetCursorScreenPos(im(left.x, left.y + 2 * brush.scale));
-  const bool paused = timeline.is_paused();
-  if (ImGui::Button(paused ? "Live" : "Pause", im(button, 0))) {
-    paused ? timeline.resume() : timeline.pause();
-  }
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Holds what the window shows (P). The video and the force continue.");
-  }
   TimelineUse use;
+  if (ImGui::Button(is_playing ? "Pause" : "Play", im(button, 0))) use.plays = !is_playing;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Asks the player for it (P)");
   if (has_unsaved) {
     ImGui::SetCursorScreenPos(im(left.x, left.y + 28 * brush.scale));
     ImGui::PushFont(brush.fonts.small);
@@ -138,14 +132,9 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, Timeline& timel
     }
   }
   ImGui::SetCursorScreenPos(upper_left(plot.area()));
-  ImGui::InvisibleButton("scrub", im(plot.area().width, std::max(plot.area().height, 1.0)));
-  if (ImGui::IsItemActive()) {
-    const double share = (ImGui::GetIO().MousePos.x - plot.area().x) / plot.area().width;
-    timeline.look_at(newest_s + (share - 1) * Timeline::kMemory_s);
-  } else if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("Drag to look back");
-  }
-  if (strip.length_ns > 0) use.removed = use_strip(brush, film, strip);
+  ImGui::InvisibleButton("force", im(plot.area().width, std::max(plot.area().height, 1.0)));
+  if (ImGui::IsItemHovered()) tell_force(plot, force);
+  if (strip.length_ns > 0) use_strip(brush, film, strip, use);
   ImGui::End();
   return use;
 }

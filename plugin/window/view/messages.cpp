@@ -193,7 +193,7 @@ void pass(Wire& wire, FrameShown& frame) {
 
 template <typename Wire>
 void pass(Wire& wire, ElementState& state) {
-  wire(state.name, state.device, state.settings, state.no_force, state.rules);
+  wire(state.name, state.is_playing, state.device, state.settings, state.no_force, state.rules);
 }
 
 template <typename Wire>
@@ -250,6 +250,16 @@ void pass(Wire& wire, FeelEdit& edit) {
 template <typename Wire>
 void pass(Wire& wire, SaveChoices& save) {
   wire(save.film, save.edits);
+}
+
+template <typename Wire>
+void pass(Wire& wire, PlayFilm& play) {
+  wire(play.plays);
+}
+
+template <typename Wire>
+void pass(Wire& wire, SeekFilm& seek) {
+  wire(seek.to_ns);
 }
 
 template <typename Wire>

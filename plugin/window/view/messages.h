@@ -87,6 +87,14 @@ struct SaveChoices {
   std::string film;
   std::vector<FeelEdit> edits;
 };
+/// The film is to play or to pause.
+struct PlayFilm {
+  bool plays = false;
+};
+/// The film goes on from this time.
+struct SeekFilm {
+  int64_t to_ns = 0;
+};
 struct PictureTaken {
   std::string problem;  ///< empty when it was written
 };
@@ -96,7 +104,7 @@ struct CannotOpen {
 };
 
 using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
-                                PictureTaken, CannotOpen>;
+                                PlayFilm, SeekFilm, PictureTaken, CannotOpen>;
 
 /// The bytes of a message, from its kind on.
 std::vector<uint8_t> to_bytes(const ToWindow& message);

@@ -13,10 +13,6 @@ struct Rect {
   double x = 0, y = 0, width = 0, height = 0;
   double right() const { return x + width; }
   double bottom() const { return y + height; }
-  /// Touching is none.
-  bool overlaps(const Rect& other) const {
-    return x < other.right() && other.x < right() && y < other.bottom() && other.y < bottom();
-  }
   /// False for a place that is not finite.
   bool has(const Eigen::Vector2d& at) const {
     return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();

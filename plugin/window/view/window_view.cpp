@@ -3,6 +3,7 @@
 #include "plugin/window/view/window_view.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace spidar {
 
@@ -15,6 +16,17 @@ const Setting* ElementState::setting(const std::string& setting_name) const {
 double ElementState::value(const std::string& setting_name, double otherwise) const {
   const Setting* found = setting(setting_name);
   return found ? found->value : otherwise;
+}
+
+std::string felt_line(const ElementState& state, const TouchScene& touch) {
+  if (!state.no_force.empty()) return "not felt: " + state.no_force;
+  const double wanted_N_m = state.value("touch-stiffness", 0);
+  if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
+  char text[96];
+  std::snprintf(text, sizeof text,
+                "felt, at %.0f N/m instead of %.0f: the device's drives are slow",
+                touch.stiffness_N_m, wanted_N_m);
+  return text;
 }
 
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height) {

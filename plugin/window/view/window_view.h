@@ -36,6 +36,7 @@ struct Setting {
 /// The element as it is now.
 struct ElementState {
   std::string name;
+  bool is_playing = false;           ///< its state is PLAYING
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
   std::string no_force;  ///< why there was none in the last second; empty: it is felt
@@ -74,6 +75,10 @@ struct FrameFacts {
   uint32_t click = 0;     ///< number of the click whose object is kept; 0: none
   TouchScene touch;
 };
+
+/// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
+/// that the device gets less stiffness than is set.
+std::string felt_line(const ElementState& state, const TouchScene& touch = {});
 
 /// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
 double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);

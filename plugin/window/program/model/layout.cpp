@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace spidar {
 namespace {
@@ -22,9 +21,6 @@ constexpr double kGap_px = 8;
 constexpr double kTurn = 0.4, kTilt = 0.3;
 /// Of the panel, for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
-
-/// Of the room of a string's bar.
-constexpr double kBarFilled = 0.5;
 
 }  // namespace
 
@@ -64,35 +60,6 @@ WindowLayout lay_out(int width, int height, double scale) {
   return layout;
 }
 
-std::optional<Rect> place_label(const Rect& panel, const Rect& wanted,
-                                const std::vector<Rect>& taken) {
-  constexpr int kSteps = 16;
-  const double across = std::max(panel.width - wanted.width, 0.0);
-  const double down = std::max(panel.height - wanted.height, 0.0);
-  const auto at = [&](double x, double y) {
-    return Rect{std::clamp(x, panel.x, panel.x + across), std::clamp(y, panel.y, panel.y + down),
-                wanted.width, wanted.height};
-  };
-  const auto is_free = [&](const Rect& place) {
-    return std::none_of(taken.begin(), taken.end(),
-                        [&](const Rect& other) { return place.overlaps(other); });
-  };
-  const Rect first = at(wanted.x, wanted.y);
-  if (is_free(first)) return first;
-  std::optional<Rect> best;
-  double nearest = 0;
-  for (int i = 0; i <= kSteps; ++i) {
-    for (int k = 0; k <= kSteps; ++k) {
-      const Rect place = at(panel.x + i * across / kSteps, panel.y + k * down / kSteps);
-      const double distance = std::hypot(place.x - first.x, place.y - first.y);
-      if ((best && distance >= nearest) || !is_free(place)) continue;
-      best = place;
-      nearest = distance;
-    }
-  }
-  return best;
-}
-
 PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double frame_width,
                        double frame_height, double pixel_aspect) {
   PictureMap map;
@@ -123,34 +90,6 @@ Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
 
 Eigen::Vector2d GripProjection::operator()(const Eigen::Vector3d& at_m) const {
   return centre_px_ + px_m_ * flat_m(at_m);
-}
-
-Rect tension_area(const Rect& panel, double scale) {
-  constexpr double kAbove_px = 46, kLeft_px = 34, kBelow_px = 38, kRight_px = 10;
-  const double left = std::min(kLeft_px * scale, panel.width / 4);
-  const double above = std::min(kAbove_px * scale, panel.height / 3);
-  const double right = std::min(kRight_px * scale, panel.width / 4);
-  const double below = std::min(kBelow_px * scale, panel.height / 3);
-  return {panel.x + left, panel.y + above, panel.width - left - right,
-          panel.height - above - below};
-}
-
-std::vector<TensionBar> tension_bars(const Rect& area, const DeviceView& device) {
-  std::vector<TensionBar> bars;
-  const double room = area.width / std::max(device.geometry.count, 1), width = kBarFilled * room;
-  for (int i = 0; i < device.geometry.count; ++i) {
-    TensionBar bar;
-    bar.range = {area.x + i * room + (room - width) / 2, area.y, width, area.height};
-    const double most_N = device.max_tension_N[i];
-    const auto share = [&](double tension_N) {
-      return most_N > 0 ? std::clamp(tension_N / most_N, 0.0, 1.0) : 0.0;
-    };
-    const double filled = share(device.last.tension_N[i]) * area.height;
-    bar.filled = {bar.range.x, bar.range.bottom() - filled, width, filled};
-    bar.least_y = bar.range.bottom() - share(device.min_tension_N[i]) * area.height;
-    bars.push_back(bar);
-  }
-  return bars;
 }
 
 }  // namespace spidar

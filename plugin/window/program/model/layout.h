@@ -3,14 +3,10 @@
 /// Where things are in a debug window, in pixels from its upper left corner.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "core/grip/pose.h"
-#include "plugin/device/device_view.h"
+#include "core/grip/string_geometry.h"
 #include "plugin/window/view/rect.h"
 
 namespace spidar {
@@ -24,11 +20,6 @@ struct WindowLayout {
 };
 /// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read.
 WindowLayout lay_out(int width, int height, double scale);
-
-/// The place for a label that is nearest to `wanted`, within `panel` and beside all that is
-/// `taken`; nothing when there is none.
-std::optional<Rect> place_label(const Rect& panel, const Rect& wanted,
-                                const std::vector<Rect>& taken);
 
 /// From pixels of the frame to pixels of the window.
 struct PictureMap {
@@ -58,17 +49,5 @@ class GripProjection {
   Eigen::Vector2d centre_px_;
   double px_m_;
 };
-
-/// The tension of one string.
-struct TensionBar {
-  Rect range;          ///< from no tension, below, to the largest
-  Rect filled;         ///< as much of it as there is
-  double least_y = 0;  ///< of the smallest tension
-};
-/// What a panel of tensions leaves to its bars: above is its title, on the left are the numbers of
-/// the axis, below those of the strings.
-Rect tension_area(const Rect& panel, double scale);
-/// Beside each other over the width of `area`, in the order of the strings.
-std::vector<TensionBar> tension_bars(const Rect& area, const DeviceView& device);
 
 }  // namespace spidar

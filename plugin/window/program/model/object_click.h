@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "plugin/window/program/model/window_model.h"
 #include "plugin/window/view/mouse_hand.h"
+#include "plugin/window/view/window_view.h"
 
 namespace spidar {
 

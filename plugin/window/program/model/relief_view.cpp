@@ -19,12 +19,9 @@ uint8_t level(double share) {
 
 }  // namespace
 
-void shade_relief(const HeightField& relief, Still& picture) {
-  picture.width = picture.frame_width = HeightField::kColumns;
-  picture.height = picture.frame_height = HeightField::kRows;
-  picture.pixel_aspect = 1;
-  picture.rgba.resize(4 * static_cast<size_t>(HeightField::kCells));
-  uint8_t* pixel = picture.rgba.data();
+std::vector<uint8_t> shade_relief(const HeightField& relief) {
+  std::vector<uint8_t> rgba(4 * static_cast<size_t>(HeightField::kCells));
+  uint8_t* pixel = rgba.data();
   for (int y = 0; y < HeightField::kRows; ++y) {
     // Central differences, one-sided at the border.
     const int above = std::max(y - 1, 0), below = std::min(y + 1, HeightField::kRows - 1);
@@ -43,6 +40,7 @@ void shade_relief(const HeightField& relief, Still& picture) {
       *pixel++ = 255;
     }
   }
+  return rgba;
 }
 
 std::vector<Eigen::Vector2d> relief_section(const HeightField& relief, double y_m, int points) {

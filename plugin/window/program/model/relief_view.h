@@ -11,13 +11,13 @@
 
 #include "core/touch/height_field.h"
 #include "plugin/filter/frame/touch_view.h"
-#include "plugin/window/program/model/still.h"
-#include "plugin/window/program/model/window_model.h"
+#include "plugin/window/view/window_view.h"
 
 namespace spidar {
 
-/// Renders the relief as a grey surface lit from the upper left, one pixel per sample.
-void shade_relief(const HeightField& relief, Still& picture);
+/// Renders the relief as a grey surface lit from the upper left: RGBA, one pixel per
+/// sample, without padding.
+std::vector<uint8_t> shade_relief(const HeightField& relief);
 
 /// Cross-section at `y_m` from the left to the right edge: x and z in metres.
 std::vector<Eigen::Vector2d> relief_section(const HeightField& relief, double y_m, int points);

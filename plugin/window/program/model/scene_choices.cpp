@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/window/program/model/object_click.h"
+
 namespace spidar {
 namespace {
 
@@ -23,6 +25,30 @@ Eigen::Vector2d whole(const Eigen::Vector2d& place) {
 }
 
 }  // namespace
+
+void Sightings::see(const FrameFacts& facts) {
+  const int64_t now_ns = facts.film.stream_ns;
+  if (!facts.film.is_same_scene(film_) || now_ns < film_.stream_ns) seen_.clear();
+  film_ = facts.film;
+  for (const MovingObject& object : facts.scene.objects) {
+    if (object.tracks == 0) continue;
+    auto known = std::find_if(seen_.begin(), seen_.end(),
+                              [&](const Sighting& one) { return one.id == object.id; });
+    if (known == seen_.end()) {
+      const Eigen::Vector2d place = facts.scene.turn.place_shown(place_of(facts, object));
+      known = seen_.insert(known, {object.id, now_ns, place, now_ns});
+    }
+    known->last_ns = now_ns;
+  }
+  const auto is_gone = [&](const Sighting& one) { return one.last_ns + kForgotten_ns < now_ns; };
+  seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_gone), seen_.end());
+}
+
+const Sighting* Sightings::find(uint32_t id) const {
+  const auto found =
+      std::find_if(seen_.begin(), seen_.end(), [&](const Sighting& one) { return one.id == id; });
+  return found == seen_.end() ? nullptr : &*found;
+}
 
 bool SceneChoices::see(const FrameFacts& facts) {
   const FilmMoment before = film_;
@@ -138,6 +164,44 @@ void SceneChoices::saved() {
 
 void SceneChoices::not_saved() {
   for (Choice& choice : choices_) choice.is_saved = choice.was_saved = false;
+}
+
+double FilmStrip::share(int64_t ns) const {
+  if (length_ns <= 0) return 0;
+  return std::clamp(static_cast<double>(ns) / static_cast<double>(length_ns), 0.0, 1.0);
+}
+
+const StripMark* FilmStrip::at(double place, double reach) const {
+  const StripMark* best = nullptr;
+  double nearest = reach;
+  for (const StripMark& mark : marks) {
+    const double before = share(mark.rule.from_ns) - place, behind = place - share(mark.rule.to_ns);
+    const double distance = std::max({before, behind, 0.0});
+    if (distance > nearest || (best && distance == nearest)) continue;
+    best = &mark;
+    nearest = distance;
+  }
+  return best;
+}
+
+FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
+                     const std::vector<FeelEdit>& edits) {
+  FilmStrip strip;
+  if (film.name().empty() || film.stream_ns < 0) return strip;
+  const std::vector<FeelRule> before = rules ? rules->rules() : std::vector<FeelRule>();
+  std::vector<FeelRule> now = before;
+  for (const FeelEdit& edit : edits) now = edited(now, edit);
+  strip.now_ns = film.stream_ns;
+  strip.length_ns = std::max(film.length_ns, film.stream_ns);
+  for (const FeelRule& rule : now) {
+    if (rule.to_ns != FeelRule::kNoEnd) strip.length_ns = std::max(strip.length_ns, rule.to_ns);
+    // A choice that is saved grows with its scene.
+    const auto is_same = [&](const FeelRule& other) {
+      return other.from_ns == rule.from_ns && other.kind == rule.kind && other.place == rule.place;
+    };
+    strip.marks.push_back({rule, std::none_of(before.begin(), before.end(), is_same)});
+  }
+  return strip;
 }
 
 }  // namespace spidar

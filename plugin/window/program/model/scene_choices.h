@@ -7,10 +7,37 @@
 #include <functional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/choice/feel_edit.h"
-#include "plugin/window/program/model/sightings.h"
+#include "core/choice/feel_rules.h"
+#include "plugin/window/view/window_view.h"
 
 namespace spidar {
+
+struct Sighting {
+  uint32_t id = 0;
+  int64_t first_ns = -1;              ///< in the film; −1: not known
+  Eigen::Vector2d first_place{0, 0};  ///< a share of the picture as it is shown
+  int64_t last_ns = -1;
+};
+
+/// Of the scene that is on the screen.
+class Sightings {
+ public:
+  /// An object that has been out of sight for longer is forgotten: were it seen again, it would be
+  /// another one.
+  static constexpr int64_t kForgotten_ns = 2'000'000'000;
+
+  /// The next frame that is on the screen. Another scene or film forgets all.
+  void see(const FrameFacts& facts);
+  /// Null when it is not known.
+  const Sighting* find(uint32_t id) const;
+
+ private:
+  std::vector<Sighting> seen_;
+  FilmMoment film_;
+};
 
 /// A choice is a rule from the moment at which its object was seen first up to the end of the
 /// scene, which is known once a cut has come. Until then, and where a seek leaves the scene
@@ -61,5 +88,25 @@ class SceneChoices {
   int64_t end_ns_ = 0;  ///< of the frame that was seen last
   uint32_t click_ = 0;  ///< the same
 };
+
+struct StripMark {
+  FeelRule rule;
+  bool is_new = false;  ///< not saved yet
+};
+
+struct FilmStrip {
+  int64_t now_ns = 0;
+  int64_t length_ns = 0;  ///< 0: there is nothing to show
+  std::vector<StripMark> marks;
+
+  /// 0 at the begin of the film, 1 at its end; never beyond.
+  double share(int64_t ns) const;
+  /// The mark at this share, or no further than `reach` from it; null when there is none.
+  const StripMark* at(double place, double reach) const;
+};
+
+/// Of a film from a file of which the time is known. `rules` may be null.
+FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
+                     const std::vector<FeelEdit>& edits);
 
 }  // namespace spidar

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The last minute of a window, and the moment of it that is looked at.
+/// The last minute of a window.
 #pragma once
 
 #include <deque>
-#include <memory>
-#include <optional>
 #include <vector>
 
-#include "core/grip/pose.h"
-#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "plugin/window/program/model/still.h"
+#include "plugin/window/view/window_view.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
-/// What the grip and the plots of speed show of one moment. Times are those of CLOCK_MONOTONIC.
+/// What the plots of speed show of one moment. Times are those of CLOCK_MONOTONIC.
 struct Moment {
   double time_s = 0;
   double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
   double speed_px_s = 0;  ///< of the reference frame, before the filter
   Wrench wanted;          ///< by the controller, of the newest frame
   Wrench felt;            ///< delivered at the grip; zero without a device
-  Wrench asked;           ///< of the device, for what was on the screen
-  StringVector tension_N = StringVector::Zero();
-  Pose pose;
-  Contact contact;
 };
 
 /// The forces of the milliseconds in one pixel's width of a plot, and from the pixel before to it.
@@ -36,42 +28,29 @@ struct ForceColumn {
   double most_N = 0;  ///< the largest that was delivered, of all directions
 };
 
-/// Records moments, forces and pictures as they come, whether it is paused or not. While it is
-/// paused it shows what was recorded up to then, at any time of it; resume() shows the newest
-/// again, without a gap.
+/// Records moments and forces as they come.
 class Timeline {
  public:
-  static constexpr double kMemory_s = 60;  ///< older moments and pictures are forgotten
-  static constexpr double kPlotted_s = 5;  ///< what the plots show at first, up to the cursor
+  static constexpr double kMemory_s = 60;  ///< older moments are forgotten
+  static constexpr double kPlotted_s = 5;  ///< what the plots show at first, up to the newest
   static constexpr double kLeastPlotted_s = 0.5, kMostPlotted_s = 20;
-  static constexpr double kStill_s = 0.25;  ///< between two pictures that are kept
 
   /// Moments in order of time.
   void add(const Moment& moment);
   /// Forces in order of time, of each millisecond where there is a device.
   void add(const ForceTick& tick);
-  /// Whether a picture at this time is due, kStill_s after the last one.
-  bool wants_still(double time_s) const;
-  /// Pictures in order of time.
-  void add_still(std::shared_ptr<const Still> still);
-  /// Another stream: nothing of what was recorded concerns it. A paused view stays.
+  /// Another stream: nothing of what was recorded concerns it.
   void forget();
 
-  bool is_paused() const { return frozen_.has_value(); }
-  void pause();
-  void resume() { frozen_.reset(); }
-  /// Pauses, and looks at this time or the nearest one there is.
-  void look_at(double time_s);
-
-  /// The time that is looked at: the newest unless paused. 0 when there is nothing.
-  double cursor_s() const;
-  /// All that can be looked at, oldest first.
-  const std::deque<Moment>& moments() const { return shown().moments; }
+  /// The time of the newest moment. 0 when there is none.
+  double newest_s() const { return moments_.empty() ? 0 : moments_.back().time_s; }
+  /// Oldest first.
+  const std::deque<Moment>& moments() const { return moments_; }
   /// What the plots show, seconds.
   double plotted_s() const { return plotted_s_; }
   /// They show `factor` times as long.
   void zoom(double factor);
-  /// The last plotted_s() before the cursor, and the moment at it; a part of moments().
+  /// The last plotted_s(); a part of moments().
   struct Part {
     std::deque<Moment>::const_iterator first, last;
     auto begin() const { return first; }
@@ -83,26 +62,15 @@ class Timeline {
   /// The lowest and highest forces in each of `count` equal parts of the time from one to another,
   /// whatever the rate at which the window draws.
   std::vector<ForceColumn> columns(double from_s, double to_s, size_t count) const;
-  /// The picture at the cursor, or the oldest; null when it is live, or none was kept.
-  std::shared_ptr<const Still> still() const;
-
-  /// Largest speed since the controller began to learn, for the linear one (eq. 13).
-  double largest_speed_px_s() const { return largest_speed_px_s_; }
+  /// Force in N at `points` speeds from 0 to `highest_px_s`, of a controller that has learnt from
+  /// what was recorded: the linear one the largest speed since the stream began (eq. 13), the
+  /// adaptive one what the plots show. Empty when the settings are out of range.
+  std::vector<double> gain_curve(const ControllerSettings& settings, double highest_px_s,
+                                 int points) const;
 
  private:
-  struct Record {
-    std::deque<Moment> moments;
-    std::deque<ForceTick> ticks;
-    std::deque<std::shared_ptr<const Still>> stills;
-  };
-  struct Frozen {
-    Record record;
-    double cursor_s = 0;
-  };
-  const Record& shown() const { return frozen_ ? frozen_->record : live_; }
-
-  Record live_;
-  std::optional<Frozen> frozen_;
+  std::deque<Moment> moments_;
+  std::deque<ForceTick> ticks_;
   double largest_speed_px_s_ = 0;
   double plotted_s_ = kPlotted_s;
 };
