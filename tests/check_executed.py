@@ -14,12 +14,7 @@ LAYERS = ("core", "plugin", "spidar")
 
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 ONE_OF_TWO = "the other one of two is in this build"
-PLAYERS = "players execute it in the build of users; they are built without a sanitizer"
 EXCUSED = {
-    "plugin/feel/feel_decoder.cpp": PLAYERS,
-    "plugin/feel/feel_plugin.cpp": PLAYERS,
-    "plugin/feel/feel_tracer.cpp": PLAYERS,
-    "plugin/feel/video_notice.cpp": PLAYERS,
     "plugin/filter/frame/analytics_meta.cpp": ONE_OF_TWO,
     "plugin/filter/frame/analytics_meta_none.cpp": ONE_OF_TWO,
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,

@@ -167,8 +167,8 @@ case ${1-} in
     say "address sanitizer: GLib's table of quarks is left out, which it never frees; plugins are read" \
         "in the test itself, for GStreamer's own process for that is not built with the sanitizer"
     echo "left out: examples, programs of their own; numerics, tests that sample thousands of cases of" \
-        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; tests in Python whose" \
-        "players and pipelines are built without it, also api_installed and api_python. All have run above."
+        "arithmetic and are 10 to 70 times slower here, or count what is taken from the heap; films, commands and" \
+        "pipelines_player_mouse, which play for minutes; api_installed and api_python. All have run above."
     export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
     # By the fast way, stacks end in GLib; twelve calls instead of thirty are enough for leaks.supp.
     export ASAN_OPTIONS=fast_unwind_on_malloc=0:malloc_context_size=12

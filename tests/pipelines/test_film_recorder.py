@@ -93,7 +93,6 @@ class FilmRecorder(track_case.TrackCase):
         self.assertAlmostEqual(onset["sound.mkv"], onset["silent.mp4"] + 21, delta=1)
         self.assertAlmostEqual(onset["sound.ts"], onset["silent.mp4"] + 780, delta=1)
 
-    @track_case.needs_plugin
     @track_case.needs("ffmpeg")
     def test_a_film_that_is_turned_when_it_is_shown_is_felt_as_it_is_shown(self):
         """A film of a telephone held upright: its picture is stored on its side, with a tag. ffmpeg turns the picture

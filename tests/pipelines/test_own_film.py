@@ -68,7 +68,6 @@ class OwnFilm(track_case.TrackCase):
         self.assertFalse([row for row in rows if row["features"] != "0"], "it is not analysed")
         return [float(row["force_x_N"]) for row in rows]
 
-    @track_case.needs_plugin
     def test_a_track_moves_with_the_pictures_into_another_container(self):
         """In a transport stream the pictures begin later: the bytes are the same, the times are not."""
         self.make("film.mp4")

@@ -8,6 +8,7 @@ import math
 import os
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 import numpy as np
@@ -56,15 +57,19 @@ def last_rows(path, most):
 
 
 class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.film = folder.name + "/film.avi"
+        subprocess.run(["gst-launch-1.0", "-q", *"fdsrc ! rawvideoparse format=gray8 width=480 height=270 framerate=25/1 ! "
+                        f"jpegenc ! avimux ! filesink location={cls.film}".split()],
+                       input=b"".join(one_turn()) * TURNS, check=True)
+
     def setUp(self):
         super().setUp()
         self.trace = self.path("trace.csv")
-        self.film = self.path("film.avi")
-        making = subprocess.Popen(
-            ["gst-launch-1.0", "-q", *"fdsrc ! rawvideoparse format=gray8 width=480 height=270 framerate=25/1 ! jpegenc ! "
-             f"avimux ! filesink location={self.film}".split()], stdin=subprocess.PIPE)
-        making.communicate(b"".join(one_turn()) * TURNS)
-        self.assertEqual(making.returncode, 0)
 
     def start(self, command):
         player = subprocess.Popen(command)
@@ -109,6 +114,8 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
         for disc in range(len(MIDDLES)):
             self.mouse(self.place_of(disc))
             self.assertTrue(self.comes_to_feel(disc), disc)
+
+    def expect_click_keeps(self):
         self.mouse(self.place_of(2), "click", 1)
         self.mouse(self.place_of(0))
         later_s = self.newest_s() + 4
@@ -126,6 +133,7 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
 
     def test_in_ximagesink(self):
         self.expect_mouse_of_sink("ximagesink")
+        self.expect_click_keeps()
 
     def test_in_xvimagesink(self):
         self.expect_mouse_of_sink("xvimagesink")

@@ -42,7 +42,6 @@ class Conversion(track_case.TrackCase):
         self.assertEqual(self.samples("weaker.wav"),
                          [tuple(value / 2 for value in sample) for sample in self.samples("a.wav")])
 
-    @track_case.needs_plugin
     def test_a_trace_becomes_the_track_that_extract_gives(self):
         for trace in ("film.csv", "film.jsonl"):
             with self.subTest(trace):
@@ -60,7 +59,6 @@ class Conversion(track_case.TrackCase):
             self.assertLessEqual(difference([[float(row[name]) / scale for name, scale in zip(columns, FULL_SCALE)]],
                                             [sample]), 1e-6)
 
-    @track_case.needs_plugin
     def test_containers_give_back_what_was_extracted(self):
         extract = ("videotestsrc num-buffers=50 pattern=ball ! video/x-raw,width=320,height=240,framerate=25/1 ! "
                    "spidarmotion device=none attach-meta=true ! spidarextract name=x x.wrench ! ")

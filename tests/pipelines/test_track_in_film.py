@@ -30,7 +30,6 @@ def line_of(program):
     return lines[0]
 
 
-@track_case.needs_plugin
 @track_case.needs("ffmpeg", "ffprobe")
 class InFilm(track_case.TrackCase):
     def setUp(self):
