@@ -8,7 +8,6 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {

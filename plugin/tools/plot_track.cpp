@@ -12,7 +12,6 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {

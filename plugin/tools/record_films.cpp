@@ -18,7 +18,7 @@
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
-#include "spidar/tools/exit_status.h"
+#include "spidar/tools/command_line.h"
 
 namespace spidar {
 namespace {

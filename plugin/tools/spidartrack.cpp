@@ -2,10 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Records, inspects, checks, converts and plots haptic tracks.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <pthread.h>
 #include <string>
@@ -18,24 +15,11 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
-#include "spidar/tools/command_line.h"
-#include "spidar/tools/exit_status.h"
+#include "spidar/tools/cli_program.h"
 
 namespace {
 
 using namespace spidar;
-
-/// A finite number; CLI::Range takes NaN, too.
-CLI::Validator number(double least, double most, const std::string& unit = "") {
-  const std::string range = "a number from " + shown(least) + " to " + shown(most) + unit;
-  const auto check = [least, most, range](const std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const bool good = !text.empty() && *end == '\0' && value >= least && value <= most;
-    return good ? std::string() : "\"" + text + "\" is not " + range;
-  };
-  return {check, ""};
-}
 
 /// The command line. Of each command, run() is called when it is parsed.
 class CommandLine {
@@ -62,26 +46,13 @@ class CommandLine {
                               ? std::find(argv + 1, end, std::string("--"))
                               : end;
     properties_.assign(std::min(dashes + 1, end), end);
-    if (argc > 1 && argv[1][0] != '-') check_command(argv[1]);
+    check_command(app_, argc, argv);
     app_.parse(static_cast<int>(dashes - argv), argv);
     return status_;
   }
-  /// Prints the help, the version, or what was wrong. Returns the exit status.
-  int explain(const CLI::ParseError& error) const {
-    return app_.exit(error) == 0 ? kDone : kWrongUsage;
-  }
+  const CLI::App& program() const { return app_; }
 
  private:
-  /// Throws UsageError. CLI11 says only that a command is required.
-  void check_command(const std::string& name) const {
-    std::string known;
-    for (const CLI::App* command : app_.get_subcommands({})) {
-      if (command->get_name() == name) return;
-      known += (known.empty() ? "" : ", ") + command->get_name();
-    }
-    throw UsageError(name + " is not a command; commands are " + known);
-  }
-
   CLI::App* add(const char* name, const char* description, int (CommandLine::*command)()) {
     CLI::App* const added = app_.add_subcommand(name, description);
     added->callback([this, command] { status_ = (this->*command)(); });
@@ -203,21 +174,6 @@ class CommandLine {
   int status_ = kDone;
 };
 
-int run(int argc, char** argv) {
-  CommandLine line;
-  try {
-    return line.run(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return line.explain(error);
-  } catch (const UsageError& error) {
-    std::cerr << "spidartrack: " << error.what() << "; see spidartrack --help\n";
-    return kWrongUsage;
-  } catch (const std::exception& error) {
-    std::cerr << "spidartrack: " << error.what() << '\n';
-    return kFailed;
-  }
-}
-
 /// GStreamer reads and writes files in threads for which the 128 KiB that musl gives by default, or
 /// a low limit of the stack, are not enough.
 void request_stacks() {
@@ -245,5 +201,6 @@ int main(int argc, char** argv) {
     return kFailed;
   }
   gst_init(nullptr, nullptr);
-  return run(argc, argv);
+  CommandLine line;
+  return exit_status_of(line.program(), [&] { return line.run(argc, argv); });
 }

@@ -14,7 +14,6 @@
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/exit_status.h"
 
 namespace spidar {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "spidar/conformance/hold.h"
 #include "spidar/conformance/lag_fit.h"
-#include "spidar/conformance/string_hold.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 
@@ -62,5 +62,25 @@ DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace
 
 /// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;
+
+enum class StatedLag {
+  kTooSmall,  ///< the drive lags by more than the profile states, beyond the error interval
+  kRight,     ///< the profile's value is within the interval
+  kMore,      ///< above the interval: safe, but surfaces are softer than necessary
+};
+
+struct LagVerdict {
+  StatedLag stated = StatedLag::kRight;
+  /// Value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1 ms.
+  double safe_lag_s = 0;
+  double delay_s = 0;        ///< t_d at that lag
+  double stiffness_N_m = 0;  ///< largest surface stiffness at that delay
+  double damping_N_s_m = 0;  ///< damping B of that surface
+  int late_ticks = 0;        ///< included in the lag, see judge_lag()
+};
+
+/// `late_ticks` is the number of additional ticks after which the loop uses the reply of an
+/// exchange during playback, because it does not wait for the reply. They are added to the lag.
+LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks);
 
 }  // namespace spidar

@@ -1,13 +1,98 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Estimates the lag of a drive from the response of a grip to a force.
+/// The test force for a delay measurement.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <random>
 #include <vector>
 
-#include "spidar/conformance/response_lines.h"
-
 namespace spidar {
+
+/// A sum of sines with equal amplitudes and random phases. Each completes a whole number of cycles
+/// per second.
+class Multisine {
+ public:
+  /// Primes, so that no harmonic of one line falls on another, and at least 2 Hz apart, so that a
+  /// Hann window of one second separates them. Below 11 Hz tremor and drift of the hand dominate;
+  /// above 83 Hz a grip hardly moves.
+  static constexpr std::array<double, 19> kFrequency_Hz = {11, 13, 17, 19, 23, 29, 31, 37, 41, 43,
+                                                           47, 53, 59, 61, 67, 71, 73, 79, 83};
+  static constexpr double kPeriod_s = 1;
+
+  /// Scales the signal so that its largest absolute value is `peak`.
+  template <typename Random>
+  Multisine(Random& random, double peak) {
+    std::uniform_real_distribution<double> turn(0, 2 * M_PI);
+    for (double& phase : phase_rad_) phase = turn(random);
+    double largest = 0;
+    constexpr int kSamples = 1000;
+    for (int i = 0; i < kSamples; ++i)
+      largest = std::max(largest, std::abs(at(kPeriod_s * i / kSamples)));
+    amplitude_ = peak / largest;
+  }
+
+  double at(double time_s) const noexcept {
+    double sum = 0;
+    for (size_t i = 0; i < phase_rad_.size(); ++i)
+      sum += std::sin(2 * M_PI * kFrequency_Hz[i] * time_s + phase_rad_[i]);
+    return amplitude_ * sum;
+  }
+
+  double amplitude() const noexcept { return amplitude_; }
+
+ private:
+  std::array<double, kFrequency_Hz.size()> phase_rad_{};
+  double amplitude_ = 1;
+};
+
+constexpr size_t kLines = Multisine::kFrequency_Hz.size();
+
+/// The frequency response at one frequency, averaged over periods.
+struct ResponseLine {
+  double frequency_Hz = 0;
+  std::complex<double> response;  ///< motion per force, m/N
+  double variance = 0;            ///< mean |error|² of `response`, (m/N)²
+};
+
+/// Fourier sums of the force and the motion over one period with a Hann window. The drift of the
+/// hand is not periodic and is large compared with the response; the window reduces its leakage
+/// into the lines.
+class PeriodSums {
+ public:
+  /// The period begins at `begin_s`.
+  explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
+
+  /// Call in order of time. At `time_s` the grip is at `place_m`, and `force_N` applies from then
+  /// until the next call. Times outside the period are ignored.
+  void add(double time_s, double force_N, double place_m) noexcept;
+
+  const std::array<std::complex<double>, kLines>& force() const noexcept { return force_; }
+  const std::array<std::complex<double>, kLines>& place() const noexcept { return place_; }
+  /// The longest time between two calls within the period, s.
+  double longest_gap_s() const noexcept { return longest_gap_s_; }
+
+ private:
+  const double begin_s_;
+  bool started_ = false;
+  double from_s_ = 0;
+  double force_N_ = 0;
+  double place_m_ = 0;
+  double first_m_ = 0;
+  double longest_gap_s_ = 0;
+  std::array<std::complex<double>, kLines> force_{};
+  std::array<std::complex<double>, kLines> place_{};
+};
+
+/// Averages the response over periods with different phases and estimates the variance from their
+/// differences. The variance covers the hand, the quantization of encoder and D/A converter, and
+/// nonlinearity (J. Schoukens, R. Pintelon, Y. Rolain, "Mastering System Identification in 100
+/// Exercises", chapter 4). Needs at least three periods.
+std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
 
 /// Why a fit has no result.
 enum class NoLag {

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/conformance/stick_test.h"
 
-#include "spidar/conformance/force_hold.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar {

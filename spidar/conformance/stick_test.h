@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "spidar/conformance/string_hold.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/grip/grip.h"
 
 namespace spidar {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "spidar/conformance/string_hold.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 

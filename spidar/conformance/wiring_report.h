@@ -4,9 +4,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 
 #include "spidar/conformance/wiring_answers.h"
+#include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -52,5 +54,23 @@ WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 /// calibrated profile are not those of the new one: it is to be calibrated again. `how` is for the
 /// provenance. Throws std::invalid_argument when the report is not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
+
+struct WiringTest {
+  /// A hand that moves is unclear in other strings each time, a wrong wire in the same ones.
+  static constexpr int kTries = 3;
+
+  WiringAnswers answers;
+  WiringReport report;  ///< of these answers; not valid if they are not complete
+};
+
+/// ask_wiring() and judge_wiring(). As long as the report is not understood, up to kTries times in
+/// all, and something has moved, calls `repeat`, when all tensions are zero, and asks the motors
+/// again that are unclear, or all if none is. Throws DeviceError like ask_wiring().
+WiringTest test_wiring(Device& device, const Profile& profile, const Pace& pace,
+                       const WiringTestSettings& settings,
+                       const std::function<void(const WiringReport&)>& repeat = {});
+
+/// Text like " 2, 5": the motors whose answers are unclear.
+std::string unclear_motors(const WiringReport& report);
 
 }  // namespace spidar

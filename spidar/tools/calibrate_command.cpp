@@ -8,23 +8,20 @@
 #include <optional>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/count_recorder.h"
-#include "spidar/conformance/wiring_test.h"
+#include "spidar/conformance/wiring_report.h"
+#include "spidar/conformance/wiring_text.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tools/calibrate_options.h"
 #include "spidar/tools/calibrate_report.h"
-#include "spidar/tools/chosen_device.h"
-#include "spidar/tools/commands.h"
+#include "spidar/tools/device_command.h"
 #include "spidar/tools/hand_motion.h"
-#include "spidar/tools/selftest_report.h"
-#include "spidar/tools/sim_wiring.h"
-#include "spidar/tools/terminal.h"
 
 namespace spidar {
 namespace {
@@ -32,6 +29,38 @@ namespace {
 constexpr int kNotCalibrated = 3;
 constexpr double kHoldSeconds = 2;
 constexpr double kSamplePeriod_s = 0.002;
+
+struct CalibrateOptions : DeviceOptions {
+  bool centre = false;
+  std::optional<double> seconds;         ///< of moving; none: not named
+  std::string free;                      ///< empty, exits, scale or exits,scale
+  std::string output;                    ///< empty: none
+  std::vector<double> sim_start_mm_deg;  ///< empty, or six numbers
+  bool untested = false;
+  bool json = false;
+
+  double move_s() const { return seconds.value_or(20); }
+  bool frees(const char* name) const { return free.find(name) != std::string::npos; }
+};
+
+void check_together(const CalibrateOptions& options) {
+  if (options.centre && options.seconds)
+    throw UsageError("--centre and --move exclude each other; give one of them");
+  if (options.centre && !options.free.empty())
+    throw UsageError("--free needs --move: a grip that is held still determines only the offsets");
+  if (!options.sim_start_mm_deg.empty() && options.device != "sim")
+    throw UsageError("--sim-start is for the device sim only, not for " + options.device);
+}
+
+/// The pose at which the simulated device's counters were cleared.
+Pose start_pose(const std::vector<double>& mm_deg) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, 1>> value(mm_deg.data());
+  Pose pose;
+  pose.position_m = 1e-3 * value.head<3>();
+  const Eigen::Vector3d turn = M_PI / 180 * value.tail<3>();
+  if (turn.norm() > 0) pose.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+  return pose;
+}
 
 /// The device to calibrate and, if it is simulated, its hand.
 class Bench {
@@ -42,20 +71,21 @@ class Bench {
       BoardSettings as_counted;
       as_counted.count_zero = CountZero::kNever;
       device_ = make_device(options.device, profile, as_counted);
-      miswire(options.sim_wiring, options.device, profile, device_);
+      miswire(options, profile, device_);
       return;
     }
     Profile real = profile;
-    if (options.sim_start) {
+    if (!options.sim_start_mm_deg.empty()) {
       const StringVector offset_m =
-          string_lengths_m(geometry_, *options.sim_start) - string_lengths_m(geometry_, {});
+          string_lengths_m(geometry_, start_pose(options.sim_start_mm_deg)) -
+          string_lengths_m(geometry_, {});
       for (int i = 0; i < geometry_.count; ++i)
         real.drives[static_cast<size_t>(i)].home_offset_m = offset_m[i];
     }
     auto simulated = std::make_unique<SimulatedDevice>(real, SimulatedDevice::Time::kClock);
     hand_ = simulated.get();
     device_ = std::move(simulated);
-    miswire(options.sim_wiring, options.device, profile, device_);
+    miswire(options, profile, device_);
   }
 
   Device& device() { return *device_; }
@@ -111,7 +141,7 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
 }
 
 CountSamples record(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
-  const RecordingSettings settings{options.centre ? kHoldSeconds : options.seconds,
+  const RecordingSettings settings{options.centre ? kHoldSeconds : options.move_s(),
                                    kSamplePeriod_s};
   Progress progress(settings.seconds);
   std::optional<double> begin_s;
@@ -132,19 +162,12 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
 }
 
 std::string how(const CalibrateOptions& options) {
-  char text[64];
-  std::snprintf(text, sizeof text, "spidarctl calibrate: grip moved for %g s", options.seconds);
-  return options.centre ? "spidarctl calibrate: grip held at the centre" : text;
+  return options.centre ? "spidarctl calibrate: grip held at the centre"
+                        : "spidarctl calibrate: grip moved for " + shown(options.move_s()) + " s";
 }
 
-}  // namespace
-
-int calibrate_command(int argc, char** argv) {
-  const CalibrateOptions options = parse_calibrate_options(argc, argv);
-  if (options.help) {
-    std::cout << kCalibrateHelp;
-    return kDone;
-  }
+int calibrate_command(const CalibrateOptions& options) {
+  check_together(options);
   const BoardInfo board = board_info(options.device);
   require_strings(board, "calibrate");
   const Profile profile = profile_for(options.device, options.profile);
@@ -159,15 +182,56 @@ int calibrate_command(int argc, char** argv) {
     return kInterrupted;
   }
 
-  const CalibrationResult result = options.centre ? calibrate_at_centre(profile, counts)
-                                                  : calibrate(profile, counts, options.settings);
-  (options.json ? print_result_json : print_result)(std::cout, profile, result, how(options));
+  CalibrationSettings settings;
+  settings.free_exits = options.frees("exits");
+  settings.free_scale = options.frees("scale");
+  const CalibrationResult result =
+      options.centre ? calibrate_at_centre(profile, counts) : calibrate(profile, counts, settings);
+  if (options.json)
+    std::cout << json_text(result_json(profile, result, how(options)));
+  else
+    print_result(std::cout, profile, result, how(options));
   if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
   if (!options.output.empty()) {
     save_profile(calibrated_profile(profile, result, how(options)), options.output);
     std::cerr << "written: " << options.output << '\n';
   }
   return kDone;
+}
+
+}  // namespace
+
+void add_calibrate(Program& program) {
+  const auto [app, options] =
+      add_command(program, "calibrate",
+                  "determine the string lengths at which the encoders are zero", calibrate_command);
+  add_device(app, options);
+  app.add_option("--move", options.seconds,
+                 "you move and turn the grip in every direction for this long (default 20)")
+      ->check(number(1, 600, " s"));
+  app.add_flag("--centre", options.centre,
+               "you hold the grip still at the centre, without turning it");
+  app.add_option("--free", options.free,
+                 "with --move, also determine where the strings leave the frame (exits), and a "
+                 "factor on every metres_per_count (scale)")
+      ->check(CLI::IsMember({"exits", "scale", "exits,scale", "scale,exits"}));
+  app.add_flag("--untested", options.untested, "do not test the wiring before");
+  add_profile_file(app, "--output", options.output, "write the calibrated profile");
+  add_json(app, options.json);
+  app.add_option("--sim-start", options.sim_start_mm_deg,
+                 "device sim: its counters were cleared X,Y,Z millimetres from the centre, turned "
+                 "by RX,RY,RZ degrees (a rotation vector)")
+      ->delimiter(',')
+      ->expected(6)
+      ->allow_extra_args(false);
+  add_sim_wiring(app, options);
+  app.footer(
+      "First the wiring is tested as selftest does, with pulls of 0.5 N, because counts of a\n"
+      "device that is wired differently mean something else. Then the strings are held taut; no\n"
+      "other force acts on the hand.\n\n"
+      "Exit status: 0 calibrated, 1 device, profile or file not found or not usable, 2 wrong\n"
+      "usage, 3 the wiring is not as in the profile, or the samples do not determine everything\n"
+      "that was asked for or contradict the profile (nothing is written), 130 interrupted.");
 }
 
 }  // namespace spidar

@@ -3,40 +3,25 @@
 #include "spidar/tools/calibrate_report.h"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <cstdlib>
 #include <ostream>
 
 #include "spidar/simulation/grip_model.h"
-#include "spidar/tools/json_text.h"
 
 namespace spidar {
 namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
 std::string micrometres(double value_m) {
-  return std::isfinite(value_m) ? format("%.2f", 1e6 * value_m) : "unknown";
+  return std::isfinite(value_m) ? formatted("%.2f", 1e6 * value_m) : "unknown";
 }
 
 std::string triple(const Eigen::Vector3d& value, const char* pattern) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {
-    char number[32];
-    std::snprintf(number, sizeof number, pattern, value[axis]);
-    // Avoids "-0.00".
-    if (std::strtod(number, nullptr) == 0) std::snprintf(number, sizeof number, pattern, 0.0);
-    text += (axis ? " " : "") + std::string(number);
+    std::string number = formatted(pattern, value[axis]);
+    if (std::stod(number) == 0) number = formatted(pattern, 0.0);  // and not -0.00
+    text += (axis ? " " : "") + number;
   }
   return text;
 }
@@ -71,10 +56,10 @@ const char* advice(CalibrationStatus status) {
 void print_strings(std::ostream& out, int strings, const CalibrationResult& result) {
   out << "\n  string  offset mm  sd um    residual um  uncertainty um\n";
   for (int i = 0; i < strings; ++i)
-    out << format("  %6d  %9.4f  %-7s  %11.2f  %s\n", i, 1e3 * result.home_offset_m[i],
-                  micrometres(result.home_offset_sd_m[i]).c_str(),
-                  1e6 * result.string_residual_m[i],
-                  micrometres(result.home_offset_uncertainty_m[i]).c_str());
+    out << formatted("  %6d  %9.4f  %-7s  %11.2f  %s\n", i, 1e3 * result.home_offset_m[i],
+                     micrometres(result.home_offset_sd_m[i]).c_str(),
+                     1e6 * result.string_residual_m[i],
+                     micrometres(result.home_offset_uncertainty_m[i]).c_str());
   out << "  sd: from noise alone, if all other numbers of the profile are exact; uncertainty: if "
          "exits\n"
          "  and points on the grip may be wrong by 1 mm, and each string's scale or stretch by 0.5 "
@@ -84,9 +69,9 @@ void print_strings(std::ostream& out, int strings, const CalibrationResult& resu
 void print_exits(std::ostream& out, int strings, const CalibrationResult& result) {
   out << "\n  exit    x y z mm                    sd um\n";
   for (int i = 0; i < strings; ++i)
-    out << format("  %4d    %s  %s\n", i,
-                  triple(1e3 * result.exit_m[static_cast<size_t>(i)], "%8.3f").c_str(),
-                  triple(1e6 * result.exit_sd_m.col(i), "%6.1f").c_str());
+    out << formatted("  %4d    %s  %s\n", i,
+                     triple(1e3 * result.exit_m[static_cast<size_t>(i)], "%8.3f").c_str(),
+                     triple(1e6 * result.exit_sd_m.col(i), "%6.1f").c_str());
 }
 
 }  // namespace
@@ -99,14 +84,14 @@ void print_result(std::ostream& out, const Profile& profile, const CalibrationRe
       << "  counters zero at  " << triple(1e3 * result.cleared_at.position_m, "%.2f")
       << " mm, turned by "
       << triple(kDegrees * rotation_vector(result.cleared_at.orientation), "%.2f") << " deg\n"
-      << "  residual          " << format("%.2f um rms", 1e6 * result.residual_m)
-      << format(", noise of a length %.2f um", 1e6 * result.length_noise_m)
-      << format(", outliers %.1f %%\n", 100 * result.outlier_share) << "  grip moved        "
+      << "  residual          " << formatted("%.2f um rms", 1e6 * result.residual_m)
+      << formatted(", noise of a length %.2f um", 1e6 * result.length_noise_m)
+      << formatted(", outliers %.1f %%\n", 100 * result.outlier_share) << "  grip moved        "
       << triple(1e3 * result.moved_m, "%.1f") << " mm each way, turned "
       << triple(kDegrees * result.turned_rad, "%.1f") << " deg\n";
   print_strings(out, strings, result);
   if (result.estimated.free_scale)
-    out << format("\n  scale   %.6f, sd %.6f\n", result.scale, result.scale_sd);
+    out << formatted("\n  scale   %.6f, sd %.6f\n", result.scale, result.scale_sd);
   if (result.estimated.free_exits) print_exits(out, strings, result);
   if (!result.undetermined.empty()) {
     out << "\n  not determined to " << micrometres(kMaxCalibrationSd_m) << " um:\n";
@@ -116,10 +101,9 @@ void print_result(std::ostream& out, const Profile& profile, const CalibrationRe
   if (result.status != CalibrationStatus::kSolved) out << '\n' << advice(result.status);
 }
 
-void print_result_json(std::ostream& out, const Profile& profile, const CalibrationResult& result,
-                       const std::string& how) {
+Json result_json(const Profile& profile, const CalibrationResult& result, const std::string& how) {
   const int strings = profile.geometry.count;
-  toml::table document{
+  Json json{
       {"profile", profile.name},
       {"how", how},
       {"status", status_name(result.status)},
@@ -127,33 +111,27 @@ void print_result_json(std::ostream& out, const Profile& profile, const Calibrat
       {"residual_m", result.residual_m},
       {"length_noise_m", result.length_noise_m},
       {"outlier_share", result.outlier_share},
-      {"home_offset_m", to_array(result.home_offset_m.head(strings))},
-      {"home_offset_sd_m", to_array(result.home_offset_sd_m.head(strings))},
-      {"home_offset_uncertainty_m", to_array(result.home_offset_uncertainty_m.head(strings))},
-      {"string_residual_m", to_array(result.string_residual_m.head(strings))},
-      {"cleared_at_m", to_array(result.cleared_at.position_m)},
-      {"cleared_at_rad", to_array(rotation_vector(result.cleared_at.orientation))},
-      {"moved_m", to_array(result.moved_m)},
-      {"turned_rad", to_array(result.turned_rad)},
+      {"home_offset_m", to_json(result.home_offset_m.head(strings))},
+      {"home_offset_sd_m", to_json(result.home_offset_sd_m.head(strings))},
+      {"home_offset_uncertainty_m", to_json(result.home_offset_uncertainty_m.head(strings))},
+      {"string_residual_m", to_json(result.string_residual_m.head(strings))},
+      {"cleared_at_m", to_json(result.cleared_at.position_m)},
+      {"cleared_at_rad", to_json(rotation_vector(result.cleared_at.orientation))},
+      {"moved_m", to_json(result.moved_m)},
+      {"turned_rad", to_json(result.turned_rad)},
   };
-  if (result.estimated.free_scale) {
-    document.insert("scale", result.scale);
-    document.insert("scale_sd", result.scale_sd);
-  }
+  if (result.estimated.free_scale)
+    json.update({{"scale", result.scale}, {"scale_sd", result.scale_sd}});
   if (result.estimated.free_exits) {
-    toml::array exits, exit_sds;
     for (int i = 0; i < strings; ++i) {
-      exits.push_back(to_array(result.exit_m[static_cast<size_t>(i)]));
-      exit_sds.push_back(to_array(result.exit_sd_m.col(i)));
+      json["exit_m"].push_back(to_json(result.exit_m[static_cast<size_t>(i)]));
+      json["exit_sd_m"].push_back(to_json(result.exit_sd_m.col(i)));
     }
-    document.insert("exit_m", std::move(exits));
-    document.insert("exit_sd_m", std::move(exit_sds));
   }
-  toml::array undetermined;
+  json["undetermined"] = Json::array();
   for (const UndeterminedCombination& one : result.undetermined)
-    undetermined.push_back(toml::table{{"sd_m", one.sd_m}, {"combination", one.text}});
-  document.insert("undetermined", undetermined);
-  out << json_text(document);
+    json["undetermined"].push_back(Json{{"sd_m", one.sd_m}, {"combination", one.text}});
+  return json;
 }
 
 }  // namespace spidar

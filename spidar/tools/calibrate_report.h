@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spidar/calibration/calibration.h"
+#include "spidar/conformance/report_text.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -15,8 +16,7 @@ namespace spidar {
 void print_result(std::ostream& out, const Profile& profile, const CalibrationResult& result,
                   const std::string& how);
 
-/// One JSON object; names include units. Infinities are strings.
-void print_result_json(std::ostream& out, const Profile& profile, const CalibrationResult& result,
-                       const std::string& how);
+/// Infinities are null.
+Json result_json(const Profile& profile, const CalibrationResult& result, const std::string& how);
 
 }  // namespace spidar

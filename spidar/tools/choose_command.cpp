@@ -6,29 +6,13 @@
 #include <unistd.h>
 
 #include "spidar/conformance/encoder_signs.h"
-#include "spidar/conformance/string_hold.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/tools/chosen_device.h"
-#include "spidar/tools/commands.h"
-#include "spidar/tools/terminal.h"
+#include "spidar/tools/device_command.h"
 
 namespace spidar {
 namespace {
-
-constexpr const char* kChooseHelp = R"(usage: spidarctl choose DEVICE --profile NAME
-
-Confirms that NAME is the profile of a board, and remembers it for the board's serial number: the board
-is then driven with it wherever no profile is named. You move the grip by hand to six sides; the motors
-stay at zero. The encoders must count as the profile says. Measure the frame before: encoders do not
-tell a small frame from a large one.
-
-The profiles are remembered in $XDG_CONFIG_HOME/gst-spidar/boards.toml, by default in ~/.config. Remove a
-line there to forget one.
-
-Exit status: 0 confirmed, 1 the encoders count differently, or the board has no serial number, or there
-is no device, 2 wrong usage, 130 interrupted.
-)";
 
 /// Whether a line, or its end, waits on the standard input.
 bool is_line_there() {
@@ -88,14 +72,7 @@ void print_others(const ChosenDevice& chosen, const HandMoves& moves) {
             << '\n';
 }
 
-}  // namespace
-
-int choose_command(int argc, char** argv) {
-  const DeviceOptions options = parse_device_options(argc, argv);
-  if (options.help) {
-    std::cout << kChooseHelp;
-    return kDone;
-  }
+int choose(const DeviceOptions& options) {
   if (is_simulated(options.device))
     throw UsageError(options.device + ": a simulated device has its own profile");
   const BoardInfo board = board_info(options.device);
@@ -117,6 +94,25 @@ int choose_command(int argc, char** argv) {
   std::cout << chosen.profile.name << " is remembered for the serial number " << chosen.board.serial
             << '\n';
   return kDone;
+}
+
+}  // namespace
+
+void add_choose(Program& program) {
+  const auto [app, options] =
+      add_command(program, "choose",
+                  "confirm the profile of a board by moving the grip, and remember it", choose);
+  add_device(app, options);
+  app.footer(
+      "Confirms that the profile is that of a board, and remembers it for the board's serial\n"
+      "number: the board is then driven with it wherever no profile is named. You move the grip "
+      "by\n"
+      "hand to six sides; the motors stay at zero. The encoders must count as the profile says.\n"
+      "Measure the frame before: encoders do not tell a small frame from a large one.\n\n"
+      "The profiles are remembered in $XDG_CONFIG_HOME/gst-spidar/boards.toml, by default in\n"
+      "~/.config. Remove a line there to forget one.\n\n"
+      "Exit status: 0 confirmed, 1 the encoders count differently, or the board has no serial\n"
+      "number, or there is no device, 2 wrong usage, 130 interrupted.");
 }
 
 }  // namespace spidar

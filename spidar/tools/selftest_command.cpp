@@ -5,74 +5,20 @@
 #include <string>
 
 #include "spidar/conformance/stick_test.h"
-#include "spidar/conformance/wiring_test.h"
+#include "spidar/conformance/wiring_report.h"
+#include "spidar/conformance/wiring_text.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/tools/chosen_device.h"
-#include "spidar/tools/commands.h"
-#include "spidar/tools/selftest_report.h"
-#include "spidar/tools/sim_wiring.h"
-#include "spidar/tools/terminal.h"
+#include "spidar/tools/device_command.h"
 
 namespace spidar {
 namespace {
 
-constexpr const char* kSelftestHelp = R"(usage: spidarctl selftest DEVICE [OPTION]...
-
-Pulls one string after the other, for a second each, or longer if the hand moves. From the responses
-of the encoders, it determines which motor and which encoder are connected to which string, and which
-of them are reversed. Hold the grip loosely at the centre, with the elbow on the table. Motors whose
-responses are unclear, because the hand moved, are pulled again, up to twice.
-
-Of a Novint Falcon (falcon) or Haply Inverse3 (inverse3), determines whether it moves in the direction
-of the force: pushes it to each side for 0.2 s, four times. Hold its grip loosely at the centre.
-
-Of a joystick or wheel (ff), determines whether it moves in the direction of the force: pushes it to
-each side for 0.2 s, four times, with half of the force that its gain allows. Take the hand away.
-
-  --newton N             tension of a pull above the minimum tension, or force of a push, 0.1
-                         to 2 (default 0.5)
-  --write-profile FILE.toml
-                         write a profile that matches the wiring, if a profile can express it:
-                         signs, and strings whose motor and encoder are at another channel
-  --yes                  do not ask for confirmation
-  --profile NAME         profile of the device, a name or a file
-  --json                 print the report as JSON
-  --sim-wiring FAULTS    simulated device: apply these wiring faults, for example
-                         "swap-motors:1,2;reverse-encoder:4"; also swap-encoders, swap-strings,
-                         reverse-motor, cut-motor, cut-encoder
-  --help
-
-Exit status: 0 the wiring is as in the profile, 1 it is not, or not confirmed, or no device, 2 wrong
-usage, 130 interrupted.
-)";
-
-struct SelftestOptions {
-  DeviceOptions common;
+struct SelftestOptions : DeviceOptions {
   double newton = 0.5;
   std::string output;
-  std::string sim_wiring;
-  bool yes = false;
-  bool json = false;
+  bool yes = false, json = false;
 };
-
-SelftestOptions parse(int argc, char** argv) {
-  SelftestOptions options;
-  options.common =
-      parse_device_options(argc, argv,
-                           {{"newton", true,
-                             [&](const std::string& text) {
-                               options.newton = parse_number("--newton", text, 0.1, 2, "N");
-                             }},
-                            {"write-profile", true,
-                             [&](const std::string& text) {
-                               options.output = parse_profile_file("--write-profile", text);
-                             }},
-                            {"yes", false, [&](const std::string&) { options.yes = true; }},
-                            json_option(options.json),
-                            sim_wiring_option(options.sim_wiring)});
-  return options;
-}
 
 void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
   if (!report.fixable()) {
@@ -110,8 +56,8 @@ constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
 
 /// Directions of a device that takes a force.
 int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
-  const bool stick = is_stick(options.common.device);
-  if (!options.yes && !is_simulated(options.common.device) &&
+  const bool stick = is_stick(options.device);
+  if (!options.yes && !is_simulated(options.device) &&
       !confirm("Push " + chosen.name() + " to all sides with a part of its strength? " +
                (stick ? "Take the hand away." : "Hold its grip loosely at the centre."))) {
     std::cerr << "nothing was pushed\n";
@@ -142,20 +88,13 @@ bool answers_pushes(const ChosenDevice& chosen) {
   return chosen.grip && chosen.grip->abilities().position[0];
 }
 
-}  // namespace
-
-int selftest_command(int argc, char** argv) {
-  const SelftestOptions options = parse(argc, argv);
-  if (options.common.help) {
-    std::cout << kSelftestHelp;
-    return kDone;
-  }
-  ChosenDevice chosen = choose_device(options.common, Motors::kPulled);
+int selftest(const SelftestOptions& options) {
+  ChosenDevice chosen = choose_device(options, Motors::kPulled);
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
-  miswire(options.sim_wiring, options.common.device, chosen.profile, chosen.device);
+  miswire(options, chosen.profile, chosen.device);
   if (!options.output.empty()) check_folder_of(options.output);
-  if (!options.yes && !is_simulated(options.common.device) &&
+  if (!options.yes && !is_simulated(options.device) &&
       !confirm("Pull the strings of " + chosen.device->name() +
                " one after the other? The grip will move; hold it loosely at the centre.")) {
     std::cerr << "nothing was pulled\n";
@@ -164,16 +103,49 @@ int selftest_command(int argc, char** argv) {
   catch_signals();
   WiringTestSettings settings;
   settings.pull_N = options.newton;
-  settings.try_reversed = can_reverse(options.common.device, chosen.profile);
+  settings.try_reversed = can_reverse(options.device, chosen.profile);
   const auto [answers, report] = test_wiring(*chosen.device, chosen.profile, every_millisecond(),
                                              settings, tell_to_hold_still);
   if (!answers.complete) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
-  (options.json ? print_wiring_json : print_wiring)(std::cout, chosen.profile, answers, report);
+  if (options.json)
+    std::cout << json_text(wiring_json(chosen.profile, answers, report));
+  else
+    print_wiring(std::cout, chosen.profile, answers, report);
   if (!options.output.empty()) write(options, chosen.profile, report);
   return report.as_profile() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_selftest(Program& program) {
+  const auto [app, options] = add_command(
+      program, "selftest", "find motors and encoders that are swapped or reversed", selftest);
+  add_device(app, options);
+  app.add_option("--newton", options.newton,
+                 "tension of a pull above the minimum tension, or force of a push (default 0.5)")
+      ->check(number(0.1, 2, " N"));
+  add_profile_file(app, "--write-profile", options.output,
+                   "write a profile that matches the wiring, if a profile can express it: signs, "
+                   "and strings whose motor and encoder are at another channel");
+  add_yes(app, options.yes);
+  add_json(app, options.json);
+  add_sim_wiring(app, options);
+  app.footer(
+      "Pulls one string after the other, for a second each, or longer if the hand moves. From the\n"
+      "responses of the encoders, it determines which motor and which encoder are connected to\n"
+      "which string, and which of them are reversed. Hold the grip loosely at the centre, with "
+      "the\n"
+      "elbow on the table. Motors whose responses are unclear, because the hand moved, are pulled\n"
+      "again, up to twice.\n\n"
+      "Of a Novint Falcon (falcon) or Haply Inverse3 (inverse3), determines whether it moves in\n"
+      "the direction of the force: pushes it to each side for 0.2 s, four times. Hold its grip\n"
+      "loosely at the centre. Of a joystick or wheel (ff), likewise, with half of the force that\n"
+      "its gain allows. Take the hand away.\n\n"
+      "Exit status: 0 the wiring is as in the profile, 1 it is not, or not confirmed, or no\n"
+      "device, 2 wrong usage, 130 interrupted.");
 }
 
 }  // namespace spidar

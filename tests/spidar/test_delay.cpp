@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "spidar/conformance/delay_test.h"
-#include "spidar/conformance/lag_verdict.h"
 #include "spidar/emulation/wire_simulation.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"

@@ -21,7 +21,7 @@ namespace spidar::test::spidarctl_test {
 namespace {
 
 TEST(Spidarctl, HelpAndListSucceed) {
-  expect_contains(run_spidarctl("--help").text, "usage: spidarctl COMMAND");
+  expect_contains(run_spidarctl("--help").text, "Usage: spidarctl ");
   expect_contains(run_spidarctl("calibrate --help").text, "--sim-start");
   const CommandResult list = run_spidarctl("list");
   EXPECT_EQ(list.status, 0);
@@ -31,51 +31,43 @@ TEST(Spidarctl, HelpAndListSucceed) {
 
 TEST(Spidarctl, WrongUsageIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
-      {"",
-       "commands are list, info, monitor, rest, zero, pull, choose, selftest, conformance, "
-       "calibrate"},
-      {"dance", "dance is not a command"},
-      {"list me", "me: list takes no arguments"},
-      {"info", "no DEVICE given"},
-      {"info sim sim", "one DEVICE only"},
-      {"rest sim --json", "--json is not an option"},
-      {"zero -x sim", "-x is not an option"},
-      {"monitor sim --taut=1", "takes no value"},
-      {"monitor sim --seconds 0", "must be from 0.001 to 86400 s"},
-      {"pull sim", "no STRING given"},
-      {"pull sim 1 2", "no SECONDS given"},
-      {"pull sim 1 2 3 4", "4: one argument too many"},
-      {"pull sim 8 1 1 --yes", "STRING: 8, must be from 0 to 7"},
-      {"pull sim 1.5 1 1 --yes", "not a whole number"},
+      {"", "A subcommand is required"},
+      {"dance",
+       "dance is not a command; commands are list, info, monitor, rest, zero, pull, choose, "
+       "selftest, conformance, calibrate"},
+      {"list me", "not expected: me"},
+      {"info", "DEVICE is required"},
+      {"info sim sim", "not expected: sim"},
+      {"rest sim --json", "not expected: --json"},
+      {"monitor sim --seconds 0", "not a number from 0.001 to 86400 s"},
+      {"pull sim 1 2", "SECONDS is required"},
+      {"pull sim 8 1 1 --yes", "STRING: Value 8 not in range 0 to 7"},
+      {"pull sim 1.5 1 1 --yes", "STRING: Value 1.5"},
       {"pull sim 1 5 1 --yes", "NEWTON: 5 N, must be from 0.05 to 4.2 N"},
-      {"pull sim 1 1 11 --yes", "must be from 0.01 to 10 s"},
+      {"pull sim 1 1 11 --yes", "not a number from 0.01 to 10 s"},
       {"pull sim 1 4 2 --yes", "pull for 1.25 s at most"},
       // Its motors could do 20 N.
-      {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "NEWTON: 6 N, must be from 1 to 5 N"},
+      {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "not a number from 0 to 5 N"},
+      {"pull sim 1 0.5 0.1 --yes --profile spidar-g6x", "NEWTON: 0.5 N, must be from 1 to 5 N"},
       {"pull sim 1 1 1 </dev/null", "no terminal to ask for confirmation"},
-      {"selftest sim --newton 5", "must be from 0.1 to 2 N"},
+      {"selftest sim --newton 5", "not a number from 0.1 to 2 N"},
       {"selftest sim --write-profile mine", "must end in .toml"},
       {"selftest sim --sim-wiring swap:1", "is not a wiring fault"},
       {"selftest usb --profile spidar-g6c --sim-wiring cut-motor:1", "is for simulated devices"},
-      {"conformance sim:sh4 --seconds 0", "must be from 0.1 to 600 s"},
-      {"conformance sim:sh4 --shake 2", "must be from 0.1 to 1 N"},
-      {"conformance sim:sh4 --shake-seconds 3", "must be from 6 to 60 s"},
-      {"conformance sim:sh4 --sim-lag 31", "must be from 0 to 30 ms"},
+      {"conformance sim:sh4 --seconds 0", "not a number from 0.1 to 600 s"},
+      {"conformance sim:sh4 --newton nan", "not a number from 0.1 to 2 N"},
+      {"conformance sim:sh4 --shake 2", "not a number from 0.1 to 1 N"},
+      {"conformance sim:sh4 --shake-seconds 3", "not a number from 6 to 60 s"},
+      {"conformance sim:sh4 --sim-lag 31", "not a number from 0 to 30 ms"},
       {"choose sim", "a simulated device has its own profile"},
       {"conformance usb --profile spidar-g6c --sim-lag 2", "is for simulated devices"},
       {"conformance usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
-      {"conformance usb --profile spidar-g6c --sim-wiring cut-motor:1", "is for simulated devices"},
-      {"calibrate", "no DEVICE given"},
-      {"calibrate sim sim", "one DEVICE only"},
-      {"calibrate sim --move x", "--move: \"x\" is not a number"},
-      {"calibrate sim --move 0.1", "must be from 1 to 600 s"},
-      {"calibrate sim --move", "--move needs a value"},
-      {"calibrate sim --sway 3", "--sway is not an option"},
-      {"calibrate sim --free grip", "known names are exits, scale"},
+      {"calibrate sim --move x", "--move: \"x\" is not a number from 1 to 600 s"},
+      {"calibrate sim --free grip", "grip not in {exits,scale,"},
+      {"calibrate --free exits sim --centre", "--free needs --move"},
       {"calibrate sim --centre --move 3", "give one of them"},
-      {"calibrate sim --centre --free scale", "--free needs --move"},
       {"calibrate sim --output mine", "must end in .toml"},
-      {"calibrate sim --sim-start 1,2,3", "must be six numbers"},
+      {"calibrate sim --sim-start 1,2,3", "6 required"},
       {"calibrate usb --sim-start 1,2,3,4,5,6", "is for the device sim"},
   };
   for (const auto& [arguments, message] : cases) {
@@ -136,7 +128,7 @@ TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
   const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " selftest sim:sh4 --json 2>/dev/null");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
-  expect_contains(outcome.text, "\"wiring\" : \"as in the profile\"");
+  expect_contains(outcome.text, "\"wiring\": \"as in the profile\"");
 }
 
 TEST(Spidarctl, SelftestSaysWhenTheMotorsHaveNoSupply) {
@@ -163,7 +155,7 @@ TEST(Spidarctl, JsonIsOneObject) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text.find("Hold"), std::string::npos);
   EXPECT_EQ(outcome.text.front(), '{');
-  expect_contains(outcome.text, "\"status\" : \"solved\"");
+  expect_contains(outcome.text, "\"status\": \"solved\"");
 }
 
 TEST(Spidarctl, ListTellsDevicesApart) {
@@ -172,8 +164,8 @@ TEST(Spidarctl, ListTellsDevicesApart) {
   expect_contains(list.text, "; emulated");
   const CommandResult json = run_spidarctl("list --json");
   EXPECT_EQ(json.status, 0);
-  expect_contains(json.text, "\"device\" : \"sim:uart\"");
-  expect_contains(json.text, "\"evidence\" : \"emulated\"");
+  expect_contains(json.text, "\"device\": \"sim:uart\"");
+  expect_contains(json.text, "\"evidence\": \"emulated\"");
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {
@@ -198,10 +190,10 @@ TEST(Spidarctl, InfoReadsEachBoard) {
   expect_contains(falcon, "force     4.4 N at most, 1000 times a second\n");
   expect_contains(falcon, "  forward    yes    0.0 mm\n");
   expect_contains(run_spidarctl("info sim:mouse").text, "  right      yes  no\n");
-  expect_contains(run_spidarctl("info sim:ff --json").text, "\"largest_force_N\" : 3.0");
+  expect_contains(run_spidarctl("info sim:ff --json").text, "\"largest_force_N\": 3.0");
   expect_contains(run_spidarctl("info sim:ff").text,
                   "found     emulated stick at 20 % of its strength, force feedback on two axes");
-  expect_contains(run_spidarctl("info sim:sh4 --json").text, "\"profile\" : \"spidar-g6x3-v2-r\"");
+  expect_contains(run_spidarctl("info sim:sh4 --json").text, "\"profile\": \"spidar-g6x3-v2-r\"");
 }
 
 TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
@@ -224,7 +216,7 @@ TEST(Spidarctl, MonitorShowsTheGrip) {
   EXPECT_EQ(json.status, 0);
   EXPECT_EQ(std::count(json.text.begin(), json.text.end(), '\n'), 2) << json.text;
   // The motors are at zero, so that the simulated hand holds the grip at the centre.
-  expect_contains(json.text, "\"position_m\" : [0.0,0.0,0.0]");
+  expect_contains(json.text, "\"position_m\":[0.0,0.0,0.0]");
 }
 
 TEST(Spidarctl, RestAndZeroLeaveTheMotorsAtZero) {
@@ -263,7 +255,7 @@ TEST(Spidarctl, PullShortensItsString) {
   const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " pull sim:sh4 2 1 0.2 --yes --json 2>&1");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
-  const std::string key = "\"length_change_m\" : [";
+  const std::string key = "\"length_change_m\": [";
   const size_t begin = outcome.text.find(key);
   ASSERT_NE(begin, std::string::npos) << outcome.text;
   std::istringstream numbers(outcome.text.substr(begin + key.size()));

@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/wiring_answers.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/grip/tension_limits.h"
 #include "spidar/simulation/simulated_device.h"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/wiring_test.h"
+#include "spidar/conformance/wiring_report.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/miswired_device.h"
 

@@ -5,8 +5,11 @@
 
 #include <functional>
 
+#include <Eigen/Core>
+
 #include "core/grip/string_geometry.h"
 #include "spidar/device.h"
+#include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -49,6 +52,34 @@ class StringHold {
   const Pace pace_;
   StringVector tension_N_ = StringVector::Zero();
   DeviceReading reading_;
+  int errors_in_a_row_ = 0;
+};
+
+/// Keeps a grip open during its lifetime. What StringHold is for strings. Every function throws
+/// DeviceError when the device is lost.
+class ForceHold {
+ public:
+  /// Opens the grip with forces switched off. Throws DeviceError.
+  ForceHold(Grip& grip, Pace pace);
+  /// Closes the grip.
+  ~ForceHold();
+  ForceHold(const ForceHold&) = delete;
+  ForceHold& operator=(const ForceHold&) = delete;
+
+  /// Switches forces on, and goes to this one at a constant rate within the given time. Returns
+  /// false when ended early.
+  bool go(const Eigen::Vector3d& force_N, double seconds);
+
+  /// Holds the force for the given time. Calls `seen` with every reading and ends when it returns
+  /// false. Returns false when the pace ended it early.
+  bool stay(double seconds, const std::function<bool(const GripReading&)>& seen = {});
+
+ private:
+  bool exchange();
+
+  Grip& grip_;
+  const Pace pace_;
+  GripCommand command_;
   int errors_in_a_row_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/string_hold.h"
+#include "spidar/conformance/hold.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +65,48 @@ void StringHold::release() {
 
 void StringHold::reverse_motor(int string) {
   profile_.drives[static_cast<size_t>(string)].motor_sign *= -1;
+}
+
+ForceHold::ForceHold(Grip& grip, Pace pace) : grip_(grip), pace_(std::move(pace)) {
+  command_.dt_s = kTick_s;
+  grip_.open();
+}
+
+ForceHold::~ForceHold() {
+  grip_.close();
+}
+
+/// Returns false when there is no new reading.
+bool ForceHold::exchange() {
+  command_.now_ns += kTick_ns;
+  const ExchangeStatus status = grip_.exchange(command_);
+  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
+  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+    throw DeviceError(grip_.name() + ": does not answer any more; check cable and power");
+  return status == ExchangeStatus::kOk;
+}
+
+bool ForceHold::go(const Eigen::Vector3d& force_N, double seconds) {
+  const Eigen::Vector3d from_N = command_.wrench.force_N;
+  const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
+  command_.power = 1;
+  command_.fresh = true;
+  for (int64_t tick = 1; tick <= ticks; ++tick) {
+    if (!pace_()) return false;
+    const double share = static_cast<double>(tick) / static_cast<double>(ticks);
+    command_.wrench.force_N = from_N + share * (force_N - from_N);
+    exchange();
+  }
+  return true;
+}
+
+bool ForceHold::stay(double seconds, const std::function<bool(const GripReading&)>& seen) {
+  // Half a tick, for the rounding errors of a long sum.
+  for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
+    if (!pace_()) return false;
+    if (exchange() && seen && !seen(grip_.reading())) return true;
+  }
+  return true;
 }
 
 }  // namespace spidar

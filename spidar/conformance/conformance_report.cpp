@@ -1,21 +1,68 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/tools/conformance_report.h"
+#include "spidar/conformance/conformance_report.h"
 
-#include <cstdio>
 #include <ctime>
-#include <iomanip>
 #include <ostream>
 #include <sys/utsname.h>
 
+#include "core/touch/contact_force.h"
 #include "spidar/boards/board_device.h"
-#include "spidar/conformance/lag_verdict.h"
+#include "spidar/conformance/delay_test.h"
+#include "spidar/conformance/report_text.h"
+#include "spidar/conformance/wiring_text.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/tools/delay_report.h"
-#include "spidar/tools/selftest_report.h"
 
 namespace spidar {
 namespace {
+
+const char* of_profile(StatedLag stated) {
+  switch (stated) {
+    case StatedLag::kTooSmall:
+      return "too small: surfaces may shake";
+    case StatedLag::kRight:
+      return "right";
+    case StatedLag::kMore:
+      return "more than is needed, which is safe";
+  }
+  return "";
+}
+
+/// Lag, t_d, the line for the profile, and the stiffness that is safe; or why there is no number.
+void print_delay(std::ostream& out, const Profile& profile, const DelayTest& test, int late_ticks) {
+  if (!test.measured()) {
+    out << "drive lag   not measured: " << test.trouble << '\n';
+    return;
+  }
+  const LagFit& fit = *test.fit;
+  const LagVerdict verdict = judge_lag(profile, fit, late_ticks);
+  out << formatted("drive lag   %.2f ms, standard error %.2f ms; from %.2f to %.2f ms (99.7 %%)\n",
+                   1e3 * fit.lag_s, 1e3 * fit.error_s, 1e3 * fit.least_s, 1e3 * fit.most_s)
+      << formatted(
+             "moved       %.2f kg, %.1f N s/m, %.0f N/m, by %.1f mm at most; misfit %.1f; %d s\n",
+             fit.mass_kg, fit.damping_N_s_m, fit.stiffness_N_m, 1e3 * test.moved_m, fit.misfit,
+             test.periods);
+  if (late_ticks > 0)
+    out << formatted(
+        "answers     some take longer than 0.7 ms and count %d ms later while playing, which "
+        "is added below\n",
+        late_ticks);
+  out << formatted("delay       t_d = %.1f ms at most: 1.5 ms of the loop, %.1f ms of the drive\n",
+                   1e3 * verdict.delay_s, 1e3 * verdict.safe_lag_s)
+      << formatted("profile     drive_lag_s = %.4f; it has %g, %s\n", verdict.safe_lag_s,
+                   profile.drive_lag_s, of_profile(verdict.stated))
+      << formatted("stiffness   %.0f N/m at most, with a damping of %.1f K t_d = %.1f N s/m\n",
+                   verdict.stiffness_N_m, ContactSettings().damping, verdict.damping_N_s_m);
+}
+
+/// In a word or two: "conforms", "does not conform: …", "not measured".
+std::string delay_summary(const Profile& profile, const DelayTest& test, int late_ticks) {
+  if (test.fault) return "does not conform: there was a fault while it was measured";
+  if (!test.measured()) return "not measured";
+  if (judge_lag(profile, *test.fit, late_ticks).stated != StatedLag::kTooSmall) return "conforms";
+  return formatted("does not conform: drive_lag_s = %g of the profile is too small",
+                   profile.drive_lag_s);
+}
 
 std::string now_utc() {
   const std::time_t now = std::time(nullptr);
@@ -34,13 +81,7 @@ std::string system_name() {
 
 /// Nothing when there is no text.
 void line(std::ostream& out, const char* name, const std::string& text) {
-  if (!text.empty()) out << std::left << std::setw(12) << name << std::right << text << '\n';
-}
-
-std::string hexadecimal(uint32_t bits) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%04x", bits);
-  return text;
+  if (!text.empty()) out << formatted("%-12s", name) << text << '\n';
 }
 
 std::string quantiles(const LatencyHistogram& histogram) {
@@ -85,8 +126,8 @@ void print_counters(std::ostream& out, const Conformance& found) {
   out << "  counter   smallest    largest  largest step\n";
   for (int i = 0; i < found.profile.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
-    out << "  " << std::setw(7) << i << std::setw(11) << found.seen.smallest[k] << std::setw(11)
-        << found.seen.largest[k] << std::setw(14) << found.seen.largest_step[k] << '\n';
+    out << formatted("  %7d%11d%11d%14lld\n", i, found.seen.smallest[k], found.seen.largest[k],
+                     static_cast<long long>(found.seen.largest_step[k]));
   }
 }
 
@@ -95,7 +136,7 @@ void print_answers(std::ostream& out, const Conformance& found) {
   line(out, "period", quantiles(seen.period));
   line(out, "round trip", quantiles(seen.duration));
   if (!found.board.has_strings) return;
-  line(out, "inputs", hexadecimal(seen.inputs) + ", changed " + hexadecimal(seen.changed_inputs));
+  line(out, "inputs", formatted("0x%04x, changed 0x%04x", seen.inputs, seen.changed_inputs));
   out << '\n';
   print_counters(out, found);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/tools/observed_device.h"
+#include "spidar/conformance/observed_device.h"
 
 #include <algorithm>
 #include <cstdlib>

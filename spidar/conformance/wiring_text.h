@@ -5,6 +5,7 @@
 
 #include <iosfwd>
 
+#include "spidar/conformance/report_text.h"
 #include "spidar/conformance/wiring_report.h"
 
 namespace spidar {
@@ -14,7 +15,6 @@ void tell_to_hold_still(const WiringReport& report);
 
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
                   const WiringReport& report);
-void print_wiring_json(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
-                       const WiringReport& report);
+Json wiring_json(const Profile& profile, const WiringAnswers& answers, const WiringReport& report);
 
 }  // namespace spidar

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/tools/selftest_report.h"
+#include "spidar/conformance/wiring_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "spidar/conformance/wiring_test.h"
-#include "spidar/tools/json_text.h"
+#include "spidar/conformance/wiring_report.h"
 
 namespace spidar {
 namespace {
@@ -123,9 +121,8 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   out << "  channel  motor                encoder              own length mm\n";
   for (int i = 0; i < report.count; ++i) {
     const WiringChannel& c = report.channel[static_cast<size_t>(i)];
-    char line[160];
-    std::snprintf(
-        line, sizeof line, "  %7d  %-20s %-20s %+.2f\n", i,
+    out << formatted(
+        "  %7d  %-20s %-20s %+.2f\n", i,
         c.unclear ? "unclear"
                   : what(c.motor_string, motor_reversed(profile, report, i), i, "pulls string ",
                          "nothing")
@@ -133,7 +130,6 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
         what(c.encoder_string, encoder_reversed(profile, report, i), i, "reads string ", "still")
             .c_str(),
         1e3 * own_answer_m(profile, answers, i));
-    out << line;
   }
   out << '\n';
   if (report.understood())
@@ -153,26 +149,24 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   out << "wiring: " << verdict(report) << '\n';
 }
 
-void print_wiring_json(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
-                       const WiringReport& report) {
-  toml::array channels, faults;
+Json wiring_json(const Profile& profile, const WiringAnswers& answers, const WiringReport& report) {
+  Json channels = Json::array(), faults = Json::array();
   for (int i = 0; i < report.count; ++i) {
     const WiringChannel& c = report.channel[static_cast<size_t>(i)];
-    channels.push_back(toml::table{{"motor_string", c.motor_string},
-                                   {"unclear", c.unclear},
-                                   {"motor_sign", motor_sign(profile, report, i)},
-                                   {"encoder_string", c.encoder_string},
-                                   {"encoder_sign", encoder_sign(profile, report, i)},
-                                   {"own_length_change_m", own_answer_m(profile, answers, i)}});
+    channels.push_back({{"motor_string", c.motor_string},
+                        {"unclear", c.unclear},
+                        {"motor_sign", motor_sign(profile, report, i)},
+                        {"encoder_string", c.encoder_string},
+                        {"encoder_sign", encoder_sign(profile, report, i)},
+                        {"own_length_change_m", own_answer_m(profile, answers, i)}});
   }
-  if (report.understood())
-    for (const std::string& fault : faults_of(profile, report)) faults.push_back(fault);
-  out << json_text(toml::table{{"profile", profile.name},
-                               {"wiring", verdict(report)},
-                               {"correlation", report.correlation},
-                               {"fixable", report.fixable()},
-                               {"faults", faults},
-                               {"channels", channels}});
+  if (report.understood()) faults = faults_of(profile, report);
+  return {{"profile", profile.name},
+          {"wiring", verdict(report)},
+          {"correlation", report.correlation},
+          {"fixable", report.fixable()},
+          {"faults", faults},
+          {"channels", channels}};
 }
 
 }  // namespace spidar

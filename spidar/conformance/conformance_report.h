@@ -8,10 +8,9 @@
 #include <string>
 
 #include "spidar/conformance/delay_test.h"
-#include "spidar/conformance/wiring_answers.h"
+#include "spidar/conformance/observed_device.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/session/board_list.h"
-#include "spidar/tools/observed_device.h"
 
 namespace spidar {
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What the programs that are called as PROGRAM COMMAND ARGUMENTS have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+
+/// A finite number; CLI::Range takes NaN, too. `unit` is for the message: " s".
+inline CLI::Validator number(double least, double most, const std::string& unit = "") {
+  const std::string range = "a number from " + shown(least) + " to " + shown(most) + unit;
+  const auto check = [least, most, range](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool good = !text.empty() && *end == '\0' && value >= least && value <= most;
+    return good ? std::string() : "\"" + text + "\" is not " + range;
+  };
+  return {check, ""};
+}
+
+/// Throws UsageError when argv[1] is not one of the program's commands. CLI11 says only that a
+/// command is required.
+inline void check_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw UsageError(std::string(argv[1]) + " is not a command; commands are " + known);
+}
+
+/// The exit status of `run`, which parses the command line and may throw. Prints the help, the
+/// version, or what was wrong.
+inline int exit_status_of(const CLI::App& program, const std::function<int()>& run) {
+  const std::string name = program.get_name();
+  try {
+    return run();
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kDone : kWrongUsage;
+  } catch (const UsageError& error) {
+    std::cerr << name << ": " << error.what() << "; see " << name << " --help\n";
+    return kWrongUsage;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return kFailed;
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What the commands of spidarctl have in common: the program, the device on which one works, and
+/// the person at the terminal.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spidar/boards/board_settings.h"
+#include "spidar/conformance/hold.h"
+#include "spidar/device.h"
+#include "spidar/grip/grip.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/session/board_list.h"
+#include "spidar/tools/cli_program.h"
+
+namespace spidar {
+
+struct Program {
+  CLI::App app{"Lists, inspects, tests and calibrates SPIDARs.", "spidarctl"};
+  int status = kDone;  ///< of the command that ran
+};
+
+template <typename Options>
+struct AddedCommand {
+  CLI::App& app;
+  Options& options;  ///< live as long as the program
+};
+
+/// `run` is called when the command line has been parsed, and returns the exit status. It throws
+/// UsageError, DeviceError and ProfileError.
+template <typename Options>
+AddedCommand<Options> add_command(Program& program, const char* name, const char* description,
+                                  int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const app = program.app.add_subcommand(name, description);
+  app->callback([&program, options, run] { program.status = run(*options); });
+  return {*app, *options};
+}
+
+// Each adds one command.
+void add_list(Program& program);
+void add_info(Program& program);
+void add_monitor(Program& program);
+void add_rest(Program& program);
+void add_zero(Program& program);
+void add_pull(Program& program);
+void add_choose(Program& program);
+void add_selftest(Program& program);
+void add_conformance(Program& program);
+void add_calibrate(Program& program);
+
+/// Arguments of every command that opens a device.
+struct DeviceOptions {
+  std::string device;
+  std::string profile;     ///< empty: the default profile of the board
+  std::string sim_wiring;  ///< wiring faults of a simulated device; empty: none
+};
+
+/// Adds DEVICE and --profile.
+void add_device(CLI::App& app, DeviceOptions& options);
+void add_sim_wiring(CLI::App& app, DeviceOptions& options);
+void add_json(CLI::App& app, bool& json);
+void add_yes(CLI::App& app, bool& yes);
+/// --seconds, for commands that otherwise run until they are interrupted.
+void add_seconds(CLI::App& app, double& seconds);
+/// An option whose value is the name of a profile to be written.
+void add_profile_file(CLI::App& app, const std::string& name, std::string& file,
+                      const std::string& description);
+
+/// What a command does with the motors.
+enum class Motors {
+  kOff,     ///< they stay at zero, so no profile is needed
+  kPulled,  ///< a real board needs a profile that somebody named
+};
+
+struct ChosenDevice {
+  BoardInfo board;
+  /// Without a name if nobody has named one: then it only says how many strings can be read, and
+  /// allows no tension.
+  Profile profile;
+  // One of these, not open yet.
+  std::unique_ptr<Device> device;  ///< that has strings
+  std::unique_ptr<Grip> grip;      ///< that has none
+
+  const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
+};
+
+/// Throws ProfileError, DeviceError, and NoProfile, which is one.
+ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
+                           CountZero count_zero = CountZero::kByProfile);
+
+/// Throws DeviceError when the board has no strings; its message says that `command` needs them.
+void require_strings(const BoardInfo& board, const std::string& command);
+
+/// Whether the device can output negative volts. Boards that output positive volts only refuse such
+/// a profile.
+bool can_reverse(const std::string& device, Profile profile);
+
+/// Wires a simulated device as --sim-wiring says. Throws UsageError when that is no wiring, or the
+/// device is not simulated.
+void miswire(const DeviceOptions& options, const Profile& profile, std::unique_ptr<Device>& device);
+
+/// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(), so that the strings are released
+/// before the program ends.
+void catch_signals();
+bool interrupted();
+
+/// Waits until a millisecond after the last call, or not at all if that has passed; returns false
+/// when interrupted.
+Pace every_millisecond();
+
+/// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
+bool confirm(const std::string& question);
+
+/// Checks that the file can be written, before the device moves in vain. Throws ProfileError.
+void check_folder_of(const std::string& file);
+
+}  // namespace spidar
