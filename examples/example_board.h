@@ -5,9 +5,8 @@
 #pragma once
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/digits.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/boards/encoder_counts.h"
-#include "spidar/boards/opening.h"
 
 namespace spidar {
 

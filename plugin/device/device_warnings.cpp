@@ -3,7 +3,7 @@
 #include "plugin/device/device_warnings.h"
 
 #include "plugin/gobject/category.h"
-#include "spidar/grip/motor_heat.h"
+#include "spidar/grip/tension_command.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)

@@ -12,7 +12,7 @@
 
 #include "plugin/timing/playback_sync.h"
 #include "plugin/timing/presentation_delay.h"
-#include "spidar/loop/playback_clock.h"
+#include "spidar/loop/loop_time.h"
 
 namespace spidar {
 

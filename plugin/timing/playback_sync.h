@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "spidar/loop/playback_clock.h"
+#include "spidar/loop/loop_time.h"
 
 namespace spidar {
 

@@ -6,19 +6,18 @@
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
 #include <unistd.h>
 #include <vector>
 
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
+#include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
 namespace {
 
 [[noreturn]] void fail(const std::string& path) {
-  throw std::runtime_error("the manifest " + path +
-                           " cannot be written: " + std::system_category().message(errno));
+  throw std::runtime_error("the manifest " + path + " cannot be written: " + output_reason(errno));
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ std::string manifest_line(const RecordedFilm& film) {
 
 ManifestFile::ManifestFile(const std::string& path) : path_(path) {
   if (path.empty()) return;
-  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  descriptor_ = open_output(path.c_str(), O_APPEND);
   if (descriptor_ < 0) fail(path);
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/touch/relief.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/touch/touch_mailbox.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace gst_spidar {
 inline namespace v0 {

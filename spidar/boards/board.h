@@ -1,17 +1,57 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Interface of a type of board: its protocol over a transport, without threads.
+/// Interfaces of the types of boards: their protocols over a transport, without threads.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "spidar/device.h"
-#include "spidar/guardian/last_will.h"
-#include "spidar/link_fault.h"
+#include "spidar/grip/grip.h"
+#include "spidar/grip/pose_trust.h"
+#include "spidar/guardian/guardian.h"
 
 namespace spidar {
+
+/// When the counts are set to zero at the present position of the grip.
+enum class CountZero {
+  kByProfile,  ///< kNever for a profile with home offsets, otherwise kFirstOpen
+  kFirstOpen,  ///< not when the board is reopened after it was lost
+  kEveryOpen,
+  kNever,  ///< the counts of the board, to which calibrated home offsets refer
+};
+
+struct BoardSettings {
+  CountZero count_zero = CountZero::kByProfile;
+  /// A separate process zeroes the motors when this one is killed.
+  bool guardian = true;
+  /// A separate thread makes the exchanges. Without it, exchange() blocks until the board has
+  /// answered.
+  bool threaded = true;
+};
+
+/// How far a driver has been tested.
+enum class Trial {
+  kHardware,  ///< on the real board
+  kEmulated,  ///< on an emulated board that follows the published description
+  kInferred,  ///< parts of it are inferred, which an emulation cannot confirm
+};
+
+/// "tried on hardware", "emulated", "inferred".
+inline const char* to_string(Trial trial) noexcept {
+  switch (trial) {
+    case Trial::kHardware:
+      return "tried on hardware";
+    case Trial::kEmulated:
+      return "emulated";
+    case Trial::kInferred:
+      return "inferred";
+  }
+  return "unknown";
+}
 
 /// `Output` is what it puts out, `Reading` what it reads. To be used by one thread at a time.
 template <typename Output, typename Reading>
@@ -61,6 +101,34 @@ class Board : public BoardOf<MotorVolts, DeviceReading> {
 
   /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
   virtual int rotary() const noexcept { return -1; }
+};
+
+struct ForceOutput {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the hand, device frame
+  bool on = false;  ///< forces are switched on, also where there is none at present
+};
+
+inline bool pulls(const ForceOutput& output) noexcept {
+  return output.on || !output.force_N.isZero(0);
+}
+
+inline ForceOutput scaled(ForceOutput output, double share) noexcept {
+  output.force_N *= share;
+  return output;
+}
+
+struct ForceReading {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
+  PoseTrouble trouble =
+      PoseTrouble::kNoReading;  ///< why the position is not a number, if it is not
+  uint32_t buttons = 0;         ///< those that are pressed; the first one is the lowest bit
+};
+
+/// Shortens a force that it cannot give, and gives none for one that is not a number.
+class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
+ public:
+  /// See Grip::abilities(). Any thread.
+  virtual GripAbilities abilities() const noexcept = 0;
 };
 
 }  // namespace spidar

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
-#include "spidar/boards/force_board.h"
+#include "spidar/boards/board.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 
@@ -274,5 +275,21 @@ LinkHealth BoardLink<Output, Reading>::health() const noexcept {
 
 template class BoardLink<MotorVolts, DeviceReading>;
 template class BoardLink<ForceOutput, ForceReading>;
+
+BoardDevice::BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings)
+    : board_(std::move(board)), count_zero_(settings.count_zero), link_(*board_, settings) {}
+
+void BoardDevice::open() {
+  link_.open([this] {
+    if (count_zero_ == CountZero::kEveryOpen || (count_zero_ != CountZero::kNever && !zeroed_))
+      board_->zero_counts();
+    zeroed_ = true;
+    if (!board_->counts_restarted()) return;
+    link_.count(LinkFault::kCounterJump);
+    throw DeviceError(board_->name() +
+                      ": was without power, its counters do not say any more where the grip is: "
+                      "hold the grip at the centre, and stop and start again");
+  });
+}
 
 }  // namespace spidar

@@ -16,10 +16,8 @@
 #include <vector>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/board_settings.h"
-#include "spidar/device_error.h"
+#include "spidar/device.h"
 #include "spidar/guardian/guardian.h"
-#include "spidar/link_fault.h"
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/spsc_ring.h"
 
@@ -109,6 +107,33 @@ class BoardLink {
   std::atomic<LinkFault> last_fault_{LinkFault::kNone};
   std::atomic<uint64_t> late_{0};
   LatencyHistogram round_trip_;
+};
+
+/// Decides when the counts are set to zero, and leaves all else to the link.
+class BoardDevice final : public Device {
+ public:
+  using Link = BoardLink<MotorVolts, DeviceReading>;
+  static constexpr int64_t kReplyWait_ns = Link::kReplyWait_ns;
+  static constexpr int64_t kTransfer_ns = Link::kTransfer_ns;
+  static constexpr int kRamp_ms = Link::kRamp_ms;
+
+  /// CountZero::kByProfile is for make_device(); here it means kFirstOpen.
+  BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings);
+
+  void open() override;
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    return link_.exchange(volts, reading);
+  }
+  void close() noexcept override { link_.close(); }
+  std::string description() const override { return link_.description(); }
+  const std::string& name() const noexcept override { return board_->name(); }
+  LinkHealth health() const noexcept override { return link_.health(); }
+
+ private:
+  const std::unique_ptr<Board> board_;
+  const CountZero count_zero_;
+  bool zeroed_ = false;  // the counts have been zeroed once
+  Link link_;
 };
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Common base of the two CyVerse boards: eight D/A converters from zero volts, eight counters, a
+/// The two CyVerse boards, SH4 and Simple: eight D/A converters from zero volts, eight counters, a
 /// rotary switch.
 #pragma once
 
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/digits.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/boards/encoder_counts.h"
+#include "spidar/protocols/cyverse.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
@@ -58,6 +59,46 @@ class CyverseBoard : public Board {
   const std::unique_ptr<Transport> transport_;
   EncoderCounts counts_;
   int rotary_ = -1;
+};
+
+class Sh4Board final : public CyverseBoard {
+ public:
+  /// Throws DeviceError when the profile wants negative volts.
+  Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+
+  std::string description() const override;
+
+ private:
+  /// The echo may belong to an earlier packet; how far back is not published.
+  static constexpr size_t kEchoes = 4;
+
+  LinkFault reset(int64_t deadline_ns) noexcept override;
+  LinkFault exchange(const DacDigits& digits, Readout& readout,
+                     int64_t deadline_ns) noexcept override;
+  std::vector<uint8_t> zero_packet() const override;
+
+  sh4::Packet out_{};
+  sh4::Packet in_{};
+  std::array<DacDigits, kEchoes> sent_{};
+  size_t sent_at_ = 0;
+};
+
+class SimpleBoard final : public CyverseBoard {
+ public:
+  /// Throws DeviceError when the profile wants negative volts.
+  SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+
+  std::string description() const override;
+
+ private:
+  LinkFault reset(int64_t deadline_ns) noexcept override;
+  LinkFault exchange(const DacDigits& digits, Readout& readout,
+                     int64_t deadline_ns) noexcept override;
+  std::vector<uint8_t> zero_packet() const override;
+
+  usb_simple::Packet set_dac_{};
+  usb_simple::Packet latch_{};
+  usb_simple::Packet in_{};
 };
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a board that continue when it is closed and opened again.
+/// Counts of a board whose counters wrap round, which continue when it is closed and opened again.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,88 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "spidar/protocols/count_unwrapper.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
+
+/// Follows up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way
+/// round.
+class CountUnwrapper {
+ public:
+  /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
+  /// for which a hand at 10 m/s needs 28 ms; a board counts as lost after 20 ms.
+  static constexpr int32_t kMaxStep = 1 << 14;
+
+  /// 16 … 31 bits.
+  explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
+
+  /// Converts the board's counter values to counts that continue from the last ones. Returns false
+  /// and changes nothing when a counter has moved further than `max_step`.
+  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+              int32_t max_step = kMaxStep) noexcept {
+    std::array<int32_t, kMaxStrings> next = count_;
+    for (size_t i = 0; i < channels; ++i) {
+      const int32_t step = signed_difference(raw[i] - raw_[i]);
+      if (step > max_step || step < -max_step) return false;
+      next[i] =
+          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+    }
+    count_ = next;
+    raw_ = raw;
+    return true;
+  }
+
+  /// Takes the counters after a break in which the board was not read. Returns false and changes
+  /// nothing when a counter has jumped, or when the counters seem to have been reset by a loss of
+  /// power: all of them are near zero now, were not near zero before, and are far from their
+  /// previous values. A grip that a hand moved while it was near the counters' zero looks the same.
+  /// Mistaking it for a reset costs a new zero; the opposite mistake would lose the right zero.
+  /// Call begin() to accept the new values.
+  bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
+                      !within(kStill, raw, raw_, channels);
+    return !anew && follow(raw, channels);
+  }
+
+  /// Takes the counter values, sign extended, as counts; for a first reading.
+  void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
+    raw_ = raw;
+    count_ = {};
+    for (size_t i = 0; i < channels; ++i) count_[i] = signed_difference(raw[i]);
+  }
+
+  /// Makes the present position zero.
+  void zero() noexcept { count_ = {}; }
+
+  const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
+
+ private:
+  /// 17 mm at 17 µm a count: the slack of the strings while a board without power is switched on.
+  static constexpr int32_t kNearZero = 1024;
+
+  /// 1 mm: a zero that is off by less does no harm, and a grip that nobody moves stays within it.
+  static constexpr int32_t kStill = 64;
+
+  /// Whether no counter differs from that of `other` by more than `counts`.
+  bool within(int32_t counts, const std::array<uint32_t, kMaxStrings>& raw,
+              const std::array<uint32_t, kMaxStrings>& other, size_t channels) const noexcept {
+    for (size_t i = 0; i < channels; ++i) {
+      const int32_t difference = signed_difference(raw[i] - other[i]);
+      if (difference > counts || difference < -counts) return false;
+    }
+    return true;
+  }
+
+  int32_t signed_difference(uint32_t difference) const noexcept {
+    const uint32_t sign = uint32_t{1} << (bits_ - 1);
+    const uint32_t low = difference & ((sign << 1) - 1);
+    return static_cast<int32_t>(low ^ sign) - static_cast<int32_t>(sign);
+  }
+
+  int bits_;
+  std::array<uint32_t, kMaxStrings> raw_{};
+  std::array<int32_t, kMaxStrings> count_{};
+};
 
 class EncoderCounts {
  public:

@@ -11,21 +11,16 @@
 #include <limits>
 #include <utility>
 
+#include "spidar/boards/board_parts.h"
 #include "spidar/boards/falcon_kinematics.h"
-#include "spidar/boards/opening.h"
 
 namespace spidar {
 namespace {
 
-constexpr int64_t kPatience_ns = kSecond_ns / 10;
 /// The published program tries a hundred times, of which few are needed.
 constexpr int kHellos = 10;
 /// The published ones have 7 to 9 kB.
 constexpr size_t kMostFirmware = 65'536;
-
-int64_t soon_ns() noexcept {
-  return monotonic_now_ns() + kPatience_ns;
-}
 
 std::string firmware_path() {
   if (const char* named = std::getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;

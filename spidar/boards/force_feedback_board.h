@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/boards/force_board.h"
+#include "spidar/boards/board.h"
 #include "spidar/boards/stick_effects.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/transport.h"

@@ -6,9 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "spidar/boards/board.h"
 #include "spidar/boards/board_link.h"
-#include "spidar/boards/board_settings.h"
-#include "spidar/boards/force_board.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
 

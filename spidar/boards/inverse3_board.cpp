@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "spidar/boards/opening.h"
+#include "spidar/boards/board_parts.h"
 
 namespace spidar {
 
@@ -80,8 +80,7 @@ LinkFault Inverse3Board::cycle(const ForceOutput& output, ForceReading& reading,
 
 void Inverse3Board::close() noexcept {
   if (opened_)
-    ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_,
-        monotonic_now_ns() + kSecond_ns / 10);
+    ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_, soon_ns());
   opened_ = false;
   transport_->close();
 }

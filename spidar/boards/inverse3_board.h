@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/boards/force_board.h"
+#include "spidar/boards/board.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/transports/transport.h"
 

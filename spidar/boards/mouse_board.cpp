@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "spidar/boards/opening.h"
+#include "spidar/boards/board_parts.h"
 
 namespace spidar {
 
@@ -30,14 +30,14 @@ void MouseBoard::open() {
                       to_string(fault) + "; that id is shared by many devices, unplug others");
   }
   mouse::encode_start(out_);
-  transport_->exchange({out_}, {}, monotonic_now_ns() + kSecond_ns / 10);
+  transport_->exchange({out_}, {}, soon_ns());
   started_ = true;
   cycle_ = 0;
 }
 
 void MouseBoard::close() noexcept {
   if (started_) {
-    const int64_t deadline_ns = monotonic_now_ns() + kSecond_ns / 10;
+    const int64_t deadline_ns = soon_ns();
     mouse::encode_force({}, out_);
     transport_->exchange({out_}, {}, deadline_ns);
     mouse::encode_stop(out_);

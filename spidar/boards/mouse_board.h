@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/boards/force_board.h"
+#include "spidar/boards/board.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/transports/transport.h"
 

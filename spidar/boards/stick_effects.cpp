@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "spidar/boards/opening.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/device.h"
 #include "spidar/realtime/thread_setup.h"
 
@@ -33,10 +33,6 @@ std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& 
   std::array<uint8_t, sizeof kept> packet{};
   std::memcpy(packet.data(), &kept, sizeof kept);
   return packet;
-}
-
-int64_t soon_ns() noexcept {
-  return monotonic_now_ns() + kSecond_ns / 10;
 }
 
 /// Why the driver has not accepted an effect, and what to do.

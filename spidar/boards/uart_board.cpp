@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "spidar/boards/opening.h"
+#include "spidar/boards/board_parts.h"
 
 namespace spidar {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/digits.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/boards/encoder_counts.h"
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/transports/transport.h"

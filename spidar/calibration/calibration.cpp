@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "core/grip/pose_solver.h"
 #include "spidar/calibration/bundle_adjustment.h"
-#include "spidar/calibration/input.h"
 #include "spidar/calibration/model.h"
-#include "spidar/calibration/noise.h"
-#include "spidar/calibration/observability.h"
-#include "spidar/calibration/start.h"
-#include "spidar/calibration/systematics.h"
+#include "spidar/calibration/samples.h"
+#include "spidar/calibration/uncertainty.h"
 #include "spidar/profiles/toml_field.h"
 #include "spidar/simulation/grip_model.h"
 
@@ -206,6 +205,82 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
     result.status = CalibrationStatus::kSolved;
   }
   return result;
+}
+
+CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples& counts) {
+  check_samples(profile, counts, 1);
+  const CalibrationModel model(profile, {});
+  CalibrationResult result;
+  result.status = CalibrationStatus::kSolved;
+  result.exit_m = profile.geometry.exit_m;
+  result.samples = static_cast<int>(counts.rows());
+  for (int i = 0; i < model.strings(); ++i) {
+    const double m_per_count = profile.drives[static_cast<size_t>(i)].metres_per_count;
+    const Eigen::VectorXd held = counts.col(i);
+    const double range_m = (held.maxCoeff() - held.minCoeff()) * m_per_count;
+    if (range_m > kMaxHeldRange_m)
+      throw std::invalid_argument(
+          "calibration: the grip was not held still: the length of string " + shown(i) +
+          " changed by " + shown(1e3 * range_m) + " mm, must be less than " +
+          shown(1e3 * kMaxHeldRange_m) + " mm");
+    const double mean = held.mean();
+    const double variance = (held.array() - mean).square().mean();
+    result.home_offset_sd_m[i] = m_per_count * std::sqrt(variance + 1.0 / 12);
+    result.string_residual_m[i] = m_per_count * std::sqrt(variance);
+  }
+  const Eigen::VectorXd mean = counts.colwise().mean();
+  result.home_offset_m = -model.paid_out_m(mean);
+  result.residual_m = result.string_residual_m.norm() / std::sqrt(model.strings());
+  result.home_offset_uncertainty_m.head(model.strings())
+      .setConstant(std::numeric_limits<double>::infinity());
+  result.length_noise_m = result.home_offset_sd_m.head(model.strings()).mean();
+  result.cleared_at = pose_at_zero_count(profile.geometry, result.home_offset_m);
+  return result;
+}
+
+namespace {
+
+void replace_provenance(const std::string& field, const std::string& how, const std::string& note,
+                        std::vector<Provenance>& provenance) {
+  const auto is_old = [&](const Provenance& row) {
+    return row.field == field && row.evidence == Evidence::kMeasured;
+  };
+  provenance.erase(std::remove_if(provenance.begin(), provenance.end(), is_old), provenance.end());
+  provenance.push_back({field, how, Evidence::kMeasured, note});
+}
+
+}  // namespace
+
+Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
+                           const std::string& how) {
+  if (result.status != CalibrationStatus::kSolved)
+    throw std::invalid_argument("calibration: a result that is not solved makes no profile");
+  Profile calibrated = profile;
+  calibrated.geometry.exit_m = result.exit_m;
+  const auto count = static_cast<size_t>(profile.geometry.count);
+  CalibrationRecord record;
+  record.samples = result.samples;
+  record.residual_m = result.residual_m;
+  for (size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    calibrated.drives[i].home_offset_m = result.home_offset_m[k];
+    calibrated.drives[i].metres_per_count *= result.scale;
+    record.home_offset_sd_m.push_back(result.home_offset_sd_m[k]);
+  }
+  const std::string note =
+      shown(result.samples) + " samples, residual " + shown(1e6 * result.residual_m) + " um";
+  replace_provenance("home_offset_m", how, note, calibrated.provenance);
+  if (result.estimated.free_scale) {
+    record.scale_sd = result.scale_sd;
+    replace_provenance("metres_per_count", how, note, calibrated.provenance);
+  }
+  if (result.estimated.free_exits) {
+    for (int i = 0; i < profile.geometry.count; ++i)
+      record.exit_sd_m.push_back(result.exit_sd_m.col(i));
+    replace_provenance("geometry", how, "exits; " + note, calibrated.provenance);
+  }
+  calibrated.calibration = record;
+  return calibrated;
 }
 
 }  // namespace spidar

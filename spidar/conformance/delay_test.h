@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures the lag of a device's drives while a hand holds the grip.
+/// Measures the lag of a device's drives while a hand holds the grip, and what follows from it.
 #pragma once
 
 #include <cstdint>

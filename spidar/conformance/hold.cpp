@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "spidar/grip/tension_limits.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/tick_time.h"
+#include "spidar/loop/loop_time.h"
 
 namespace spidar {
 

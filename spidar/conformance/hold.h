@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Sets string tensions directly, millisecond by millisecond.
+/// Sets string tensions, or the force of a grip, directly, millisecond by millisecond.
 #pragma once
 
 #include <functional>

@@ -111,12 +111,12 @@ struct Weighed {
 };
 
 /// Mass, damping and stiffness.
-using Grip = Eigen::Vector3d;
+using GripParameters = Eigen::Vector3d;
 
-struct Candidate {
+struct LagCandidate {
   double part_s = 0;  ///< first-order part of the lag
   double lag_s = 0;
-  Grip grip = Grip::Zero();
+  GripParameters grip = GripParameters::Zero();
   double cost = kNone;  ///< chi²
   double error_s = 0;   ///< standard error of the lag for this part
 };
@@ -126,11 +126,11 @@ Complex drive(double rate_rad_s, double part_s, double lag_s) {
   return std::exp(-j * (rate_rad_s * (lag_s - part_s))) / (1.0 + j * (rate_rad_s * part_s));
 }
 
-Complex dynamics(double rate_rad_s, const Grip& grip) {
+Complex dynamics(double rate_rad_s, const GripParameters& grip) {
   return {grip[2] - grip[0] * rate_rad_s * rate_rad_s, grip[1] * rate_rad_s};
 }
 
-double cost_of(const std::vector<Weighed>& lines, const Candidate& candidate) {
+double cost_of(const std::vector<Weighed>& lines, const LagCandidate& candidate) {
   double cost = 0;
   for (const Weighed& line : lines) {
     const Complex model = drive(line.rate_rad_s, candidate.part_s, candidate.lag_s) /
@@ -142,14 +142,14 @@ double cost_of(const std::vector<Weighed>& lines, const Candidate& candidate) {
 
 /// Initial estimate of the grip for a given lag, by linear least squares on the inverse response.
 /// It is only a start, because inversion changes the distribution of the noise.
-Grip start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
+GripParameters start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Grip right = Grip::Zero();
+  GripParameters right = GripParameters::Zero();
   for (const Weighed& line : lines) {
     const double w = line.rate_rad_s;
     const Complex inverse = drive(w, part_s, lag_s) / line.response;
     const double weight = line.weight * std::norm(line.response);
-    const Grip real(-w * w, 0, 1), imaginary(0, w, 0);
+    const GripParameters real(-w * w, 0, 1), imaginary(0, w, 0);
     normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
     right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
   }
@@ -157,7 +157,7 @@ Grip start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
 }
 
 /// Gauss–Newton iteration over lag and grip.
-void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
+void refine(const std::vector<Weighed>& lines, LagCandidate& candidate) {
   const Complex j(0, 1);
   for (int n = 0; n < kIterations; ++n) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -183,7 +183,7 @@ void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
     candidate.error_s = unit[3] * std::sqrt(std::max(0.0, covariance(3, 3)));
     const Eigen::Vector4d step = unit.cwiseProduct(covariance * right);
     // Halves the step until the cost does not increase.
-    const Candidate before = candidate;
+    const LagCandidate before = candidate;
     for (double share = 1; share > 1e-3; share /= 2) {
       candidate.grip = before.grip + share * step.head<3>();
       candidate.lag_s = before.lag_s + share * step[3];
@@ -196,11 +196,11 @@ void refine(const std::vector<Weighed>& lines, Candidate& candidate) {
 }
 
 /// The best fit with this first-order part. Its cost is kNone if there is no valid one.
-Candidate best_with(const std::vector<Weighed>& lines, double part_s) {
-  Candidate best;
+LagCandidate best_with(const std::vector<Weighed>& lines, double part_s) {
+  LagCandidate best;
   const double shortest_s = part_s + kShortestDelay_s;
   for (double lag_s = shortest_s; lag_s <= kScanTo_s; lag_s += kScan_s) {
-    Candidate candidate;
+    LagCandidate candidate;
     candidate.part_s = part_s;
     candidate.lag_s = lag_s;
     candidate.grip = start_of(lines, part_s, lag_s);
@@ -213,12 +213,12 @@ Candidate best_with(const std::vector<Weighed>& lines, double part_s) {
   return best;
 }
 
-bool is_better(const Candidate& a, const Candidate& b) {
+bool is_better(const LagCandidate& a, const LagCandidate& b) {
   return a.cost < b.cost;
 }
 
-std::vector<Candidate> candidates_of(const std::vector<Weighed>& lines) {
-  std::vector<Candidate> found;
+std::vector<LagCandidate> candidates_of(const std::vector<Weighed>& lines) {
+  std::vector<LagCandidate> found;
   for (double part_s = 0; part_s <= LagFitter::kLongestLag_s;
        part_s += std::max(kPart_s, kPartShare * part_s))
     found.push_back(best_with(lines, part_s));
@@ -258,8 +258,8 @@ LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
     return result;
   }
   // Uses all lines: selecting those with a large response would bias the result upwards.
-  const std::vector<Candidate> found = candidates_of(weigh(lines, periods));
-  const Candidate best = *std::min_element(found.begin(), found.end(), is_better);
+  const std::vector<LagCandidate> found = candidates_of(weigh(lines, periods));
+  const LagCandidate best = *std::min_element(found.begin(), found.end(), is_better);
   if (!std::isfinite(best.cost)) {
     result.missing = NoLag::kNotAMass;
     return result;
@@ -274,7 +274,7 @@ LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
   // Profile likelihood: for every first-order part, the lags whose cost is within the limit. A
   // misfit scales all errors up.
   const double scale = std::max(1.0, spread);
-  for (const Candidate& candidate : found) {
+  for (const LagCandidate& candidate : found) {
     const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;
     if (!(left >= 0)) continue;
     const double either_s = std::sqrt(left * scale) * candidate.error_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The test force for a delay measurement.
+/// The force that measures a lag, the response of a grip to it, and the lag of the drive.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device whose exchanges are measured.
+/// A device, or a grip, whose exchanges are measured.
 #pragma once
 
 #include <array>

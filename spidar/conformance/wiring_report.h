@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds which motor pulls and which encoder reads which string.
+/// Finds which motor pulls and which encoder reads which string, with a hand that may move.
 #pragma once
 
 #include <array>

@@ -1,15 +1,44 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A transport to an emulated board, without a wire.
+/// Emulated boards, which answer as the descriptions of the real ones say, and the transport to one.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 
-#include "spidar/emulation/emulated_board.h"
+#include "core/grip/string_geometry.h"
+#include "spidar/protocols/bytes.h"
+#include "spidar/protocols/ftdi.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
+
+/// The device that is connected to an emulated board.
+class EmulatedMotors {
+ public:
+  virtual ~EmulatedMotors() = default;
+  /// The board has set the D/A to these digits.
+  virtual void put_out(const std::array<int, kMaxStrings>& digits) noexcept = 0;
+  /// Counts as the host should receive them.
+  virtual std::array<int32_t, kMaxStrings> counts() noexcept = 0;
+  /// 16 inputs; bits 4–7 are the rotary ID switch.
+  virtual uint16_t inputs() noexcept { return 0; }
+};
+
+/// A board without its wire. Not thread-safe.
+class EmulatedBoard {
+ public:
+  virtual ~EmulatedBoard() = default;
+  /// Takes bytes from the host: one packet, or any piece of a stream.
+  virtual void receive(ByteView bytes) noexcept = 0;
+  /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
+  /// too small.
+  virtual size_t reply(MutableBytes bytes) noexcept = 0;
+  /// Takes a request of the vendor; false where there is no such request.
+  virtual bool control(const VendorRequest&) noexcept { return false; }
+};
 
 /// Faults to be caused on the wire; must outlive the transport. Thread-safe.
 struct EmulatedWire {

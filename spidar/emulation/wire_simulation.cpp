@@ -5,13 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/boards/board_device.h"
-#include "spidar/boards/digits.h"
-#include "spidar/boards/sh4_board.h"
-#include "spidar/boards/simple_board.h"
+#include "spidar/boards/board_link.h"
+#include "spidar/boards/board_parts.h"
+#include "spidar/boards/cyverse_board.h"
 #include "spidar/boards/uart_board.h"
-#include "spidar/emulation/emulated_uart.h"
-#include "spidar/emulation/emulated_usb.h"
+#include "spidar/emulation/emulated_boards.h"
 #include "spidar/simulation/simulated_device.h"
 
 namespace spidar {

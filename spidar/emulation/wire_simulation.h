@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "spidar/boards/board_settings.h"
+#include "spidar/boards/board.h"
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/profiles/profile.h"

@@ -3,20 +3,51 @@
 /// The interface between the haptic loop and what a hand holds: a wrench out, a pose in.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
-#include "spidar/device_error.h"
-#include "spidar/grip/grip_abilities.h"
+#include "spidar/device.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/grip/pose_trouble.h"
-#include "spidar/grip/safety_limits.h"
-#include "spidar/link_fault.h"
+#include "spidar/grip/pose_trust.h"
 
 namespace spidar {
+
+struct GripAbilities {
+  /// Axes of the force that are felt: to the right, up, towards the viewer.
+  std::array<bool, 3> force{true, true, true};
+  bool torque = true;
+  /// Otherwise only the size of the force is felt, in the axes that are felt.
+  bool direction = true;
+  std::array<bool, 3> position{true, true, true};  ///< axes in which it is measured
+  double largest_force_N = 0;                      ///< in every direction that is felt
+  int rate_Hz = 1000;                              ///< forces a second, at most
+  int buttons = 0;                                 ///< at most 32
+  /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
+  std::array<double, 3> half_room_m{};
+
+  /// Whether the grip can touch a picture, of which the depth is felt.
+  bool can_touch() const noexcept { return force[2] && position[2]; }
+  /// Whether the grip can point at a place of a picture.
+  bool can_point() const noexcept { return position[0] || position[1]; }
+};
+
+/// Replaces negative values and NaN by zero.
+constexpr double non_negative(double x) noexcept {
+  return x > 0 ? x : 0;
+}
+
+/// A limit that is negative or not a number counts as zero.
+struct SafetyLimits {
+  double max_force_N = 3.0;     ///< of the total force
+  double max_torque_Nm = 0.1;   ///< of the total torque
+  double max_slew_N_s = 300.0;  ///< full default force in 10 ms
+  double max_slew_Nm_s = 10.0;
+  double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
+};
 
 /// What does not change while a grip is open.
 struct GripTraits {

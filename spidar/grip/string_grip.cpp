@@ -2,11 +2,99 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/grip/string_grip.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "spidar/profiles/force_range.h"
 
 namespace spidar {
+namespace {
+
+double reach_m(const StringGeometry& geometry) {
+  double reach = 0;
+  for (int i = 0; i < geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    // With motors inside the grip, the points on the grip enclose the exits instead of the other
+    // way round.
+    reach = std::max({reach, geometry.exit_m[k].cwiseAbs().maxCoeff(),
+                      geometry.grip_m[k].cwiseAbs().maxCoeff()});
+  }
+  return reach;
+}
+
+}  // namespace
+
+GripWatch::GripWatch(const Profile& profile)
+    : profile_(profile),
+      encoders_(profile),
+      radius_m_(profile.geometry.grip_radius_m()),
+      reach_m_(spidar::reach_m(profile.geometry)),
+      solver_(profile.geometry, profile.max_pose_residual_m()) {}
+
+void GripWatch::reset() noexcept {
+  trust_ = {};
+  pose_ = {};
+  residual_m_ = 0;
+  faulty_string_ = -1;
+  counted_ = frozen_ = false;
+  solver_.reset();
+}
+
+PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
+  if (result.status != PoseStatus::kSolved) return PoseTrouble::kNoFit;
+  const Pose& pose = result.pose;
+  const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
+  if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_ || turn_rad > kMaxTurn_rad)
+    return PoseTrouble::kOutside;
+  // A rotation counts as the way of the points at which the strings are tied.
+  const double way_m = (pose.position_m - pose_.position_m).norm() +
+                       radius_m_ * pose.orientation.angularDistance(pose_.orientation);
+  return trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump : PoseTrouble::kNone;
+}
+
+bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
+                          int64_t now_ns) noexcept {
+  const bool moved = !counted_ || reading.count != last_count_;
+  if (moved) {
+    counted_ = true;
+    last_count_ = reading.count;
+    at_last_change_ = applied;
+  }
+  const double change_N = std::hypot(
+      (applied.force_N - at_last_change_.force_N).norm(),
+      (applied.torque_Nm - at_last_change_.torque_Nm).norm() / std::max(radius_m_, 1e-3));
+  if (moved || change_N < kFrozenForce_N) pushed_ns_ = now_ns;
+  // At rest the force returns to its previous value, but dead counters stay dead.
+  if (moved) frozen_ = false;
+  if (now_ns - pushed_ns_ > kFrozenAfter_ns) frozen_ = true;
+  return frozen_;
+}
+
+void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
+                    int64_t now_ns) noexcept {
+  const bool frozen = is_frozen(reading, applied, now_ns);
+  const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
+  residual_m_ = result.residual_m;
+  PoseTrouble trouble = judge(result, now_ns);
+  if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
+    // The next poses are compared with the pose after a jump, because the grip may really be there.
+    pose_ = result.pose;
+    trust_.locate(now_ns);
+  }
+  if (trouble == PoseTrouble::kNone && frozen) trouble = PoseTrouble::kFrozen;
+  if (trouble == PoseTrouble::kNone) {
+    if (result.faulty_string >= 0 && result.faulty_string != faulty_string_) ++string_faults_;
+    faulty_string_ = result.faulty_string;
+    return trust_.succeed(may_trust);
+  }
+  ++pose_errors_;
+  // A single jump is enough: the previous pose is not the present one.
+  trust_.fail(trouble, trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen);
+  // The grip may have moved far from the last pose: search from the centre.
+  if (!trust_.trusted() && trouble == PoseTrouble::kNoFit) solver_.search_from({});
+}
+
 namespace {
 
 GripAbilities abilities_of(const Profile& profile) {

@@ -1,19 +1,93 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip that hangs on strings.
+/// A grip on strings: tensions out, the pose from the counts.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 
+#include "core/grip/pose.h"
+#include "core/grip/pose_solver.h"
+#include "core/grip/string_geometry.h"
+#include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
-#include "spidar/grip/grip_watch.h"
-#include "spidar/grip/motor_heat.h"
+#include "spidar/grip/pose_trust.h"
 #include "spidar/grip/tension_command.h"
-#include "spidar/grip/tension_limits.h"
+#include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
+
+/// Tracks the pose from the encoder counts. The structure matrix may only be used while trusted():
+/// tensions that give a wrench at one pose give a different wrench at another. Neither allocates
+/// nor throws after construction.
+class GripWatch {
+ public:
+  /// At this rotation, strings from all sides have tangled long before.
+  static constexpr double kMaxTurn_rad = 2.1;
+  /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and a count is
+  /// some hundredths of a millimetre. If no counter has moved kFrozenAfter_ns after that change,
+  /// the counters do not work.
+  static constexpr double kFrozenForce_N = 0.5;
+  static constexpr int64_t kFrozenAfter_ns = 500'000'000;
+
+  /// Throws std::invalid_argument when the profile has fewer than six strings.
+  explicit GripWatch(const Profile& profile);
+
+  /// Forgets everything. The grip is assumed to be at the centre, as when a device is opened.
+  void reset() noexcept;
+
+  /// Takes the reading of a tick in which the device answered. `applied`: the wrench of the strings
+  /// on the grip, as far as it is known. `may_trust`: trust may begin with this tick; existing
+  /// trust is kept in any case.
+  void see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
+           int64_t now_ns) noexcept;
+  /// For a tick in which the device did not answer.
+  void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
+  /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
+  /// too old.
+  void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
+
+  bool trusted() const noexcept { return trust_.trusted(); }
+  /// kNone while trusted.
+  PoseTrouble trouble() const noexcept { return trust_.trouble(); }
+  /// The newest good one, trusted or not.
+  const Pose& pose() const noexcept { return pose_; }
+  /// When it was read.
+  int64_t located_ns() const noexcept { return trust_.located_ns(); }
+  double residual_m() const noexcept { return residual_m_; }
+  /// See PoseResult.
+  int faulty_string() const noexcept { return faulty_string_; }
+  /// Ticks in which the device answered, but the answer gave no pose.
+  uint64_t pose_errors() const noexcept { return pose_errors_; }
+  /// How often a string became faulty, or a different one did.
+  uint64_t string_faults() const noexcept { return string_faults_; }
+
+ private:
+  PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
+  bool is_frozen(const DeviceReading& reading, const Wrench& applied, int64_t now_ns) noexcept;
+
+  const Profile profile_;
+  const EncoderScale encoders_;
+  const double radius_m_;
+  double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
+  PoseSolver solver_;
+
+  PoseTrust trust_;
+  Pose pose_;
+  double residual_m_ = 0;
+  int faulty_string_ = -1;
+  uint64_t pose_errors_ = 0;
+  uint64_t string_faults_ = 0;
+
+  bool frozen_ = false;
+  bool counted_ = false;  ///< the three below are known
+  std::array<int32_t, kMaxStrings> last_count_{};
+  Wrench at_last_change_;  ///< applied when a counter moved last
+  int64_t pushed_ns_ = 0;  ///< since when `applied` differs from it without a counter moving
+};
 
 /// A wrench becomes tensions, tensions become volts; counts become lengths, lengths a pose. It
 /// keeps the strings taut, limits their tensions, the rate of these and the heat of the motors,

@@ -1,16 +1,97 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the commanded wrench to the tension of each string.
+/// From the commanded wrench to the volts of each motor: tensions, their steps and the heat of the
+/// windings. None of it allocates, locks or throws.
 #pragma once
+
+#include <algorithm>
 
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
 #include "core/wrench.h"
+#include "spidar/device.h"
+#include "spidar/grip/grip.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/grip/safety_limits.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
+
+/// I²t: the tension of a motor is proportional to its current, and the heat to the square of the
+/// current. Each motor is modelled as a body with one time constant. Heat 1 is the final value when
+/// the motor produces its continuous tension indefinitely. Nothing is measured; the motors are
+/// assumed to be cold when this object is created.
+class MotorHeat {
+ public:
+  /// From this heat on, a motor is limited to less than its largest tension, and at heat 1 to its
+  /// continuous tension. No sequence of tensions within limit_N() raises the heat above 1.
+  static constexpr double kLimitFrom = 0.8;
+
+  explicit MotorHeat(const Profile& profile) : profile_(profile) {
+    // A profile that was not read from a file may lack it.
+    for (StringDrive& drive : profile_.drives)
+      if (!(drive.continuous_tension_N > 0)) drive.continuous_tension_N = drive.max_tension_N / 2;
+  }
+
+  /// The motors have produced `tension_N` for `dt_s`.
+  void pass(const StringVector& tension_N, double dt_s) noexcept {
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
+      const double load = tension_N[i] / drive.continuous_tension_N;
+      heat_[i] += (load * load - heat_[i]) * std::clamp(dt_s / drive.heating_time_s, 0.0, 1.0);
+    }
+  }
+
+  /// Largest permitted tension of each string at its present heat, N.
+  StringVector limit_N() const noexcept {
+    StringVector limit_N = StringVector::Zero();
+    for (int i = 0; i < profile_.geometry.count; ++i) {
+      const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
+      const double room = std::clamp((1 - heat_[i]) / (1 - kLimitFrom), 0.0, 1.0);
+      const double continuous_N = drive.continuous_tension_N;
+      limit_N[i] = continuous_N + room * (drive.max_tension_N - continuous_N);
+    }
+    return limit_N;
+  }
+
+  /// Heat of the warmest motor.
+  double hottest() const noexcept { return heat_.head(profile_.geometry.count).maxCoeff(); }
+
+ private:
+  Profile profile_;
+  StringVector heat_ = StringVector::Zero();
+};
+
+/// Bounds the change of tensions per second. At the border of the wrench-closure workspace, the
+/// solution moves nearly the whole tension from some strings to others within a tick
+/// (docs/workspace.md). A hand would feel that as a jerk, and a motor cannot follow it.
+class TensionSlew {
+ public:
+  /// Shortest time in which a string passes through its whole range.
+  static constexpr double kRange_s = 0.02;
+
+  explicit TensionSlew(const Profile& profile) { reset(profile); }
+
+  /// All strings make the same share of their step, so that no bound is exceeded and the wrench
+  /// lies between the previous and the wanted one. A tension that is not a number counts as the
+  /// minimum.
+  StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
+
+  /// At rest: every string at its minimum.
+  void reset(const Profile& profile) noexcept { last_N_ = profile.min_tension_N(); }
+
+  /// Continues from `tension_N`, the tensions that the device has acknowledged.
+  void reset(const StringVector& tension_N) noexcept { last_N_ = tension_N; }
+
+ private:
+  StringVector last_N_;
+};
+
+/// Limits tensions to the range from zero to each string's largest. A tension that is not a number
+/// becomes zero.
+StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept;
+
+/// Converts tensions to D/A volts with newtons_per_volt and motor_sign, clamped to the D/A range.
+MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexcept;
 
 /// At rest, every string has its minimum tension, whatever the pose, because strings that pull
 /// against each other give a zero wrench only if the assumed pose is right. With a wanted wrench,

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "spidar/device.h"
-#include "spidar/guardian/systemd_programs.h"
+#include "spidar/guardian/sleep_inhibitor.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
 

@@ -1,16 +1,81 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A separate process that sets the motors to zero when this one cannot.
+/// The process that sets motors to zero when this one cannot, and what it is told to send.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <sys/types.h>
 #include <vector>
 
-#include "spidar/guardian/last_will.h"
-
 namespace spidar {
+
+/// Packets for one connection that set its motors to zero. A plain structure, because it is sent
+/// through a socket to another program, together with the device's file.
+struct LastWill {
+  enum class Wire : uint32_t {
+    kUsb,       ///< usbfs: bulk or interrupt packets to one endpoint
+    kTerminal,  ///< a tty, to which packets are written
+    kInput,     ///< an input device: each packet is an InputEvent
+    kSocket,    ///< a stream socket, to which packets are written
+  };
+  /// An event of the type EV_FF. The guardian makes the kernel's structure of it, which has another
+  /// size in a 32-bit program than in a 64-bit one, while a host and its guardian may differ in
+  /// that (Multi-Arch).
+  struct InputEvent {
+    uint32_t code = 0;
+    int32_t value = 0;
+  };
+  static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
+  static constexpr size_t kMaxLength = 512;
+  static constexpr uint32_t kMagic = 0x53504735;  // "SPG5": this layout
+
+  uint32_t magic = kMagic;
+  Wire wire = Wire::kUsb;
+  uint32_t interface_number = 0;
+  uint32_t endpoint = 0;
+  uint32_t packets = 0;
+  std::array<uint32_t, kMaxPackets> length{};
+  std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
+  /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
+  /// open file, so that the host's claim is also valid for the guardian. The number of the
+  /// descriptor is different in each process.
+  int file = -1;
+};
+static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
+              "the layout must be the same in 32-bit and 64-bit programs");
+
+/// A host that exchanges with its board sends a message at least every kBeat_ms. If its motors pull
+/// and none arrives for kSilence_ms, the guardian assumes that the host is stopped, by a signal, a
+/// debugger, or a fault of its own, and sets its motors to zero. If an answer is kAnswer_ms late,
+/// the host assumes the same of its guardian, so that a stopped guardian is noticed within 100 ms,
+/// also at rest.
+constexpr int kBeat_ms = 10;
+constexpr int kSilence_ms = 50;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kAnswer_ms = 800;  // under a sanitizer, programs are up to ten times slower
+#else
+constexpr int kAnswer_ms = 80;
+#endif
+
+/// Messages from a host to its guardian, one byte each. The guardian answers every message except
+/// the last, which shows the host that its guardian is running.
+enum class HostWord : char {
+  kPulling = 'p',    ///< the motors pull: the next message must follow soon
+  kResting = 'r',    ///< they are at zero: the host may be silent
+  kDismissed = 'q',  ///< the guardian is to end without sending the packets
+};
+
+/// Answers of the guardian; the first one is that it is ready.
+enum class GuardianWord : char {
+  kWatching = 'w',
+  /// The host sent no message in time, and the guardian has sent the zeros. It sends them again
+  /// every kSilence_ms, sooner when they have not arrived, until it is dismissed, because a host
+  /// that continues may send old volts before it reads this answer.
+  kZeroed = 'z',
+};
 
 /// Boards keep their last value when the host stops sending, and no code of a process runs after it
 /// is killed or while it is stopped. A guardian is a small separate program (spidar-guardian) that

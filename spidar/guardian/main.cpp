@@ -23,7 +23,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "spidar/guardian/last_will.h"
+#include "spidar/guardian/guardian.h"
 #include "spidar/guardian/sleep_inhibitor.h"
 #include "spidar/realtime/standard_descriptors.h"
 

@@ -5,17 +5,25 @@
 
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "spidar/guardian/systemd_programs.h"
-
 extern char** environ;
 
 namespace spidar {
+
+/// The path of a program of systemd; empty when systemd is not running. $SPIDAR_SYSTEMD names
+/// another folder for these programs; if it is empty, none is used.
+inline std::string systemd_program(const char* name) {
+  const char* folder = std::getenv("SPIDAR_SYSTEMD");
+  // The check that sd_booted(3) documents.
+  if (!folder) folder = access("/run/systemd/system", F_OK) == 0 ? "/usr/bin" : "";
+  return *folder ? std::string(folder) + "/" + name : std::string();
+}
 
 /// Suspending freezes a host and its guardian at the same time, so that nobody sets the motors to
 /// zero. systemd-inhibit holds a lock of logind as long as its command runs; the command is a cat

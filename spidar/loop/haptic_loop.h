@@ -7,22 +7,46 @@
 #include <cstdint>
 #include <memory>
 
+#include <Eigen/Core>
+
 #include "spidar/grip/grip.h"
 #include "spidar/loop/grip_brake.h"
-#include "spidar/loop/idle_watch.h"
 #include "spidar/loop/loop_schedule.h"
-#include "spidar/loop/playback_clock.h"
+#include "spidar/loop/loop_time.h"
 #include "spidar/loop/safety.h"
 #include "spidar/loop/tick_record.h"
-#include "spidar/loop/tick_time.h"
-#include "spidar/loop/vibration_budget.h"
 #include "spidar/loop/wrench_callback.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
-#include "spidar/touch/touch_mailbox.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
+
+class IdleWatch {
+ public:
+  /// Time without a force or a movement after which the device is idle.
+  static constexpr double kAfter_s = 300;
+  /// If the grip has moved further than this, somebody holds it.
+  static constexpr double kMove_m = 5e-3;
+
+  /// To be called in each tick, `dt_s` after the last one. `wanted`: a force is wanted. Returns
+  /// true once there has been neither a force nor a movement for kAfter_s, and false again as soon
+  /// as there is either.
+  bool idle(bool wanted, const Eigen::Vector3d& position_m, double dt_s) noexcept {
+    if (wanted || (position_m - from_m_).norm() > kMove_m) {
+      from_m_ = position_m;
+      rested_s_ = 0;
+    }
+    rested_s_ += dt_s;
+    return rested_s_ > kAfter_s;
+  }
+
+  void reset() noexcept { rested_s_ = 0; }
+
+ private:
+  Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
+  double rested_s_ = 0;
+};
 
 /// The loop without its thread: the owner calls tick(). The object is large (about 2 MB), so do not
 /// put it on the stack.

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/realtime/scheduling.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/touch/contact_force.h"
-#include "spidar/loop/tick_time.h"
+#include "spidar/loop/loop_time.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

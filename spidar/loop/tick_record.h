@@ -9,10 +9,10 @@
 #include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "spidar/grip/grip.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/grip/pose_trouble.h"
-#include "spidar/grip/safety_limits.h"
-#include "spidar/loop/vibration_budget.h"
+#include "spidar/grip/pose_trust.h"
+#include "spidar/loop/safety.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {

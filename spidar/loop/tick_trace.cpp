@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <initializer_list>
@@ -12,6 +13,8 @@
 #include <unistd.h>
 
 #include "spidar/realtime/sigpipe_block.h"
+#include "spidar/realtime/standard_descriptors.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 namespace {
@@ -86,10 +89,9 @@ void append_row(const TickRecord& record, std::string& csv) {
   csv += '\n';
 }
 
-TickTrace::TickTrace(const std::string& path)
-    : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+TickTrace::TickTrace(const std::string& path) : file_(open_output(path.c_str(), O_TRUNC)) {
   if (file_ < 0) {
-    throw TraceError("cannot write the haptic trace \"" + path + "\": " + std::strerror(errno));
+    throw TraceError("cannot write the haptic trace \"" + path + "\": " + output_reason(errno));
   }
   pending_.reserve(kFlush_bytes + kMaxRow_bytes);
   pending_.append(trace_header()).append("\n");
@@ -126,6 +128,43 @@ void TickTrace::flush() noexcept {
   (status_.error == 0 ? status_.rows : status_.lost_rows) += pending_rows_;
   pending_.clear();
   pending_rows_ = 0;
+}
+
+TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
+    : loop_(loop), trace_(path) {
+  if (!threaded) return;
+  thread_ = start_thread("spidar-trace", [this] { run(); });
+}
+
+TraceThread::~TraceThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable()) thread_.join();
+  drain();
+}
+
+void TraceThread::run() noexcept {
+  request_background();
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    wake_.wait_for(lock, std::chrono::milliseconds(50));
+    drain_locked();
+  }
+}
+
+void TraceThread::drain() noexcept {
+  const std::lock_guard lock(mutex_);
+  drain_locked();
+}
+
+void TraceThread::drain_locked() noexcept {
+  TickRecord record;
+  while (loop_.pop_record(record)) trace_.add(record);
+  trace_.flush();
+  error_.store(trace_.status().error, std::memory_order_relaxed);
 }
 
 }  // namespace spidar

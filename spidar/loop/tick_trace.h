@@ -3,10 +3,15 @@
 /// The haptic trace: a CSV file with one row for each tick.
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
@@ -55,6 +60,34 @@ class TickTrace {
   uint64_t pending_rows_ = 0;
   uint64_t last_tick_ = 0;
   TraceStatus status_;
+};
+
+/// Reads the records of a loop every 50 ms. The loop can store more than four seconds of them.
+class TraceThread {
+ public:
+  /// Throws TraceError when the file cannot be written. `loop` must outlive this object. Without
+  /// `threaded`, records are only read by drain() and at the end.
+  TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
+  /// Writes the remaining records.
+  ~TraceThread();
+
+  /// Writes all records so far.
+  void drain() noexcept;
+
+  /// TraceStatus::error, without waiting for the file.
+  int error() const noexcept { return error_.load(std::memory_order_relaxed); }
+
+ private:
+  void run() noexcept;
+  void drain_locked() noexcept;
+
+  HapticLoop& loop_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  TickTrace trace_;
+  std::atomic<int> error_{0};
+  std::thread thread_;
 };
 
 }  // namespace spidar

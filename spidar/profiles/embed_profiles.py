@@ -12,7 +12,7 @@ output, *files = map(Path, sys.argv[1:])
 rows = "".join(f'    {{"{file.stem}", R"{END}({file.read_text(encoding="utf-8")}){END}"}},\n' for file in files)
 output.write_text(
     f"""// Made by spidar/profiles/embed_profiles.py from spidar/profiles/shipped/.
-#include "spidar/profiles/shipped_profiles.h"
+#include "spidar/profiles/profile_file.h"
 
 namespace spidar {{
 namespace {{

@@ -13,7 +13,6 @@
 
 #include "spidar/install_folder.h"
 #include "spidar/profiles/profile_file.h"
-#include "spidar/profiles/shipped_profiles.h"
 
 namespace spidar {
 namespace {

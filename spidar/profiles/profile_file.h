@@ -37,4 +37,19 @@ namespace spidar {
 /// Left-handed tables are turned into D by z → −z. Throws ProfileError.
 Profile parse_profile(const std::string& text, const std::string& path, const std::string& name);
 
+struct ShippedProfile {
+  const char* name;  ///< of the file, without ending
+  const char* text;  ///< TOML
+};
+
+struct ShippedProfiles {
+  const ShippedProfile* first;
+  const ShippedProfile* last;  ///< one past the end
+  const ShippedProfile* begin() const noexcept { return first; }
+  const ShippedProfile* end() const noexcept { return last; }
+};
+
+/// All of them, sorted by name.
+ShippedProfiles shipped_profiles() noexcept;
+
 }  // namespace spidar

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "spidar/profiles/profile.h"
@@ -31,6 +32,9 @@ void replace_file(const std::filesystem::path& file, const std::string& text) {
   const auto fail = [&] {
     throw ProfileError(file.string() + ": cannot be written: " + std::strerror(errno));
   };
+  struct stat named {};
+  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode) && !S_ISLNK(named.st_mode))
+    throw ProfileError(file.string() + ": cannot be written: it is no regular file");
   const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0) fail();
   const bool written = write_all(opened, text);

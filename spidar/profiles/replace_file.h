@@ -9,7 +9,8 @@
 namespace spidar {
 
 /// Writes to a new file in the same folder, which then gets the name `file`. Follows no link at its
-/// own file's name. Throws ProfileError with the system's reason; the old file is unchanged then.
+/// own file's name, and replaces a link of the name `file`; does not replace a device or a folder.
+/// Throws ProfileError with the system's reason; the old file is unchanged then.
 void replace_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace spidar

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// For the beginning of main().
+/// Descriptors that a program opens: the three standard ones, and those of its output.
 #pragma once
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
+#include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace spidar {
@@ -18,6 +22,27 @@ inline void open_standard_descriptors() {
     lowest_free = open("/dev/null", O_RDWR);
   } while (lowest_free >= 0 && lowest_free <= STDERR_FILENO);
   if (lowest_free > STDERR_FILENO) close(lowest_free);
+}
+
+/// Opens a file for writing that the user has named, and makes it if it is not there. `flags` are
+/// O_TRUNC or O_APPEND. A link to another file is not followed, so that nobody who may write into
+/// the folder can have that file overwritten; one to a device or pipe, as /dev/stdout may be, is.
+/// Returns the descriptor, or −1 with the reason in errno, ELOOP for such a link.
+inline int open_output(const char* path, int flags) noexcept {
+  const int made = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
+  if (made >= 0 || errno != ELOOP) return made;
+  const int followed = open(path, O_WRONLY | O_CLOEXEC);
+  struct stat status {};
+  if (followed >= 0 && fstat(followed, &status) == 0 && !S_ISREG(status.st_mode)) return followed;
+  if (followed >= 0) close(followed);
+  errno = ELOOP;
+  return -1;
+}
+
+/// For messages, `error` as open_output() leaves it in errno.
+inline std::string output_reason(int error) {
+  return error == ELOOP ? "it is a link, and what it leads to is not overwritten"
+                        : std::strerror(error);
 }
 
 }  // namespace spidar

@@ -40,6 +40,12 @@ Scheduling request_real_time() {
                      " in a systemd unit"};
 }
 
+std::string refused_thread(const char* name) {
+  return std::string("the system refuses the thread ") + name +
+         "; end other programs, or allow more threads and memory (ulimit -u and -v, TasksMax= of a "
+         "systemd unit)";
+}
+
 void request_exact_timers() noexcept {
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }

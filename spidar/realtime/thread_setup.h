@@ -5,12 +5,26 @@
 
 #include <csignal>
 #include <pthread.h>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
-#include "spidar/realtime/scheduling.h"
+#include "spidar/realtime/latency_histogram.h"
 
 namespace spidar {
+
+/// Whether the loop's thread runs with real-time priority, and if not, why.
+struct Scheduling {
+  bool real_time = false;
+  std::string detail;  ///< "SCHED_FIFO 80", or the reason and what would help
+};
+
+/// Timing of all ticks since the thread was started. Readable while it runs.
+struct LoopTiming {
+  LatencyHistogram lateness;  ///< from the deadline to the beginning of the tick
+  LatencyHistogram cycle;     ///< from the beginning of the tick to its end, device included
+};
 
 /// Above the kernel's threaded interrupts (50), so that disk and network do not delay a tick; below
 /// its watchdogs and migration threads (99).
@@ -38,16 +52,23 @@ class SignalsBlocked {
   sigset_t previous_;
 };
 
+/// What was refused, and what would help: a sentence for std::system_error.
+std::string refused_thread(const char* name);
+
 /// Starts a thread. All threads of this library are started here, with a name of up to 15
 /// characters for debuggers and top, and with all signals blocked, so that signals reach the
-/// application's own threads. Throws std::system_error.
+/// application's own threads. Throws std::system_error, which says what was refused and what helps.
 template <typename Function>
 std::thread start_thread(const char* name, Function run) {
   const SignalsBlocked blocked;
-  return std::thread([name, run = std::move(run)]() mutable {
-    pthread_setname_np(pthread_self(), name);
-    run();
-  });
+  try {
+    return std::thread([name, run = std::move(run)]() mutable {
+      pthread_setname_np(pthread_self(), name);
+      run();
+    });
+  } catch (const std::system_error& error) {
+    throw std::system_error(error.code(), refused_thread(name));
+  }
 }
 
 }  // namespace spidar

@@ -5,15 +5,15 @@
 #include <optional>
 #include <unistd.h>
 
-#include "spidar/boards/usb_kinds.h"
+#include "spidar/boards/usb_board.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/inverse3.h"
-#include "spidar/session/force_devices.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/listening_port.h"
-#include "spidar/transports/tty_list.h"
+#include "spidar/transports/tty_transport.h"
 #include "spidar/transports/usb_bus.h"
 
 namespace spidar {

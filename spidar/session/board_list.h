@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/boards/trial.h"
+#include "spidar/boards/board.h"
 
 namespace spidar {
 

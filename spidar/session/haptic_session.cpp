@@ -8,7 +8,7 @@
 
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/loop_thread.h"
-#include "spidar/loop/trace_thread.h"
+#include "spidar/loop/tick_trace.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {

@@ -11,11 +11,11 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/playback_clock.h"
+#include "spidar/loop/loop_time.h"
 #include "spidar/loop/safety.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/realtime/scheduling.h"
+#include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
 

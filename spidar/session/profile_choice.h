@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/device_error.h"
+#include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The physics of a simulated SPIDAR: a rigid grip pulled by strings and a hand.
+/// The mechanics of a simulated SPIDAR: drives, grip, and the hand that holds it.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -72,5 +76,71 @@ class GripDynamics {
 
 /// Rotation vector of `rotation`, in radians, with an angle of at most π.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
+
+/// A pure delay, as caused by a board, its amplifiers and its packets. Fixed size, no allocation.
+class DelayedTensions {
+ public:
+  /// At one command per millisecond, a delay of 50 ms holds 50 commands.
+  static constexpr size_t kCapacity = 64;
+
+  /// Adds a command at `time_ns`, which must not decrease, that takes effect at `time_ns` +
+  /// `delay_ns`. When the queue is full, the oldest command takes effect early.
+  void put(int64_t time_ns, int64_t delay_ns, const StringVector& tension_N) noexcept {
+    if (count_ == kCapacity) drop();
+    waiting_[(first_ + count_++) % kCapacity] = {time_ns + delay_ns, tension_N};
+  }
+
+  /// The tensions in effect at `now_ns`.
+  const StringVector& at(int64_t now_ns) noexcept {
+    while (count_ > 0 && waiting_[first_].from_ns <= now_ns) drop();
+    return acting_N_;
+  }
+
+  /// Time of the next change after at(); INT64_MAX when no command is pending.
+  int64_t next_ns() const noexcept { return count_ > 0 ? waiting_[first_].from_ns : INT64_MAX; }
+
+  /// Discards all commands and sets the tensions to zero.
+  void clear() noexcept { *this = {}; }
+
+ private:
+  struct Waiting {
+    int64_t from_ns = 0;
+    StringVector tension_N = StringVector::Zero();
+  };
+
+  void drop() noexcept {
+    acting_N_ = waiting_[first_].tension_N;
+    first_ = (first_ + 1) % kCapacity;
+    --count_;
+  }
+
+  std::array<Waiting, kCapacity> waiting_{};
+  size_t first_ = 0;
+  size_t count_ = 0;
+  StringVector acting_N_ = StringVector::Zero();
+};
+
+/// Target of the hand in the device frame.
+struct HandLead {
+  bool leads = false;  ///< false: return to the resting pose
+  Eigen::Vector3d to_m = Eigen::Vector3d::Zero();
+};
+
+/// Moves the hand towards its target at a limited speed. Without a target it returns to its resting
+/// pose, and then stays exactly there.
+class LedHand {
+ public:
+  /// Speed of a brisk stroke. People explore surfaces at 0.01 … 0.25 m/s (R. Klatzky and S.
+  /// Lederman, Tactile roughness perception with a rigid link interposed between skin and surface,
+  /// Perception & Psychophysics 61, 1999), and reach faster.
+  static constexpr double kFastest_m_s = 0.5;
+
+  /// Returns the pose of the hand `dt_s` ≥ 0 later. Neither allocates nor throws.
+  const Pose& follow(const Pose& rest, const HandLead& lead, double dt_s) noexcept;
+
+ private:
+  bool away_ = false;  ///< not at the resting pose
+  Pose pose_;
+};
 
 }  // namespace spidar

@@ -14,8 +14,7 @@
 
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
-#include "spidar/simulation/delayed_tensions.h"
-#include "spidar/simulation/led_hand.h"
+#include "spidar/simulation/grip_model.h"
 
 namespace spidar {
 namespace {

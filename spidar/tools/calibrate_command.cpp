@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "spidar/calibration/calibration.h"
-#include "spidar/calibration/count_recorder.h"
+#include "spidar/calibration/samples.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/conformance/wiring_text.h"
 #include "spidar/profiles/profile_writer.h"

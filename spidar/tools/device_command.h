@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "spidar/boards/board_settings.h"
+#include "spidar/boards/board.h"
 #include "spidar/conformance/hold.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"

@@ -9,7 +9,7 @@
 #include "spidar/conformance/report_text.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
-#include "spidar/transports/tty_list.h"
+#include "spidar/transports/tty_transport.h"
 
 namespace spidar {
 namespace {

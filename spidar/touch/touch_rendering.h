@@ -1,17 +1,140 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Renders the contact of the grip with the frame that is on the screen.
+/// Renders the contact of the grip with the frame that is on the screen, and how a frame gets here.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/touch/contact_force.h"
-#include "spidar/touch/shake_watch.h"
-#include "spidar/touch/touch_mailbox.h"
+#include "core/touch/height_field.h"
 
 namespace spidar {
+
+/// The touchable surface of one frame.
+struct TouchFrame {
+  TouchFrame(double width_m, double height_m)
+      : relief(width_m, height_m), texture(width_m, height_m) {}
+
+  int64_t time_ns = 0;       ///< running time at which the frame is shown
+  bool has_surface = false;  ///< false: nothing can be touched from that time on
+  bool has_texture = false;  ///< false: `texture` is not valid
+  /// Whether `displacement_m` is the motion since the previously published frame. False after a
+  /// cut, a seek, or a frame that was left out, where the motion in between is unknown.
+  bool follows = false;
+  Eigen::Vector2d displacement_m = Eigen::Vector2d::Zero();
+  ContactSettings contact;  ///< valid
+  HeightField relief;
+  HeightField texture;
+  uint32_t generation = 0;  ///< of the mailbox when begin() was called
+};
+
+/// A wait-free single-producer, single-consumer queue that copies no frames. The writer fills a
+/// slot in place and the reader keeps the two frames it interpolates between, so at least three
+/// slots are needed. More slots allow for frames that pass the element long before they are shown,
+/// because GStreamer's queues hold some of them before the sink.
+class TouchMailbox {
+ public:
+  static constexpr size_t kLeastSlots = 3;
+
+  /// The picture measures `width_m` × `height_m` in the device frame. Throws std::invalid_argument
+  /// unless both are finite and above 0, and `slots` is at least kLeastSlots. Allocates 300 kB per
+  /// slot; no other method allocates.
+  TouchMailbox(double width_m, double height_m, size_t slots);
+  TouchMailbox(const TouchMailbox&) = delete;
+  TouchMailbox& operator=(const TouchMailbox&) = delete;
+
+  size_t slots() const noexcept { return frames_.size(); }
+
+  // --- any thread
+
+  /// Makes the reader discard, at its next tick, every frame published or begun before this call.
+  void forget() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
+  uint32_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
+
+  // --- writer
+
+  /// Returns the slot to fill, with its old content, or null when none is free. Pass the generation
+  /// that was current when processing of the frame began.
+  TouchFrame* begin(uint32_t generation) noexcept;
+  /// Publishes the slot that begin() returned.
+  void publish() noexcept;
+
+  // --- reader
+
+  /// Returns the oldest frame or the `nth` after it, null if there is none. Valid until dropped.
+  const TouchFrame* front(size_t nth = 0) const noexcept;
+  /// Releases the slot of front(), which must not be null.
+  void drop() noexcept { head_.store(head_.load(std::memory_order_relaxed) + 1, kRelease); }
+
+ private:
+  static constexpr std::memory_order kRelease = std::memory_order_release;
+
+  std::vector<TouchFrame> frames_;
+  // On separate cache lines, to avoid false sharing between writer and reader.
+  alignas(64) std::atomic<size_t> head_{0};  ///< number of frames dropped
+  alignas(64) std::atomic<size_t> tail_{0};  ///< number of frames published
+  alignas(64) std::atomic<uint32_t> generation_{0};
+};
+
+/// A surface that is too stiff for the lag of the drives shakes a grip that presses on it, at 15 to
+/// 60 Hz, faster than a hand trembles. The velocity across the surface, less its slow part, then
+/// changes its sign in even intervals. A tap has two or three such intervals. While the grip
+/// strokes along the surface, the relief itself may shake it, so that this does not count.
+class ShakeWatch {
+ public:
+  static constexpr double kSlowest_Hz = 15;
+  static constexpr double kFastest_Hz = 60;
+  /// The velocity must reach this between two changes of sign. A force of 0.5 N moves a grip of 0.3
+  /// kg as fast at 30 Hz; the steps of an encoder give errors of 1.5 mm/s.
+  static constexpr double kLeast_m_s = 0.008;
+  static constexpr double kStroke_m_s = 0.05;
+  /// So many intervals are shaking.
+  static constexpr int kIntervals = 8;
+  /// Each time, so much of the stiffness is left.
+  static constexpr double kLeft = 0.7;
+  static constexpr double kLeastShare = 0.1;
+
+  /// A tick in contact, with the velocity of the grip and the unit normal of the surface.
+  void see(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
+           double dt_s) noexcept {
+    const double across_m_s = velocity_m_s.dot(normal);
+    const double along_m_s = (velocity_m_s - across_m_s * normal).norm();
+    slow_m_s_ += std::min(1.0, dt_s / kSlow_s) * (across_m_s - slow_m_s_);
+    const double shaken_m_s = across_m_s - slow_m_s_;
+    since_s_ += dt_s;
+    most_m_s_ = std::max(most_m_s_, std::fabs(shaken_m_s));
+    if (since_s_ > 0.5 / kSlowest_Hz || along_m_s > kStroke_m_s) intervals_ = 0;
+    if ((shaken_m_s > 0) == rises_) return;
+    rises_ = !rises_;
+    const bool even = since_s_ >= 0.5 / kFastest_Hz && most_m_s_ >= kLeast_m_s;
+    intervals_ = even ? intervals_ + 1 : 0;
+    since_s_ = most_m_s_ = 0;
+    if (intervals_ < kIntervals) return;
+    intervals_ = 0;
+    share_ = std::max(kLeastShare, kLeft * share_);
+  }
+
+  /// What is left of the stiffness: 1 until the grip was shaken. It does not rise again, because
+  /// the lag is that of the device.
+  double share() const noexcept { return share_; }
+
+ private:
+  static constexpr double kSlow_s = 0.02;  ///< 8 Hz
+
+  double slow_m_s_ = 0;
+  double most_m_s_ = 0;  // since the sign changed
+  double since_s_ = 0;
+  bool rises_ = false;
+  int intervals_ = 0;
+  double share_ = 1;
+};
 
 /// State of the contact in one tick.
 struct Contact {

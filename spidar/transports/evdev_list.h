@@ -1,12 +1,47 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lists force-feedback devices.
+/// Lists force-feedback devices, and tells steering wheels from joysticks.
 #pragma once
 
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <linux/input.h>
 #include <string>
+#include <sys/ioctl.h>
 #include <vector>
 
 namespace spidar {
+
+/// Makes a call again that a signal has interrupted.
+template <typename Call>
+auto uninterrupted(const Call& call) noexcept {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+template <typename Argument>
+int call_ioctl(int file, unsigned long request, Argument* argument) noexcept {
+  return uninterrupted([&] { return ioctl(file, request, argument); });
+}
+
+template <size_t Bits>
+using BitSet = std::array<uint8_t, Bits / 8 + 1>;
+
+template <size_t N>
+bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
+  return bits[bit / 8] >> bit % 8 & 1;
+}
+
+/// Codes of an event type that the device supports; none when it does not tell.
+template <size_t Bits>
+BitSet<Bits> codes(int file, unsigned type) noexcept {
+  BitSet<Bits> bits{};
+  if (call_ioctl(file, EVIOCGBIT(type, sizeof bits), bits.data()) < 0) bits.fill(0);
+  return bits;
+}
 
 struct EvdevInfo {
   std::string path;         ///< "/dev/input/event5"
@@ -24,5 +59,23 @@ std::vector<EvdevInfo> list_force_feedback();
 /// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
 /// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
 std::string evdev_driver(const std::string& path);
+
+/// What the kernel tells about an input device.
+struct EvdevTraits {
+  uint16_t vendor = 0;
+  uint16_t product = 0;
+  std::array<char, 80> name{};
+  BitSet<ABS_CNT> axes{};
+  BitSet<KEY_CNT> keys{};
+};
+
+EvdevTraits evdev_traits(int file) noexcept;
+
+/// True when the second axis of the device is a pedal or a lever, not the other direction of a
+/// stick. Linux does not say so. On a wheel that is taken for a joystick, forces up and down turn
+/// the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases of
+/// doubt: a wheel is known by its USB ID, its name, an axis or a button that only wheels have, or
+/// by pedals. Joysticks have ABS_RZ, too, when they can be twisted, but seldom ABS_Z.
+bool is_wheel(const EvdevTraits& traits) noexcept;
 
 }  // namespace spidar

@@ -15,10 +15,8 @@
 #include <vector>
 
 #include "spidar/device.h"
-#include "spidar/transports/device_lock.h"
-#include "spidar/transports/evdev_calls.h"
 #include "spidar/transports/evdev_list.h"
-#include "spidar/transports/wheel.h"
+#include "spidar/transports/transport.h"
 
 namespace spidar {
 namespace {

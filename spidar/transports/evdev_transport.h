@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "spidar/protocols/force_feedback.h"
+#include "spidar/transports/evdev_list.h"
 #include "spidar/transports/transport.h"
-#include "spidar/transports/wheel.h"
 
 namespace spidar {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // In a build without libwebsockets.
-#include "spidar/device_error.h"
+#include "spidar/device.h"
 #include "spidar/transports/websocket_transport.h"
 
 namespace spidar {

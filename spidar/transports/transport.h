@@ -3,14 +3,17 @@
 /// Interface for sending bytes to a board and receiving its reply.
 #pragma once
 
+#include <cerrno>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <sys/file.h>
 
-#include "spidar/guardian/last_will.h"
-#include "spidar/link_fault.h"
+#include "spidar/device.h"
+#include "spidar/guardian/guardian.h"
 #include "spidar/protocols/bytes.h"
 #include "spidar/protocols/ftdi.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 
@@ -57,5 +60,18 @@ class Transport {
   /// May be called twice.
   virtual void close() noexcept = 0;
 };
+
+/// Locks an open device file for this file descriptor until it is closed. Waits up to
+/// Transport::kBusyPatience_ns, because a program that has just been killed, or its guardian, may
+/// hold the lock a moment longer. Returns false and sets errno when the lock cannot be had;
+/// EWOULDBLOCK means that somebody else holds it.
+inline bool lock_device(int file) noexcept {
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
+    sleep_until_ns(monotonic_now_ns() + Transport::kBusyCheck_ns);
+  }
+  return true;
+}
 
 }  // namespace spidar

@@ -2,21 +2,48 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/transports/tty_transport.h"
 
+#include <algorithm>
 #include <asm/termbits.h>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <linux/serial.h>
 #include <poll.h>
 #include <sys/ioctl.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
 #include "spidar/device.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/transports/device_lock.h"
+#include "spidar/transports/transport.h"
 
 namespace spidar {
+namespace {
+
+bool begins(const std::string& name, const char* with) {
+  return name.rfind(with, 0) == 0;
+}
+
+}  // namespace
+
+std::vector<TtyLine> list_tty_lines(const std::string& folder) {
+  std::vector<TtyLine> lines;
+  std::error_code error;
+  // A folder that cannot be listed counts as empty.
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool named = begins(name, "spidar");
+    if (named || begins(name, "ttyUSB") || begins(name, "ttyACM"))
+      lines.push_back({entry->path().string(), named});
+  }
+  std::sort(lines.begin(), lines.end(),
+            [](const TtyLine& a, const TtyLine& b) { return a.path < b.path; });
+  return lines;
+}
+
 namespace {
 
 LinkFault fault_of_line(int error) noexcept {

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Transport over a serial line, with termios.
+/// Serial lines: which there are, and the transport over one.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "spidar/transports/transport.h"
 
 namespace spidar {
+
+struct TtyLine {
+  std::string path;  ///< "/dev/ttyUSB0"
+  bool named =
+      false;  ///< "/dev/spidar…": a udev rule declares that motor boards are connected to it
+};
+
+/// Returns the lines of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted.
+/// Opens none.
+std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
 
 /// Raw mode, 8N1, no flow control, and low latency if the driver supports it.
 class TtyTransport final : public Transport {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/device_error.h"
+#include "spidar/device.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {

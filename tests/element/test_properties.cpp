@@ -286,6 +286,20 @@ TEST(Trace, FullDiskIsAWarningAndTheVideoGoesOn) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
+TEST(Trace, AFileBehindALinkIsNotOverwritten) {
+  const TemporaryFolder folder;
+  const std::string kept = (folder.path / "kept.csv").string();
+  const std::string link = (folder.path / "link.csv").string();
+  std::ofstream(kept) << "as it was";
+  std::filesystem::create_symlink(kept, link);
+  ElementHarness h("device=none trace=" + link);
+  h.set_caps(make_caps("GRAY8", 64, 64));
+  EXPECT_EQ(h.push_moved(0, 0, 0), GST_FLOW_OK);
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_NE(h.warnings()[0].find("it is a link"), std::string::npos) << h.warnings()[0];
+  EXPECT_EQ(std::filesystem::file_size(kept), std::string("as it was").size());
+}
+
 TEST(Trace, AnEndingThatSaysNothingIsAWarning) {
   const TemporaryFolder folder;
   const std::string path = (folder.path / "trace.txt").string();

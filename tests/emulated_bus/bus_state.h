@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "spidar/emulation/emulated_falcon.h"
-#include "spidar/link_fault.h"
+#include "spidar/device.h"
+#include "spidar/emulation/emulated_force_devices.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/exported.h"
 

@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <memory>
 
-#include "spidar/emulation/emulated_falcon.h"
-#include "spidar/emulation/emulated_usb.h"
-#include "spidar/link_fault.h"
+#include "spidar/device.h"
+#include "spidar/emulation/emulated_boards.h"
+#include "spidar/emulation/emulated_force_devices.h"
 #include "spidar/protocols/bytes.h"
 #include "tests/emulated_bus/bus_state.h"
 

@@ -9,14 +9,13 @@
 #include <cstdint>
 
 #include "numbers.h"
-#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/boards/encoder_counts.h"
+#include "spidar/protocols/cyverse.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/protocols/novint_falcon.h"
-#include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
-#include "spidar/protocols/usb_simple.h"
 
 using namespace spidar;
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_settings.h"
+#include "spidar/boards/board.h"
 #include "spidar/session/device_factory.h"
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/felt_player.h"

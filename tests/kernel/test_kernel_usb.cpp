@@ -17,9 +17,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/digits.h"
-#include "spidar/grip/tension_limits.h"
-#include "spidar/guardian/last_will.h"
+#include "spidar/boards/board_parts.h"
+#include "spidar/grip/tension_command.h"
+#include "spidar/guardian/guardian.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"

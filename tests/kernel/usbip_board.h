@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "spidar/emulation/emulated_board.h"
-#include "spidar/emulation/emulated_falcon.h"
+#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/emulation/emulated_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/kernel/usbip_packets.h"
 

@@ -122,6 +122,14 @@ class Batch(track_case.TrackCase):
         self.assert_said("the manifest /dev/full cannot be written: No space left on device",
                          "record", "x.avi", "--manifest", "/dev/full")
 
+    def test_a_file_behind_a_link_gets_no_manifest(self):
+        self.make_film("x.avi")
+        self.path("kept").write_text("as it was")
+        self.path("link").symlink_to("kept")
+        self.assert_said("the manifest link cannot be written: it is a link, and what it leads to is not overwritten",
+                         "record", "x.avi", "--manifest", "link")
+        self.assertEqual(self.path("kept").read_text(), "as it was")
+
     def claim(self, name):
         """Is the other process that records a film."""
         part = open(self.path(track_case.part_name(name + ".haptic.flac")), "w", encoding="utf-8")

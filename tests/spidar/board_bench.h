@@ -8,13 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/boards/board_device.h"
-#include "spidar/boards/sh4_board.h"
-#include "spidar/boards/simple_board.h"
+#include "spidar/boards/board_link.h"
+#include "spidar/boards/cyverse_board.h"
 #include "spidar/boards/uart_board.h"
+#include "spidar/emulation/emulated_boards.h"
 #include "spidar/emulation/emulated_transport.h"
-#include "spidar/emulation/emulated_uart.h"
-#include "spidar/emulation/emulated_usb.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/support/recorded_motors.h"
 

@@ -11,11 +11,9 @@
 #include "spidar/boards/force_grip.h"
 #include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/mouse_board.h"
-#include "spidar/emulation/emulated_falcon.h"
-#include "spidar/emulation/emulated_force_feedback.h"
-#include "spidar/emulation/emulated_inverse3.h"
+#include "spidar/emulation/emulated_boards.h"
+#include "spidar/emulation/emulated_force_devices.h"
 #include "spidar/emulation/emulated_transport.h"
-#include "spidar/emulation/emulated_usb.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/recorded_motors.h"
 

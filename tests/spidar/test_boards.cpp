@@ -10,7 +10,7 @@
 
 #include "examples/example_board.h"
 #include "spidar/emulation/wire_simulation.h"
-#include "spidar/grip/grip_watch.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/calibration/count_recorder.h"
+#include "spidar/calibration/samples.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_writer.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/count_unwrapper.h"
+#include "spidar/boards/encoder_counts.h"
 
 namespace spidar::test::count_unwrapper_test {
 namespace {

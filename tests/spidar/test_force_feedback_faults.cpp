@@ -17,8 +17,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/stick_place.h"
-#include "spidar/boards/update_watch.h"
+#include "spidar/boards/stick_effects.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"

@@ -21,8 +21,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_device.h"
-#include "spidar/guardian/last_will.h"
+#include "spidar/boards/board_link.h"
+#include "spidar/guardian/guardian.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"

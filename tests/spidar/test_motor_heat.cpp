@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/grip/motor_heat.h"
+#include "spidar/grip/tension_command.h"
 #include "tests/spidar/loop_driver.h"
 
 namespace spidar::test::motor_heat_test {

@@ -5,12 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile_writer.h"
+#include "spidar/profiles/replace_file.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -146,6 +148,29 @@ TEST(ProfileWriter, FailureLeavesNothingBehind) {
     }
   }
   EXPECT_TRUE(folder.is_empty());
+}
+
+/// Of profiles, of those that were chosen for boards, and of reports: of all that is written so.
+TEST(ReplaceFile, AFileBehindALinkIsNotOverwritten) {
+  const Folder folder;
+  const std::string kept = folder.file("kept"), named = folder.file("mine.toml");
+  const std::string part = folder.file(".spidar-" + std::to_string(getpid()) + ".part");
+  const auto text_of = [](const std::string& path) {
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  };
+  replace_file(kept, "as it was");
+  fs::create_symlink(kept, named);
+  replace_file(named, "new");
+  EXPECT_EQ(text_of(named), "new");
+  EXPECT_FALSE(fs::is_symlink(named));
+  fs::create_symlink(kept, part);
+  EXPECT_THROW(replace_file(named, "newer"), ProfileError);
+  EXPECT_EQ(text_of(named), "new");
+  EXPECT_EQ(text_of(kept), "as it was");
+  EXPECT_THROW(replace_file("/dev/null", "no device"), ProfileError);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 TEST(ProfileWriter, BadCalibrationIsRefusedByName) {

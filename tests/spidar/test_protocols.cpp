@@ -10,11 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/protocols/cyverse.h"
 #include "spidar/protocols/force_feedback.h"
-#include "spidar/protocols/sh4.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
-#include "spidar/protocols/usb_simple.h"
 
 namespace spidar::test::protocols_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/grip/tension_limits.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/loop/safety.h"
 
 namespace spidar::test::safety_test {

@@ -126,6 +126,18 @@ TEST(TickTrace, UnwritablePathIsNamedWithTheReason) {
   EXPECT_NE(message(folder.path).find("Is a directory"), std::string::npos);
 }
 
+TEST(TickTrace, AFileBehindALinkIsNotOverwritten) {
+  const TemporaryFolder folder;
+  const fs::path kept = folder.path / "kept";
+  std::ofstream(kept) << "as it was\n";
+  fs::create_symlink(kept, folder.path / "haptic.csv");
+  EXPECT_THROW(TickTrace trace(folder.path / "haptic.csv"), std::runtime_error);
+  EXPECT_EQ(lines(kept), std::vector<std::string>{"as it was"});
+  // What is behind it can be no file.
+  fs::create_symlink("/dev/null", folder.path / "null.csv");
+  EXPECT_NO_THROW(TickTrace trace(folder.path / "null.csv"));
+}
+
 TEST(TickTrace, FullDiskEndsTheTrace) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   TickTrace trace("/dev/full");

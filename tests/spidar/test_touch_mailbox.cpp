@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/touch/touch_mailbox.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar::test::touch_mailbox_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/touch/shake_watch.h"
+#include "spidar/touch/touch_rendering.h"
 #include "tests/support/touched_strings.h"
 
 namespace spidar::test::touch_strings_test {

@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_device.h"
+#include "spidar/boards/board_link.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/transports/tty_list.h"
+#include "spidar/transports/tty_transport.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 #include "tests/support/temporary_folder.h"

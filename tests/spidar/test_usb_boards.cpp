@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_device.h"
-#include "spidar/boards/usb_kinds.h"
+#include "spidar/boards/board_link.h"
+#include "spidar/boards/usb_board.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"

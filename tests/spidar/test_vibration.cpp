@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/vibration_budget.h"
+#include "spidar/loop/safety.h"
 #include "tests/support/released_grip.h"
 
 namespace spidar::test::vibration_test {

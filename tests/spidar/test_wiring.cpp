@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/grip/tension_limits.h"
+#include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/miswired_device.h"
 

@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "spidar/emulation/emulated_uart.h"
+#include "spidar/emulation/emulated_boards.h"
 
 namespace spidar::test {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "spidar/boards/board.h"
 #include "spidar/boards/board_link.h"
-#include "spidar/boards/force_board.h"
 #include "spidar/grip/grip.h"
 
 namespace spidar::test {

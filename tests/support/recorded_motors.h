@@ -7,7 +7,7 @@
 #include <atomic>
 #include <vector>
 
-#include "spidar/emulation/emulated_board.h"
+#include "spidar/emulation/emulated_transport.h"
 
 namespace spidar::test {
 

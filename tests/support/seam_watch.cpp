@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
-#include "spidar/grip/tension_limits.h"
 #include "spidar/loop/safety.h"
 
 namespace spidar::test {

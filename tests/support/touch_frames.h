@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "spidar/touch/touch_mailbox.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar::test {
 

@@ -11,6 +11,7 @@
 
 #include "core/analysis/analysis_json.h"
 #include "spidar/realtime/sigpipe_block.h"
+#include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
 namespace {
@@ -38,8 +39,14 @@ std::string FrameTrace::open(const std::string& path) {
   if (!is_json_ && !ends_with(path, ".csv")) {
     return "its name ends neither in .csv nor in .jsonl, which says what to write";
   }
-  file_ = std::fopen(path.c_str(), "we");
-  if (!file_) return std::strerror(errno);
+  const int opened = open_output(path.c_str(), O_TRUNC);
+  if (opened < 0) return output_reason(errno);
+  file_ = fdopen(opened, "w");
+  if (!file_) {
+    const int error = errno;
+    ::close(opened);
+    return std::strerror(error);
+  }
   line_ = is_json_ ? "" : kHeader;
   const SigpipeBlock no_sigpipe;
   if (!put() || std::fflush(file_) != 0) {

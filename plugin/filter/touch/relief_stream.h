@@ -23,7 +23,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/latency_histogram.h"
-#include "spidar/touch/touch_mailbox.h"
+#include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
 

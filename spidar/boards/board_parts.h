@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What boards share: opening, wills, conversion from volts to digits of a D/A converter.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "spidar/device.h"
+#include "spidar/guardian/guardian.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/protocols/bytes.h"
+#include "spidar/protocols/uart_motor.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Returns the transport's will with these packets; empty if no other process can reach the board.
+inline std::vector<LastWill> wills(const Transport& transport,
+                                   std::initializer_list<ByteView> packets) {
+  std::optional<LastWill> will = transport.last_will();
+  if (!will) return {};
+  for (const ByteView packet : packets) {
+    const size_t length = std::min(packet.size, LastWill::kMaxLength);
+    std::copy_n(packet.data, length, will->packet[will->packets].begin());
+    will->length[will->packets++] = static_cast<uint32_t>(length);
+  }
+  return {*will};
+}
+
+/// Until when a board has time to answer that is not asked in a tick, CLOCK_MONOTONIC.
+inline int64_t soon_ns() noexcept {
+  return monotonic_now_ns() + kSecond_ns / 10;
+}
+
+/// "usb:1-2: does not answer: stall"
+inline std::string no_answer(const std::string& board, LinkFault fault) {
+  return board + ": does not answer as it should: " + to_string(fault) +
+         "; switch it off and on, and check cable and supply";
+}
+
+/// Tries the first exchange up to three times, because it may first receive data that an earlier
+/// program left unread.
+template <typename Exchange>
+LinkFault open_exchange(const Exchange& exchange, Transport& transport) {
+  LinkFault fault = LinkFault::kNone;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    fault = exchange(soon_ns());
+    if (fault == LinkFault::kNone || fault == LinkFault::kGone) break;
+    transport.recover();
+  }
+  return fault;
+}
+
+/// A D/A converter whose digit zero is zero volts.
+struct DacScale {
+  double digits_per_V = 1;
+  int min_digit = 0;
+  int max_digit = 0;
+
+  /// Not a number is zero.
+  int digit(double volt) const noexcept {
+    const double digits = volt * digits_per_V;
+    if (!std::isfinite(digits)) return 0;
+    return static_cast<int>(std::lround(
+        std::clamp(digits, static_cast<double>(min_digit), static_cast<double>(max_digit))));
+  }
+  double volt(int digits) const noexcept { return digits / digits_per_V; }
+};
+
+/// Scale of the profile's D/A converter, from zero to its largest voltage, for the CyVerse boards.
+/// Their range is not published (inferred, because all published digits are positive).
+inline DacScale unipolar_dac(const Profile& profile) noexcept {
+  const int max_digit = (1 << profile.dac_bits) - 1;
+  return {max_digit / profile.dac_max_V, 0, max_digit};
+}
+
+inline DacScale uart_dac() noexcept {
+  return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
+}
+
+/// Throws DeviceError when the profile wants negative volts.
+inline void require_positive_motors(const std::string& device, const Profile& profile) {
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    if (profile.drives[static_cast<size_t>(i)].motor_sign < 0)
+      throw DeviceError(device + ": profile \"" + profile.name +
+                        "\" wants negative volts for string " + std::to_string(i) +
+                        " (motor_sign), the board puts out positive ones; take a profile for a "
+                        "usb-sh4 or usb-simple board, such as spidar-g6x3-v2-r");
+  }
+}
+
+}  // namespace spidar

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/calibration/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/grip/pose_solver.h"
+#include "spidar/grip/tension_command.h"
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/loop_time.h"
+#include "spidar/profiles/toml_field.h"
+
+namespace spidar {
+namespace {
+
+// Within this distance the length of a string is linear in the pose up to 0.3^2/(8*36) mm = 0.3 µm
+// on the smallest of the devices.
+constexpr double kSameLength_m = 0.3e-3;
+constexpr double kMaxAveraged = 4;
+
+}  // namespace
+
+void check_samples(const Profile& profile, const CountSamples& counts, int min_strings) {
+  const int strings = profile.geometry.count;
+  if (strings < min_strings)
+    throw std::invalid_argument("calibration: profile \"" + profile.name + "\" has " +
+                                shown(strings) + " strings, must have at least " +
+                                shown(min_strings) +
+                                ": a pose takes six, only those beyond tell anything");
+  if (counts.cols() != strings)
+    throw std::invalid_argument("calibration: samples have counts of " + shown(counts.cols()) +
+                                " strings, must have " + shown(strings) + " as profile \"" +
+                                profile.name + "\"");
+  if (counts.rows() < kMinCalibrationSamples)
+    throw std::invalid_argument("calibration: " + shown(counts.rows()) +
+                                " samples, must be at least " + shown(kMinCalibrationSamples));
+  for (Eigen::Index k = 0; k < counts.rows(); ++k)
+    for (Eigen::Index i = 0; i < counts.cols(); ++i)
+      if (!std::isfinite(counts(k, i)))
+        throw std::invalid_argument("calibration: sample " + shown(k) + ", string " + shown(i) +
+                                    ": the count is " + shown(counts(k, i)) + ", must be finite");
+}
+
+double rounding_sd_m(const Profile& profile, double averaged) {
+  double sum = 0;
+  for (int i = 0; i < profile.geometry.count; ++i)
+    sum += profile.drives[static_cast<size_t>(i)].metres_per_count;
+  return sum / profile.geometry.count / std::sqrt(12 * std::min(averaged, kMaxAveraged));
+}
+
+std::vector<StringVector> distinct_lengths_m(const CalibrationModel& model,
+                                             const CountSamples& counts) {
+  std::vector<StringVector> lengths;
+  StringVector first = StringVector::Zero(), sum = first;
+  int same = 0;
+  const auto finish = [&] {
+    if (same > 0) lengths.push_back(sum / same);
+    same = 0;
+  };
+  for (Eigen::Index k = 0; k < counts.rows(); ++k) {
+    const StringVector next = model.paid_out_m(counts.row(k).transpose());
+    if (same > 0 && (next - first).cwiseAbs().maxCoeff() > kSameLength_m) finish();
+    if (same == 0) {
+      first = next;
+      sum.setZero();
+    }
+    sum += next;
+    ++same;
+  }
+  finish();
+  return lengths;
+}
+
+Pose pose_at_zero_count(const StringGeometry& geometry, const StringVector& home_offset_m) {
+  PoseSolver solver(geometry, std::numeric_limits<double>::infinity());
+  return solver.locate(string_lengths_m(geometry, {}) + home_offset_m).pose;
+}
+
+namespace {
+
+constexpr double kMaxSeconds = 3600;
+
+void check(const RecordingSettings& settings) {
+  if (!(settings.seconds > 0 && settings.seconds <= kMaxSeconds))
+    throw std::invalid_argument("recording: " + shown(settings.seconds) +
+                                " s, must be above 0 and at most " + shown(kMaxSeconds) + " s");
+  if (!(settings.sample_period_s >= kTick_s && settings.sample_period_s <= settings.seconds))
+    throw std::invalid_argument("recording: a sample every " + shown(settings.sample_period_s) +
+                                " s, must be at least " + shown(kTick_s) +
+                                " s and at most the whole time");
+}
+
+/// Keeps the strings of a device at rest tension, multiplied by a share.
+class Strings {
+ public:
+  Strings(Device& device, const Profile& profile)
+      : device_(device), profile_(profile), rest_N_(profile.min_tension_N()) {
+    device_.open();
+  }
+  ~Strings() { device_.close(); }
+  Strings(const Strings&) = delete;
+  Strings& operator=(const Strings&) = delete;
+
+  /// One exchange. Returns false when it failed. Throws DeviceError when the device is lost.
+  bool pull(double change_of_share, DeviceReading& reading) {
+    share_ = std::clamp(share_ + change_of_share, 0.0, 1.0);
+    const MotorVolts volts = to_volts(share_ * rest_N_, profile_);
+    const ExchangeStatus status = device_.exchange(volts, reading);
+    errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
+    if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+      throw DeviceError(device_.name() + ": lost while recording; check cable and power");
+    return status == ExchangeStatus::kOk;
+  }
+
+  bool released() const { return share_ <= 0; }
+
+ private:
+  Device& device_;
+  const Profile& profile_;
+  const StringVector rest_N_;
+  double share_ = 0;
+  int errors_in_a_row_ = 0;
+};
+
+CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings) {
+  CountSamples samples(static_cast<Eigen::Index>(readings.size()), strings);
+  for (Eigen::Index k = 0; k < samples.rows(); ++k)
+    for (Eigen::Index i = 0; i < samples.cols(); ++i)
+      samples(k, i) = readings[static_cast<size_t>(k)].count[static_cast<size_t>(i)];
+  return samples;
+}
+
+}  // namespace
+
+CountSamples record_counts(Device& device, const Profile& profile,
+                           const RecordingSettings& settings, const NextTick& next_tick) {
+  check(settings);
+  Strings strings(device, profile);
+  std::vector<DeviceReading> kept;
+  DeviceReading reading;
+  const auto rise = static_cast<int64_t>(std::lround(HapticLoop::kEnergise_s / kTick_s));
+  const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));
+  const auto end = rise + static_cast<int64_t>(std::lround(settings.seconds / kTick_s));
+  const auto time_s = [&](int64_t tick) { return static_cast<double>(tick - rise) * kTick_s; };
+  int64_t tick = 0;
+  for (; tick < end && next_tick(time_s(tick)); ++tick)
+    if (strings.pull(kTick_s / HapticLoop::kEnergise_s, reading) && tick >= rise &&
+        (tick - rise) % period == 0)
+      kept.push_back(reading);
+  for (; !strings.released(); ++tick) {
+    next_tick(time_s(tick));
+    strings.pull(-kTick_s / HapticLoop::kRelease_s, reading);
+  }
+  return to_samples(kept, profile.geometry.count);
+}
+
+}  // namespace spidar

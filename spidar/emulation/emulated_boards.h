@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Emulated boards for strings, CyVerse and UART, and the SPIDAR-mouse.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/protocols/cyverse.h"
+#include "spidar/protocols/spidar_mouse.h"
+#include "spidar/protocols/uart_motor.h"
+
+namespace spidar {
+
+class EmulatedSh4 final : public EmulatedBoard {
+ public:
+  explicit EmulatedSh4(EmulatedMotors& motors) : motors_(motors) {}
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  EmulatedMotors& motors_;
+  sh4::Packet packet_{};
+  bool due_ = false;
+};
+
+class EmulatedSimple final : public EmulatedBoard {
+ public:
+  explicit EmulatedSimple(EmulatedMotors& motors) : motors_(motors) {}
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  EmulatedMotors& motors_;
+  usb_simple::Packet packet_{};
+  bool due_ = false;
+};
+
+/// Its digits are the force in millinewtons, x and y.
+class EmulatedMouse final : public EmulatedBoard {
+ public:
+  explicit EmulatedMouse(EmulatedMotors& motors) : motors_(motors) {}
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  EmulatedMotors& motors_;
+  bool due_ = false;
+  bool started_ = false;
+};
+
+/// Takes the bytes of the line in pieces of any size, as the interrupts of the boards do.
+class EmulatedUart final : public EmulatedBoard {
+ public:
+  struct Station {
+    int id = 0;
+    uart_motor::BoardInfo info;
+  };
+
+  /// `motors` are numbered in the order of the stations.
+  EmulatedUart(EmulatedMotors& motors, std::vector<Station> stations)
+      : motors_(motors), stations_(std::move(stations)) {}
+
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+ private:
+  void begin(uint8_t header) noexcept;
+  void end_of_command() noexcept;
+  void put_reply(ByteView reply) noexcept;
+
+  EmulatedMotors& motors_;
+  const std::vector<Station> stations_;
+  std::array<int, kMaxStrings> digits_{};
+  // The command that is being received.
+  const Station* station_ = nullptr;
+  size_t first_ = 0;  // first motor of the station
+  std::array<uint8_t, 256> command_{};
+  size_t length_ = 0;  // of the whole command
+  size_t taken_ = 0;
+  // Replies that have not been read yet.
+  std::array<uint8_t, 1024> reply_{};
+  size_t due_ = 0;
+};
+
+}  // namespace spidar

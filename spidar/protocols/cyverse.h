@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Packets of the CyVerse USB 2.0 boards, SH4 and Simple. Pure: bytes in, bytes out.
+///
+/// Sources: haselab-net/SpringheadOne src/Device/DRUsb20Sh4.cpp and DRUsb20Simple.cpp, which talk to
+/// the boards through ezusb.sys of Windows; the product id of the Simple board is from
+/// Springhead/Springhead core/include/HumanInterface/DRUsb20Simple.h. It is inferred that the pipes
+/// are endpoints 2 and 6, that the D/A takes 12 bits, and that the echo of the SH4 board is of the
+/// same or an earlier packet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "spidar/protocols/bytes.h"
+
+namespace spidar::sh4 {
+
+constexpr uint16_t kVendor = 0x0CEC;
+constexpr uint16_t kProduct = 0x0205;
+constexpr uint8_t kEndpointOut = 0x02;
+constexpr uint8_t kEndpointIn = 0x86;
+constexpr size_t kPacketSize = 512;
+constexpr size_t kChannels = 8;
+constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
+
+using Packet = std::array<uint8_t, kPacketSize>;
+using DacDigits = std::array<uint16_t, kChannels>;
+
+/// A reply of the board.
+struct Reading {
+  DacDigits dac_echo{};
+  /// 16 bits, counting in the opposite direction to the Simple board: its host negates them.
+  std::array<uint16_t, kChannels> counter{};
+  std::array<uint16_t, kChannels> adc{};  ///< digits of kAdc_V
+  uint16_t inputs = 0;                    ///< bits 4–7: rotary switch
+  uint32_t info = 0;                      ///< meaning not published
+
+  int rotary() const noexcept { return inputs >> 4 & 0xF; }
+};
+
+/// The only command: sets the D/A digits and asks for all readings.
+void encode_update(const DacDigits& digits, Packet& packet) noexcept;
+/// Returns false when it is not that command, or does not have kPacketSize bytes.
+bool decode_update(ByteView packet, DacDigits& digits) noexcept;
+
+void encode_reading(const Reading& reading, Packet& packet) noexcept;
+/// Returns false when it does not have kPacketSize bytes.
+bool decode_reading(ByteView packet, Reading& reading) noexcept;
+
+}  // namespace spidar::sh4
+
+namespace spidar::usb_simple {
+
+constexpr uint16_t kVendor = 0x0CEC;
+constexpr uint16_t kProduct = 0x0203;
+constexpr uint8_t kEndpointOut = 0x02;
+constexpr uint8_t kEndpointIn = 0x86;
+constexpr size_t kPacketSize = 32;
+constexpr size_t kChannels = 8;
+
+using Packet = std::array<uint8_t, kPacketSize>;
+using DacDigits = std::array<uint16_t, kChannels>;
+
+enum class Command {
+  kEncoderDirection,  ///< one bit for each channel: order of the encoder's phases
+  kSetDac,
+  kLatchCounters,  ///< the next packet from the board holds the counters at this moment
+};
+
+/// The board's reply to kLatchCounters.
+struct Reading {
+  std::array<int32_t, kChannels> counter{};  ///< 24 bits, sign extended
+  uint8_t inputs = 0;                        ///< bits 4–7: rotary switch
+
+  int rotary() const noexcept { return inputs >> 4 & 0xF; }
+};
+
+void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
+void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
+void encode_latch(Packet& packet) noexcept;
+
+/// A packet to the board, decoded.
+struct HostPacket {
+  Command command = Command::kLatchCounters;
+  uint8_t channels = 0;  ///< of kEncoderDirection
+  DacDigits digits{};    ///< of kSetDac
+};
+
+/// Returns false when it is none of the commands, or does not have kPacketSize bytes.
+bool decode_command(ByteView packet, HostPacket& command) noexcept;
+
+/// Counters are reduced to 24 bits.
+void encode_reading(const Reading& reading, Packet& packet) noexcept;
+/// Returns false when it does not have kPacketSize bytes.
+bool decode_reading(ByteView packet, Reading& reading) noexcept;
+
+}  // namespace spidar::usb_simple
