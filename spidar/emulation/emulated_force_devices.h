@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Emulated devices that take a force: Falcon, joystick and Inverse3, and the hand in which they are.
+/// Emulated devices that take a force: Falcon, joystick and Inverse3, and the hand in which they
+/// are.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Emulated boards, which answer as the descriptions of the real ones say, and the transport to one.
+/// Emulated boards, which answer as the descriptions of the real ones say, and the transport to
+/// one.
 #pragma once
 
 #include <array>

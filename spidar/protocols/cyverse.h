@@ -2,8 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 /// Packets of the CyVerse USB 2.0 boards, SH4 and Simple. Pure: bytes in, bytes out.
 ///
-/// Sources: haselab-net/SpringheadOne src/Device/DRUsb20Sh4.cpp and DRUsb20Simple.cpp, which talk to
-/// the boards through ezusb.sys of Windows; the product id of the Simple board is from
+/// Sources: haselab-net/SpringheadOne src/Device/DRUsb20Sh4.cpp and DRUsb20Simple.cpp, which talk
+/// to the boards through ezusb.sys of Windows; the product id of the Simple board is from
 /// Springhead/Springhead core/include/HumanInterface/DRUsb20Simple.h. It is inferred that the pipes
 /// are endpoints 2 and 6, that the D/A takes 12 bits, and that the echo of the SH4 board is of the
 /// same or an earlier packet.

@@ -99,7 +99,7 @@ std::string chosen(const uint8_t* data, size_t size) {
   std::string text;
   for (size_t i = 0; i < kLines.size(); ++i) {
     const Line& line = kLines[i];
-    const unsigned byte = size > 0 ? data[i % size] + i / size : 0;
+    const size_t byte = size > 0 ? data[i % size] + i / size : 0;
     if (byte % 64 == 63) continue;
     const size_t other = byte / 8 % line.values.size();
     text += line.begin + std::string(line.values[byte % 8 == 7 ? other : 0]) + "\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Random wrenches, hands and faults on every profile, checked at the output to the device. Short
+/// Random wrenches, hands and faults on every profile, checked at the output to the device, and no
+/// tick takes anything from the heap. Short
 /// by default; SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED selects another
 /// seed.
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
@@ -144,7 +146,9 @@ class Round {
 
   void tick(int passed_ms) {
     now_ns_ += passed_ms * kMs;
+    const long before = allocations;
     loop_->tick(now_ns_, now_ns_);
+    EXPECT_EQ(allocations, before) << where_ << ": a tick allocates";
     SeamWatch::Tick seen;
     seen.acknowledged = device_.status() == ExchangeStatus::kOk && !loop_->lost();
     // A device that does not answer keeps what it was told; ramps count two milliseconds at most.
@@ -193,6 +197,13 @@ class Round {
   int64_t rest_in_ns_ = 0;
   int fault_ticks_ = 0;
 };
+
+TEST(RandomSafety, AllocationsAreCounted) {
+  const long before = allocations;
+  void* volatile memory = std::malloc(1);  // not left out by the compiler
+  EXPECT_EQ(allocations, before + (kCountsAllocations ? 1 : 0));
+  std::free(memory);
+}
 
 TEST(RandomSafety, HoldsWhateverHappens) {
   const uint64_t seed = number("SPIDAR_SEED", 1);

@@ -18,6 +18,7 @@
 #include <GLFW/glfw3.h>
 
 #include "plugin/window/program/model/relief_view.h"
+#include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
 namespace {
@@ -48,8 +49,14 @@ double now_s() {
 /// Pixels of three bytes, the lowest row first. Returns empty, or why the file cannot be written.
 std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                       const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "wbe");
-  if (!file) return std::strerror(errno);
+  const int opened = open_output(path.c_str(), O_TRUNC);
+  if (opened < 0) return output_reason(errno);
+  std::FILE* file = fdopen(opened, "wb");
+  if (!file) {
+    const int error = errno;
+    close(opened);
+    return std::strerror(error);
+  }
   bool complete = true;
   stbi_flip_vertically_on_write(1);
   const auto write = [&](void* data, int size) {
