@@ -9,7 +9,7 @@ std::vector<MotionRow> display_rows() {
       MotionRow::choice<OverlayKind>(
           {"overlay", "Overlay",
            "What is drawn into the video. Frames that other elements hold are copied first"},
-          "GstSpidarMotionOverlay",
+          "GstSpidarOverlay",
           {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
            {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
            {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"}},

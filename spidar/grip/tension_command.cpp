@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace spidar {
+namespace {}  // namespace
 
 StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& profile,
                                 double dt_s) noexcept {

@@ -307,14 +307,5 @@ TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
   EXPECT_EQ(h->engine().output().session(), nullptr);
 }
 
-TEST_F(DeviceTest, StatesMayBeRepeatedManyTimes) {
-  open("device=sim");
-  for (int n = 0; n < 5; ++n) {
-    EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
-    EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
-    EXPECT_NE(h->engine().output().session(), nullptr);
-  }
-}
-
 }  // namespace
 }  // namespace spidar::test::device_test

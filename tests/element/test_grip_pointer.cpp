@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The place in the picture at which the grip points.
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "plugin/filter/frame/grip_pointer.h"
+#include "plugin/properties/pointer_text.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test::grip_pointer_test {
@@ -33,6 +36,18 @@ TEST(GripPointer, BeyondTheEdgeIsTheEdge) {
 
 TEST(GripPointer, WithoutADeviceItIsTheMiddle) {
   EXPECT_EQ(GripPointer().place({0.1, -0.1, 0}), Eigen::Vector2d(0.5, 0.5));
+}
+
+TEST(Pointer, IsAPlaceTheGripOrTheMouse) {
+  for (const char* text : {"grip", "mouse", "0,1", "0.25,0.75"}) {
+    const std::optional<Pointer> pointer = parse_pointer(text);
+    ASSERT_TRUE(pointer) << text;
+    EXPECT_EQ(text_of(*pointer), text);
+  }
+  for (const char* text :
+       {"", "fixed", "0.5", "0.5,", ",0.5", "0.5;0.5", "0.5,0.5,0.5", "1.1,0", "0,-0.1", "nan,0"}) {
+    EXPECT_FALSE(parse_pointer(text)) << text;
+  }
 }
 
 }  // namespace

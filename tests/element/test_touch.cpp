@@ -9,6 +9,8 @@
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/filter/touch/touched_motion.h"
 #include "spidar/grip/string_grip.h"
+#include "spidar/loop/stiffness_limit.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/element_harness.h"
@@ -250,6 +252,21 @@ TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
   EXPECT_THROW(
       reliefs.stream.add({grey.data(), 320, 240, 320}, some_analysis(), 0, touch, {0.5, 0.5}),
       std::invalid_argument);
+}
+
+TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
+  Profile profile = load_profile(kDefaultProfile);
+  EXPECT_EQ(most_stiffness_N_m(profile), 200) << "until the lag was measured";
+  profile.drive_lag_known = true;
+  EXPECT_EQ(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m);
+  profile.drive_lag_s = 0.0055;  // twice the delay of 3.5 ms
+  EXPECT_NEAR(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m / 2, 1e-9);
+  TouchProperties touch;
+  touch.stiffness_N_m = 700;
+  const ContactSettings contact = contact_settings(touch, profile);
+  EXPECT_NEAR(contact.stiffness_N_m, 400, 1e-9);
+  EXPECT_NEAR(contact.delay_s, 0.007, 1e-12);
+  EXPECT_NEAR(contact.damping_N_s_m(), 1.5 * 400 * 0.007, 1e-9);
 }
 
 }  // namespace

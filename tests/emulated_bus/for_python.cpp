@@ -15,6 +15,13 @@ extern "C" {
 BUS_API void bus_plug(int port, int kind) {
   plug(static_cast<size_t>(port), static_cast<UsbKind>(kind));
 }
+BUS_API void bus_plug_named(int port, int kind, const char* serial) {
+  plug(static_cast<size_t>(port), static_cast<UsbKind>(kind), serial);
+}
+/// Whether open() gives EACCES.
+BUS_API void bus_forbid(int port, bool forbidden) {
+  bus().port[static_cast<size_t>(port)].forbidden = forbidden;
+}
 BUS_API void bus_unplug(int port, int errno_first) {
   unplug(static_cast<size_t>(port), errno_first);
 }

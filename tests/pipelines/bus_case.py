@@ -22,6 +22,8 @@ class Usb(enum.IntEnum):
     """Boards, in the order of UsbKind."""
     SH4 = 1
     SIMPLE = 2
+    MOUSE = 3
+    FALCON = 4
 
 
 class Evdev(enum.IntEnum):
@@ -29,6 +31,7 @@ class Evdev(enum.IntEnum):
     STICK = 1
     WHEEL = 2
     PAD = 3
+    KEYBOARD = 4
 
 
 _file = tempfile.NamedTemporaryFile(prefix="spidar-bus-")

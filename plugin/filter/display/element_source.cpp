@@ -66,6 +66,7 @@ bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
   } else {
     return false;
   }
+  setting.initial = number_of(g_param_spec_get_default_value(const_cast<GParamSpec*>(spec)));
   return true;
 }
 
@@ -97,9 +98,7 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     state.rules = choice_.rules();
-    // In a pause there was no frame in the last second, whatever the film has.
-    state.no_force =
-        sentence(state.is_playing ? engine_.no_force_reason() : NoForceReason::kNotPlaying);
+    state.no_force = sentence(engine_.no_force_reason());
     DeviceView device;
     if (engine_.output().look_at_device(device)) state.device = std::move(device);
   }
