@@ -85,9 +85,9 @@ void write_devices(std::ostream& script, const Record& record) {
 /// The words of the reasons in the order in which they come first.
 std::vector<std::string> reasons_of(const Record& record) {
   std::vector<std::string> words;
-  for (const FrameRow& frame : record.frames()) {
-    const bool is_new = std::find(words.begin(), words.end(), frame.reason) == words.end();
-    if (frame.reason != kFelt && is_new) words.push_back(frame.reason);
+  for (const auto& [time_s, word] : record.reasons()) {
+    const bool is_new = std::find(words.begin(), words.end(), word) == words.end();
+    if (word != kFelt && is_new) words.push_back(word);
   }
   return words;
 }
@@ -95,16 +95,16 @@ std::vector<std::string> reasons_of(const Record& record) {
 /// Spans of time in which nothing was felt, a row of the panel for each reason.
 void write_reasons(std::ostream& script, const Record& record,
                    const std::vector<std::string>& words) {
-  const std::vector<FrameRow>& frames = record.frames();
+  const auto& reasons = record.reasons();
   script << "$reasons << END\n";
-  for (size_t i = 0; i < frames.size();) {
+  for (size_t i = 0; i < reasons.size();) {
+    const auto& [begin_s, reason] = reasons[i];
     size_t end = i + 1;
-    while (end < frames.size() && frames[end].reason == frames[i].reason) ++end;
-    const auto word = std::find(words.begin(), words.end(), frames[i].reason);
-    const double end_s = end < frames.size() ? frames[end].time_s : frames.back().time_s;
+    while (end < reasons.size() && reasons[end].second == reason) ++end;
+    const auto word = std::find(words.begin(), words.end(), reason);
+    const double end_s = reasons[std::min(end, reasons.size() - 1)].first;
     if (word != words.end()) {
-      script << frames[i].time_s << ' ' << word - words.begin() << ' ' << end_s - frames[i].time_s
-             << '\n';
+      script << begin_s << ' ' << word - words.begin() << ' ' << end_s - begin_s << '\n';
     }
     i = end;
   }

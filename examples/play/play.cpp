@@ -155,16 +155,25 @@ struct Playing {
 };
 
 /// Until the debug window, which still shows the end of the film, is closed, or Ctrl-C is pressed.
-void wait_for_window(GstElement* filter) {
+/// The window may seek back into the film, and pause it there.
+void wait_for_window(const Playing& playing) {
   constexpr gulong kStep_us = 50'000;
   static volatile std::sig_atomic_t is_interrupted = 0;
   std::signal(SIGINT, [](int) { is_interrupted = 1; });
   std::puts("the film is over; close the debug window, or press Ctrl-C");
   gboolean is_open = TRUE;
+  GstBus* const bus = gst_element_get_bus(playing.pipeline);
   while (is_open && !is_interrupted) {
     g_usleep(kStep_us);
-    g_object_get(filter, "debug-window", &is_open, nullptr);
+    while (GstMessage* const message = gst_bus_pop(bus)) {
+      if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_REQUEST_STATE) {
+        set_requested_state(playing.pipeline, message);
+      }
+      gst_message_unref(message);
+    }
+    g_object_get(playing.filter, "debug-window", &is_open, nullptr);
   }
+  gst_object_unref(bus);
 }
 
 int play(const Options& options) {
@@ -226,7 +235,7 @@ int play(const Options& options) {
   if (has_rows) draw(record, options, title, max_force_N);
   const bool shows_window = options.window && options.window_png.empty();
   if (shows_window && ending == Ending::kEndOfVideo && isatty(STDIN_FILENO)) {
-    wait_for_window(filter);
+    wait_for_window(playing);
   }
   return ending == Ending::kFailed ? 1 : 0;
 }

@@ -125,13 +125,6 @@ void follow_buffering(Playback& playback, GstMessage* message) {
   gst_element_set_state(playback.pipeline, buffering ? GST_STATE_PAUSED : GST_STATE_PLAYING);
 }
 
-/// The debug window asks to pause or to play.
-void set_requested_state(const Playback& playback, GstMessage* message) {
-  GstState state = GST_STATE_PLAYING;
-  gst_message_parse_request_state(message, &state);
-  gst_element_set_state(playback.pipeline, state);
-}
-
 gboolean on_message(GstBus*, GstMessage* message, void* data) {
   auto& playback = *static_cast<Playback*>(data);
   switch (GST_MESSAGE_TYPE(message)) {
@@ -161,7 +154,7 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
       gst_element_set_state(playback.pipeline, GST_STATE_PLAYING);
       break;
     case GST_MESSAGE_REQUEST_STATE:
-      set_requested_state(playback, message);
+      set_requested_state(playback.pipeline, message);
       break;
     case GST_MESSAGE_LATENCY:
       gst_bin_recalculate_latency(GST_BIN(playback.pipeline));
@@ -206,6 +199,12 @@ gboolean on_progress(void* data) {
 }
 
 }  // namespace
+
+void set_requested_state(GstElement* pipeline, GstMessage* message) {
+  GstState state = GST_STATE_PLAYING;
+  gst_message_parse_request_state(message, &state);
+  gst_element_set_state(pipeline, state);
+}
 
 Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
                     const PlaybackWatch& watch) {

@@ -28,3 +28,6 @@ struct PlaybackWatch {
 /// output. Afterwards the pipeline is still in PLAYING or PAUSED. `film` is its name for messages.
 Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
                     const PlaybackWatch& watch);
+
+/// Does what a message GST_MESSAGE_REQUEST_STATE asks for: the debug window pauses and plays so.
+void set_requested_state(GstElement* pipeline, GstMessage* message);

@@ -26,17 +26,13 @@ void Record::add_frame(const GstStructure* message) {
   guint64 running_ns = GST_CLOCK_TIME_NONE;
   gst_structure_get_uint64(message, "running-time", &running_ns);
   if (running_ns == GST_CLOCK_TIME_NONE) return;
-  gboolean repeated = FALSE;
-  if (gst_structure_get_boolean(message, "repeated", &repeated) && repeated) {
-    ++repeated_;
-    return;
-  }
   FrameRow row;
   row.time_s = 1e-9 * static_cast<double>(running_ns);
   // After a seek the running time begins again, and the record with it.
   if (!frames_.empty() && row.time_s < frames_.back().time_s) {
     frames_.clear();
     devices_.clear();
+    reasons_.clear();
     shown_ = 0;
   }
   // In the picture y points down.
@@ -52,6 +48,12 @@ void Record::add_frame(const GstStructure* message) {
     if (word.empty() || word == kFelt || row.reason != kFelt) continue;
     row.reason = word;
     sentences_[word] = text_of(message, (name + "-reason").c_str());
+  }
+  reasons_.emplace_back(row.time_s, row.reason);
+  gboolean repeated = FALSE;
+  if (gst_structure_get_boolean(message, "repeated", &repeated) && repeated) {
+    ++repeated_;
+    return;
   }
   frames_.push_back(row);
 }

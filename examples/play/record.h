@@ -46,6 +46,8 @@ class Record {
   /// Without frames that show the previous picture again: its force remains.
   const std::vector<FrameRow>& frames() const { return frames_; }
   size_t repeated() const { return repeated_; }
+  /// Time and word of the reason of every frame, also of those that show a picture again.
+  const std::vector<std::pair<double, std::string>>& reasons() const { return reasons_; }
   /// Running times of the first and the last row; 0 without any.
   std::pair<double, double> span_s() const;
   const std::vector<DeviceRow>& devices() const { return devices_; }
@@ -58,6 +60,7 @@ class Record {
  private:
   std::vector<FrameRow> frames_;
   std::vector<DeviceRow> devices_;
+  std::vector<std::pair<double, std::string>> reasons_;
   std::map<std::string, std::string> sentences_;
   size_t repeated_ = 0;
   size_t shown_ = 0;  ///< number of frames that shown_at() has passed

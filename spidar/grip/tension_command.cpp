@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace spidar {
-namespace {}  // namespace
 
 StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& profile,
                                 double dt_s) noexcept {

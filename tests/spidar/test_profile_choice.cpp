@@ -14,7 +14,6 @@
 #include "spidar/conformance/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
-#include "tests/emulated_bus/shared_bus.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -149,10 +148,3 @@ TEST_F(ProfileChoice, WithoutSupplyAPullFails) {
 
 }  // namespace
 }  // namespace spidar::test
-
-int main(int argc, char** argv) {
-  // Before anything uses the bus.
-  const spidar::test::SharedBus shared;
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -56,9 +56,8 @@ inline ElementState some_state() {
   device.geometry.count = 2;
   device.geometry.exit_m[1] = {0.1, 0.2, 0.3};
   device.max_tension_N[0] = 5;
-  state.settings = {
-      {"controller", "help", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}, 0},
-      {"max-force", "newtons", Setting::Kind::kNumber, 2, 0, 20, {}, 3}};
+  state.settings = {{"controller", "help", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
+                    {"max-force", "newtons", Setting::Kind::kNumber, 2, 0, 20, {}}};
   state.no_force = "nothing moves";
   state.rules = std::make_shared<const FeelRules>("0:01-0:02.5 object at 0.25,0.5; 0:03- camera");
   return state;

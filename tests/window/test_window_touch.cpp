@@ -185,9 +185,9 @@ TEST(ReliefView, SaysHowFarTheSurfaceIs) {
   EXPECT_EQ(depth_line(scene, tick), "1.4 mm deep");
 }
 
-TEST(FeltLine, SaysThatASlowDeviceIsTouchedWithLess) {
+TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {
   ElementState state;
-  state.settings = {{"touch-stiffness", "", Setting::Kind::kNumber, 700, 10, 800, {}, 500}};
+  state.settings = {{"touch-stiffness", "", Setting::Kind::kNumber, 700, 10, 800, {}}};
   TouchScene touch;
   touch.stiffness_N_m = 400;
   EXPECT_EQ(felt_line(state, touch), "felt") << "touch=off";

@@ -66,7 +66,6 @@ bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
   } else {
     return false;
   }
-  setting.initial = number_of(g_param_spec_get_default_value(const_cast<GParamSpec*>(spec)));
   return true;
 }
 
@@ -98,7 +97,9 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     state.rules = choice_.rules();
-    state.no_force = sentence(engine_.no_force_reason());
+    // In a pause there was no frame in the last second, whatever the film has.
+    state.no_force =
+        sentence(state.is_playing ? engine_.no_force_reason() : NoForceReason::kNotPlaying);
     DeviceView device;
     if (engine_.output().look_at_device(device)) state.device = std::move(device);
   }

@@ -11,7 +11,7 @@ namespace {
 
 /// A slider is logarithmic over a range of more than kLinear, or over more than the factor kWide.
 constexpr double kLinear = 1e6, kWide = 100;
-constexpr double kTooltip_px = 340, kNameShare = 0.4, kReset_px = 46;
+constexpr double kTooltip_px = 340, kNameShare = 0.4;
 
 /// "1 object", "2 objects".
 std::string count_of(size_t count, const std::string& noun) {
@@ -73,14 +73,7 @@ void explain(const Brush& brush, const Setting& setting) {
   ImGui::EndTooltip();
 }
 
-/// Whether it differs from the default by more than a slider rounds.
-bool is_changed(const Setting& setting) {
-  constexpr double kRounding = 1e-9;
-  const double size = std::max(std::fabs(setting.value), std::fabs(setting.initial));
-  return std::fabs(setting.value - setting.initial) > kRounding * size;
-}
-
-/// One row of the table: name, widget, and a button that takes it back to its default.
+/// One row of the table: name and widget.
 void draw_setting(const Brush& brush, const Setting& setting,
                   const std::function<void(const std::string&, double)>& set) {
   ImGui::PushID(setting.name.c_str());
@@ -94,12 +87,6 @@ void draw_setting(const Brush& brush, const Setting& setting,
   double value = setting.value;
   if (value_widget(setting, value) && value != setting.value) set(setting.name, value);
   explain(brush, setting);
-  ImGui::TableNextColumn();
-  if (is_changed(setting)) {
-    ImGui::PushFont(brush.fonts.small);
-    if (ImGui::Button("reset")) set(setting.name, setting.initial);
-    ImGui::PopFont();
-  }
   ImGui::PopID();
 }
 
@@ -123,11 +110,10 @@ void draw_controls(const Brush& brush, const Rect& panel, const ElementState& st
   }
   ImGui::PopFont();
   ImGui::PopStyleColor(2);
-  if (ImGui::BeginTable("settings", 3)) {
+  if (ImGui::BeginTable("settings", 2)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
                             static_cast<float>(kNameShare * panel.width));
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, brush.px(kReset_px));
     for (const Setting& setting : state.settings) {
       if (setting.name != "mute") draw_setting(brush, setting, set);
     }

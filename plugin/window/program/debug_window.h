@@ -53,9 +53,7 @@ class DebugWindow {
   void follow_choices(const std::string& film_before);
   void choose(const ObjectWish& wish);
   bool has_unsaved_choices() const;
-  void save_choices();
-  void save_late_ends();
-  void save_choices(const std::string& film, SceneChoices& choices);
+  void save_choices(bool (SceneChoices::*is_due)() const);
   void remove_choice(const FeelRule& rule);
   void end_choices();
   void draw_choices(const Brush& brush, const Rect& panel);

@@ -69,7 +69,7 @@ void DebugWindow::on_key(int key) {
       link_.play(!state_.is_playing);
       break;
     case GLFW_KEY_C:
-      save_choices();
+      save_choices(&SceneChoices::has_unsaved);
       break;
     case GLFW_KEY_S:
       save_wanted_ = true;
@@ -129,7 +129,7 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   if (film_before != facts_.film.name()) has_ended = choices_[film_before].end_scene();
   // Without this, nothing would be felt until the object is given up.
   if (choices().see(facts_) || has_ended) link_.choose(std::nullopt);
-  save_late_ends();
+  save_choices(&SceneChoices::has_late_end);
 }
 
 void DebugWindow::choose(const ObjectWish& wish) {
@@ -148,21 +148,14 @@ bool DebugWindow::has_unsaved_choices() const {
   return false;
 }
 
-void DebugWindow::save_choices() {
-  for (auto& [film, choices] : choices_)
-    if (choices.has_unsaved()) save_choices(film, choices);
-}
-
-void DebugWindow::save_late_ends() {
-  for (auto& [film, choices] : choices_)
-    if (choices.has_late_end()) save_choices(film, choices);
-}
-
-void DebugWindow::save_choices(const std::string& film, SceneChoices& choices) {
-  if (film.empty()) return;
-  const ChoicesSaved saved = link_.save(film, choices.edits());
-  say(saved.what);
-  saved.is_done ? choices.saved() : choices.not_saved();
+/// Of every film for which `is_due` holds.
+void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
+  for (auto& [film, choices] : choices_) {
+    if (film.empty() || !(choices.*is_due)()) continue;
+    const ChoicesSaved saved = link_.save(film, choices.edits());
+    say(saved.what);
+    saved.is_done ? choices.saved() : choices.not_saved();
+  }
 }
 
 void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
@@ -171,7 +164,7 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
   const TimelineUse use = draw_timeline(brush, panel, timeline_, state_.is_playing, max_force_N,
                                         strip, has_unsaved_choices());
   if (use.removed) remove_choice(*use.removed);
-  if (use.saves) save_choices();
+  if (use.saves) save_choices(&SceneChoices::has_unsaved);
   if (use.plays) link_.play(*use.plays);
   if (use.seek_ns) link_.seek(*use.seek_ns);
 }
@@ -187,7 +180,7 @@ void DebugWindow::remove_choice(const FeelRule& rule) {
 
 void DebugWindow::end_choices() {
   for (auto& [film, choices] : choices_) choices.end_scene();
-  save_late_ends();
+  save_choices(&SceneChoices::has_late_end);
 }
 
 }  // namespace spidar

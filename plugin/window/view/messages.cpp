@@ -158,8 +158,7 @@ void pass(Wire& wire, Setting::Choice& choice) {
 
 template <typename Wire>
 void pass(Wire& wire, Setting& setting) {
-  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices,
-       setting.initial);
+  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices);
   wire.choice(setting.kind, Setting::Kind::kNumber);
 }
 

@@ -30,7 +30,6 @@ struct Setting {
   Kind kind = Kind::kNumber;
   double value = 0, low = 0, high = 0;
   std::vector<Choice> choices;
-  double initial = 0;  ///< the property's default
 };
 
 /// The element as it is now.

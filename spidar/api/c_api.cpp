@@ -1,26 +1,88 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+// The interface in C: types of the same layout as those in C++, and exceptions as errors.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include <gst-spidar/c-api.h>
 #include <gst-spidar/device.h>
-
-#include "spidar/api/c_calls.h"
+#include <gst-spidar/motion.h>
 
 struct GstSpidarDevice {
   gst_spidar::Device device;
 };
 
+struct GstSpidarMotion {
+  gst_spidar::MotionToWrench motion;
+};
+
 namespace gst_spidar {
 inline namespace v0 {
 namespace {
+
+/// The same data as a type of the other language, whose members are the same in the same order.
+/// Unlike a cast, it may be given an enum of C that has none of its values.
+template <typename To, typename From>
+To same(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  static_assert(std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>);
+  To to;
+  std::memcpy(static_cast<void*>(&to), &from, sizeof to);
+  return to;
+}
+
+/// Writes `text` as snprintf() does, and not half a character of UTF-8. Returns its length.
+size_t write_text(const std::string& text, char* to, size_t size) noexcept {
+  if (size == 0) return text.size();
+  size_t length = std::min(size - 1, text.size());
+  const auto continues = [&](size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80;
+  };
+  while (length > 0 && length < text.size() && continues(length)) --length;
+  std::memcpy(to, text.data(), length);
+  to[length] = '\0';
+  return text.size();
+}
+
+void set_error(GstSpidarError* error, GstSpidarErrorKind kind,
+               const std::string& message) noexcept {
+  if (error == nullptr) return;
+  error->kind = kind;
+  write_text(message, error->message, sizeof error->message);
+}
+
+/// What `call` returns, or `failed` with the error when it throws.
+template <typename Result, typename Call>
+Result guarded(GstSpidarError* error, Result failed, const Call& call) noexcept {
+  set_error(error, GST_SPIDAR_OK, {});
+  try {
+    return call();
+  } catch (const std::invalid_argument& wrong) {
+    set_error(error, GST_SPIDAR_ERROR_ARGUMENT, wrong.what());
+  } catch (const std::exception& other) {
+    set_error(error, GST_SPIDAR_ERROR_FAILED, other.what());
+  }
+  return failed;
+}
+
+/// Whether `call` has not thrown.
+template <typename Call>
+bool done(GstSpidarError* error, const Call& call) noexcept {
+  return guarded(error, false, [&] {
+    call();
+    return true;
+  });
+}
 
 std::string text_of(const char* text) {
   return text == nullptr ? "" : text;
@@ -192,4 +254,36 @@ char** gst_spidar_list_profiles(GstSpidarError* error) {
 
 void gst_spidar_free_list(char** list) {
   std::free(list);
+}
+
+GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error) {
+  return gst_spidar::guarded<GstSpidarMotion*>(error, nullptr, [] { return new GstSpidarMotion; });
+}
+
+void gst_spidar_motion_free(GstSpidarMotion* motion) {
+  delete motion;
+}
+
+bool gst_spidar_motion_analyze(GstSpidarMotion* motion, const GstSpidarPicture* picture,
+                               int64_t time_ns, GstSpidarMotionResult* result,
+                               GstSpidarError* error) {
+  return gst_spidar::done(error, [&] {
+    *result = gst_spidar::same<GstSpidarMotionResult>(motion->motion.analyze(
+        gst_spidar::same<gst_spidar::GreyPicture>(*picture), std::chrono::nanoseconds(time_ns)));
+  });
+}
+
+void gst_spidar_motion_restart(GstSpidarMotion* motion) {
+  motion->motion.restart();
+}
+
+void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings) {
+  *settings = gst_spidar::same<GstSpidarMotionSettings>(gst_spidar::MotionSettings{});
+}
+
+bool gst_spidar_motion_configure(GstSpidarMotion* motion, const GstSpidarMotionSettings* settings,
+                                 GstSpidarError* error) {
+  return gst_spidar::done(error, [&] {
+    motion->motion.configure(gst_spidar::same<gst_spidar::MotionSettings>(*settings));
+  });
 }
