@@ -193,8 +193,12 @@ class Traces(ElementCase):
     def test_what_cannot_be_written_is_a_warning_and_the_video_goes_on(self):
         full = self.path("full.csv")
         full.symlink_to("/dev/full")
+        kept, link = self.path("kept.csv"), self.path("link.csv")
+        kept.write_text("as it was")
+        link.symlink_to(kept)
         for properties, said in (("device=none trace=/nowhere/trace.csv", "/nowhere/trace.csv"),
-                                 (f"device=none trace={full}", "full.csv"),
+                                 (f"device=none trace={full}", os.strerror(errno.ENOSPC)),
+                                 (f"device=none trace={link}", "it is a link"),
                                  (f"device=none trace={self.path('trace.txt')}", "neither in .csv nor in .jsonl"),
                                  ("device=sim haptic-trace=/nowhere/haptic.csv", "/nowhere/haptic.csv"),
                                  ("device=sim haptic-trace=/dev/full", os.strerror(errno.ENOSPC))):
@@ -209,6 +213,7 @@ class Traces(ElementCase):
             if "device=sim" in properties:
                 self.assertEqual(self.stats("device"), ["sim"], "the force goes on")
         self.assertFalse(self.path("trace.txt").exists())
+        self.assertEqual(kept.read_text(), "as it was")
 
     def test_a_pipe_whose_reader_has_left_is_a_warning_and_the_video_goes_on(self):
         pipe = self.path("trace.csv")
