@@ -11,9 +11,8 @@
 namespace spidar {
 namespace {
 
-/// An object exists once it has been seen in kBornAfterFrames frames with a total of
-/// kBornAfterBlocks blocks, so that a small one must be seen more often.
-constexpr int kBornAfterFrames = 2;
+/// An object exists once it has been seen with a total of kBornAfterBlocks blocks, so that a small
+/// one must be seen more often. A single frame counts for less: noise does not move twice alike.
 constexpr int kBornAfterBlocks = 8;
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
@@ -30,10 +29,6 @@ constexpr double kStillMoves = 0.5;
 constexpr double kRemainingShare = 0.5;
 /// With less of its usual blocks than this, only a rim of an object is visible.
 constexpr double kRimShare = 0.5;
-/// What covers more than this share of the picture, and kTimesBackground as much as agrees with the
-/// background, is an error of the background.
-constexpr double kLargeShare = 0.5;
-constexpr double kTimesBackground = 2;
 /// What was clearly no layer of the scene in so many frames may become more like one: in one or
 /// two, a layer may look like an object.
 constexpr int kProvenAfterFrames = 3;
@@ -41,7 +36,7 @@ constexpr int kProvenAfterFrames = 3;
 }  // namespace
 
 bool ObjectTracker::Life::is_born() const {
-  return frames_seen >= kBornAfterFrames && blocks_seen >= kBornAfterBlocks;
+  return blocks_seen >= kBornAfterBlocks;
 }
 
 ObjectTracker::ObjectTracker() {
@@ -90,9 +85,9 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   Life* best = nullptr;
   double nearest_px = 0;
   for (Life& life : lives_) {
-    if (life.claimed || !life.is_born() || !is_same_motion(life, region, frame)) continue;
-    const Eigen::Vector2d sides_px = life.expected_sides_px + region.high_px - region.low_px;
-    const Eigen::Vector2d apart_px = (life.expected_px - region.position_px).cwiseAbs();
+    if (life.is_seen() || !life.is_born() || !is_same_motion(life, region, frame)) continue;
+    const Eigen::Vector2d sides_px = life.expected.sides_px + region.high_px - region.low_px;
+    const Eigen::Vector2d apart_px = (life.expected.position_px - region.position_px).cwiseAbs();
     if ((apart_px.array() >= kReach * sides_px.array()).any()) continue;
     if (best && apart_px.norm() >= nearest_px) continue;
     best = &life;
@@ -108,13 +103,12 @@ uint32_t ObjectTracker::create(const Region& region) {
   Life& life = lives_.back();
   life.key = next_key_++;
   life.region = region;
-  life.claimed = true;
   return life.key;
 }
 
 /// Whether most of an object's usual blocks are where they were, none of which clearly moves.
 bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
-  return remains.blocks >= kRemainingShare * life.usual_blocks;
+  return remains.blocks >= kRemainingShare * life.expected.blocks;
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
@@ -124,7 +118,7 @@ bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
   const bool is_rim =
-      region.blocks < kRimShare * life->usual_blocks && remains_there(*life, remains_of(*life));
+      region.blocks < kRimShare * life->expected.blocks && remains_there(*life, remains_of(*life));
   return !life->is_layer && !is_rim;
 }
 
@@ -132,7 +126,9 @@ bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_keys_.assign(regions.size(), 0);
-  for (Life& life : lives_) life.claimed = false;
+  for (Life& life : lives_) {
+    if (life.is_seen()) life.turn(State::kHidden);
+  }
   order_.resize(regions.size());
   for (size_t k = 0; k < order_.size(); ++k) order_[k] = k;
   std::sort(order_.begin(), order_.end(),
@@ -140,7 +136,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
   for (const size_t k : order_) {
     const Region& region = regions[k];
     Life* life = owner_of(static_cast<int16_t>(k));
-    if (life && life->claimed) {
+    if (life && life->is_seen()) {
       if (is_same_motion(*life, region, frame)) {
         region_keys_[k] = life->key;
         continue;
@@ -157,7 +153,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       region_keys_[k] = create(region);
       continue;
     }
-    life->claimed = true;
+    life->turn(State::kSeen);
     life->region = region;
     region_keys_[k] = life->key;
   }
@@ -205,7 +201,7 @@ double ObjectTracker::noise_around(const Life& life) {
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const ObjectMotion found = measure(life, frame);
   const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
-  if (life.frames_seen == 0) life.velocity_px_s = velocity_px_s;
+  if (life.blocks_seen == 0) life.velocity_px_s = velocity_px_s;
   // What an error explains is smoothed away, which delays the rest by a frame or two.
   const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
   const double news_px = (velocity_px_s - life.velocity_px_s).norm() * frame.interval_s;
@@ -215,21 +211,15 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   expect(life, frame);
   life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
-  ++life.frames_seen;
-  life.blocks_seen += life.region.blocks;
-  life.unseen_s = 0;
-  life.resting_s = 0;
+  life.blocks_seen += std::min(life.region.blocks, kBornAfterBlocks - 1);
   life.object.has_left = false;
   place(life, frame);
   MovingObject& object = life.object;
-  const double share = life.region.blocks / static_cast<double>(owners_.size());
-  const bool too_large = share > kLargeShare && share > kTimesBackground * background_->coverage;
-  CameraMotion camera = camera_;
-  if (camera.moves) camera.noise_px = noise_around(life);
-  life.evidence.add_contrast(stands_out(life.region, camera));
-  life.proven += salience(life.region, life.evidence, camera, false) > 0;
+  const double noise_px = camera_.moves ? noise_around(life) : 0;
+  life.evidence.add_contrast(life.region.relative_px.norm(), noise_px, frame.interval_s);
+  life.proven += salience(life.region, life.evidence, camera_, false) > 0;
   const bool was_followed = life.proven >= kProvenAfterFrames;
-  object.prominence = too_large ? 0 : salience(life.region, life.evidence, camera, was_followed);
+  object.prominence = salience(life.region, life.evidence, camera_, was_followed);
   life.is_layer = object.prominence == 0;
   if (!life.is_born() || life.is_layer) return;
   const double most_px = bound_.px(life.key, life.region, found, evidence_in(frame));
@@ -253,7 +243,7 @@ ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
 /// Whether an object that was in sight until now has moved out of the picture.
 bool ObjectTracker::has_left(const Life& life, const FieldInFrame& frame) const {
   const Eigen::Vector2d on_screen_px =
-      life.expected_px_s * frame.interval_s + life.region.background_px;
+      life.expected.velocity_px_s * frame.interval_s + life.region.background_px;
   return life.region.border_blocks > 0 && life.region.position_px.dot(on_screen_px) > 0;
 }
 
@@ -264,15 +254,13 @@ void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame&
     const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
     if (is_its) owners_[i] = life.key;
   }
-  const Eigen::Vector2d expected_px = life.expected_px_s * frame.interval_s;
+  const Eigen::Vector2d expected_px = life.expected.velocity_px_s * frame.interval_s;
   if (remains.moved_px.dot(expected_px) > kStillMoves * expected_px.squaredNorm()) {
-    life.expected_px_s +=
-        kNewestWeight * (remains.moved_px / frame.interval_s - life.expected_px_s);
+    life.expected.velocity_px_s +=
+        kNewestWeight * (remains.moved_px / frame.interval_s - life.expected.velocity_px_s);
   } else {
-    life.expected_px_s.setZero();
+    life.expected.velocity_px_s.setZero();
   }
-  life.resting_s += frame.interval_s;
-  life.unseen_s = 0;
   life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
@@ -281,18 +269,20 @@ void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame&
 /// with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
-  if (life.unseen_s == 0 && life.resting_s == 0) object.has_left = has_left(life, frame);
+  if (life.since_s == 0) object.has_left = has_left(life, frame);
   const Remains remains = remains_of(life);
   object.tracks = background_->is_known ? remains.textured : 0;
   if (object.tracks > 0 && remains_there(life, remains)) {
+    life.turn(State::kRests);
     stay(life, remains, frame);
   } else {
+    life.turn(State::kHidden);
     object.tracks = 0;
-    life.unseen_s += frame.interval_s;
   }
+  life.since_s += frame.interval_s;
   go_on_unseen(life, frame);
-  life.region.position_px = life.expected_px;
-  life.velocity_px_s = life.expected_px_s;
+  life.region.position_px = life.expected.position_px;
+  life.velocity_px_s = life.expected.velocity_px_s;
   object.growth_1_s = 0;
   object.roll_rad_s = 0;
   object.prominence = 0;
@@ -300,7 +290,8 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
 }
 
 void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
-  life.expected_px += life.expected_px_s * frame.interval_s + life.region.background_px;
+  life.expected.position_px +=
+      life.expected.velocity_px_s * frame.interval_s + life.region.background_px;
 }
 
 /// Remembers what is needed if the object goes out of sight. Its usual number of blocks rises at
@@ -308,16 +299,16 @@ void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
 void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
   const double blocks = life.region.blocks;
   const double forgotten = std::min(1.0, frame.interval_s / kForgotten_s);
-  life.usual_blocks =
-      std::max(blocks, life.usual_blocks + forgotten * (blocks - life.usual_blocks));
+  Expected& expected = life.expected;
+  expected.blocks = std::max(blocks, expected.blocks + forgotten * (blocks - expected.blocks));
   // Only a rim is visible: the rest of the object is hidden.
-  if (blocks < kRimShare * life.usual_blocks) {
+  if (blocks < kRimShare * expected.blocks) {
     go_on_unseen(life, frame);
     return;
   }
-  life.expected_px = life.region.position_px;
-  life.expected_px_s = life.velocity_px_s;
-  life.expected_sides_px = life.region.high_px - life.region.low_px;
+  expected.position_px = life.region.position_px;
+  expected.velocity_px_s = life.velocity_px_s;
+  expected.sides_px = life.region.high_px - life.region.low_px;
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,
@@ -337,7 +328,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
-  camera_ = {background.model.kind != ModelKind::kStill, 0,
+  camera_ = {background.model.kind != ModelKind::kStill,
              background.coverage * static_cast<double>(n)};
 
   if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
@@ -349,15 +340,14 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
   }
   for (Life& life : lives_) {
-    if (life.claimed) {
+    if (life.is_seen()) {
       observe(life, frame);
     } else {
       miss(life, frame);
     }
   }
   const auto is_over = [](const Life& life) {
-    return (!life.is_born() && !life.claimed) || life.unseen_s > kForgotten_s ||
-           life.resting_s > kForgotten_s;
+    return (!life.is_born() && !life.is_seen()) || life.since_s > kForgotten_s;
   };
   lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
 
@@ -366,7 +356,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     if (!life.is_born() || life.is_layer) continue;
     if (life.object.id == 0) life.object.id = next_id_++;
     objects_.push_back(life.object);
-    if (life.unseen_s <= kCoast_s) continue;
+    if (life.state != State::kHidden || life.since_s <= kCoast_s) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
   }

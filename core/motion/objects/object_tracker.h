@@ -13,7 +13,6 @@
 #include "core/motion/camera/background.h"
 #include "core/motion/camera/block_votes.h"
 #include "core/motion/camera/motion_models.h"
-#include "core/motion/layers/layer_evidence.h"
 #include "core/motion/layers/moving_blocks.h"
 #include "core/motion/layers/parallax.h"
 #include "core/motion/layers/regions.h"
@@ -75,27 +74,40 @@ class ObjectTracker {
   static constexpr size_t kMostObjects = 16;
 
  private:
+  enum class State : uint8_t {
+    kSeen,    ///< a region of this frame shows it
+    kRests,   ///< most of it is where it was, and nothing there clearly moves
+    kHidden,  ///< nothing shows it
+  };
+
+  /// Place, motion and size in the last frame in which most of an object was visible. When only a
+  /// rim of it is left, the rim does not tell any of these.
+  struct Expected {
+    double blocks = 0;  ///< when nothing hides it
+    Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
+  };
+
   struct Life {
     uint32_t key = 0;     ///< in the order of creation, > 0
     MovingObject object;  ///< its id is 0 until it has been in a result
     Region region;        ///< in the last frame in which it was seen
     Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
+    Expected expected;
+    State state = State::kSeen;
+    double since_s = 0;  ///< for how long it has been at rest or hidden
     LayerEvidence evidence;
-    double usual_blocks = 0;  ///< number of blocks when nothing hides it
-    /// Place, motion and size in the last frame in which most of it was visible. When only a rim of
-    /// an object is left, the rim does not tell any of these.
-    Eigen::Vector2d expected_px = Eigen::Vector2d::Zero();
-    Eigen::Vector2d expected_px_s = Eigen::Vector2d::Zero();
-    Eigen::Vector2d expected_sides_px = Eigen::Vector2d::Zero();
-    int frames_seen = 0;
-    int blocks_seen = 0;  ///< in all frames together
-    int proven = 0;
-    double unseen_s = 0;
-    double resting_s = 0;
-    bool claimed = false;   ///< by a region of this frame
+    int blocks_seen = 0;    ///< in all frames together, see kBornAfterBlocks
+    int proven = 0;         ///< frames in which it was clearly no layer of the scene
     bool is_layer = false;  ///< looks more like a part of the scene than like an object
 
+    bool is_seen() const { return state == State::kSeen; }
     bool is_born() const;
+    void turn(State next) {
+      if (state != next) since_s = 0;
+      state = next;
+    }
   };
 
   /// Blocks on which an object was before, and which now do not clearly move by themselves.
