@@ -7,10 +7,11 @@
 
 #include <gst/gst.h>
 
-#include "plugin/properties/on_device_error.h"
 #include "spidar/session/haptic_session.h"
 
 namespace spidar {
+
+enum class OnDeviceError { kWarn, kError };
 
 /// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
 /// the element has no device.

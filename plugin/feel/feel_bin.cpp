@@ -5,8 +5,7 @@
 #include <atomic>
 
 #include "plugin/feel/feel_caps.h"
-#include "plugin/feel/follow_state.h"
-#include "plugin/gobject/bins.h"
+#include "plugin/gobject/downstream.h"
 
 using spidar::Ref;
 

@@ -8,9 +8,7 @@
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_tracer.h"
-#include "plugin/feel/follow_state.h"
 #include "plugin/feel/video_notice.h"
-#include "plugin/gobject/bins.h"
 #include "plugin/gobject/downstream.h"
 
 namespace spidar {

@@ -14,11 +14,59 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_tracer.h"
-#include "plugin/feel/property_check.h"
 #include "plugin/feel/video_notice.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/standard_descriptors.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
+
+namespace spidar {
+namespace {
+
+/// `properties` are of the form NAME=VALUE; `element` is a spidarmotion in the state NULL. Sets its
+/// `device` and `profile`, and no other property. Opens no device, so one that is not plugged in is
+/// no error. Throws PropertyError, which says what is wrong and what would be right, for an unknown
+/// property, a value that the property does not take, a name that no device has, and a profile that
+/// cannot be read or does not suit the device.
+void check_properties(GstElement* element, const std::vector<std::string>& properties);
+
+void check_one(GObject* element, const std::string& text) {
+  const TypedProperty property(element, text);
+  const std::string name = property.name();
+  if (name == "device" || name == "profile")
+    g_object_set_property(element, name.c_str(), property.value());
+}
+
+std::string string_property(GObject* element, const char* name) {
+  gchar* text = nullptr;
+  g_object_get(element, name, &text, nullptr);
+  const std::string result = text ? text : "";
+  g_free(text);
+  return result;
+}
+
+void check_device(GObject* element) {
+  const std::string device = string_property(element, "device");
+  const std::string profile = string_property(element, "profile");
+  try {
+    if (device != "none")
+      make_grip(device, profile_for(device, profile));
+    else if (!profile.empty())
+      load_profile(profile);
+  } catch (const std::exception& error) {
+    throw PropertyError(error.what());
+  }
+}
+
+void check_properties(GstElement* element, const std::vector<std::string>& properties) {
+  for (const std::string& property : properties) check_one(G_OBJECT(element), property);
+  check_device(G_OBJECT(element));
+}
+
+}  // namespace
+}  // namespace spidar
 
 namespace {
 

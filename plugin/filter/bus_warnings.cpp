@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "plugin/gobject/bins.h"
 #include "plugin/gobject/category.h"
+#include "plugin/gobject/downstream.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)

@@ -11,7 +11,7 @@
 #include "plugin/filter/engine/motion_engine.h"
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/timing/step_watch.h"
-#include "plugin/tracks/track_judge.h"
+#include "plugin/tracks/track_loader.h"
 
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "plugin/filter/choice/frame_boxes.h"
-#include "plugin/filter/reports/motion_message.h"
+#include "plugin/filter/frame/object_metas.h"
 #include "plugin/filter/reports/motion_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/gobject/exceptions.h"
@@ -91,31 +90,10 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
   return settings;
 }
 
-static const char* words_of(spidar::FrameProblem problem) {
-  using spidar::FrameProblem;
-  switch (problem) {
-    case FrameProblem::kNone:
-      return "a haptic track is played";
-    case FrameProblem::kNoTimestamp:
-      return "it has no timestamp";
-    case FrameProblem::kSameTimestamp:
-      return "its timestamp is equal or nearly equal to that of the previous frame";
-    case FrameProblem::kFallingTimestamp:
-      return "its timestamp is earlier than that of the previous frame";
-    case FrameProblem::kTooSmall:
-      return "it has less memory than its picture needs";
-    case FrameProblem::kNotShown:
-      return "it is outside the segment or cropped to nothing";
-    case FrameProblem::kSmallHalf:
-      return "the half of it that is picture is too small";
-  }
-  return "unknown problem";
-}
-
 static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.analyzed) {
-    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.problem));
+    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: FrameProblem %d",
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), static_cast<int>(report.problem));
     return;
   }
   const spidar::Frame& found = report.frame;

@@ -67,4 +67,20 @@ bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted) {
   return Search(wanted).reaches(sink);
 }
 
+GstState state_of(GstElement* element) {
+  GST_OBJECT_LOCK(element);
+  const GstState pending = GST_STATE_PENDING(element);
+  const GstState state = pending == GST_STATE_VOID_PENDING ? GST_STATE(element) : pending;
+  GST_OBJECT_UNLOCK(element);
+  return state;
+}
+
+void follow_state(GstElement* bin, GstElement* element) {
+  GstState state;
+  do {
+    state = state_of(bin);
+    gst_element_set_state(element, state);
+  } while (state != state_of(bin));
+}
+
 }  // namespace spidar

@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element's frames go on to, and what they come from.
+/// What is around an element: the bins that contain it, their state, and what its frames come from
+/// and go on to.
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
+
+#include <gst/gst.h>
 
 #include "plugin/gobject/ref.h"
 
 namespace spidar {
+
+/// From the one that contains it to the pipeline.
+template <typename Object>
+std::vector<Ref<GstObject>> bins_around(Object* object) {
+  std::vector<Ref<GstObject>> bins;
+  for (GstObject* bin = gst_object_get_parent(GST_OBJECT(object)); bin;
+       bin = gst_object_get_parent(bin))
+    bins.emplace_back(bin);
+  return bins;
+}
+
+/// The outermost of them, or the object itself when it is in none.
+template <typename Object>
+Ref<GstObject> root_of(Object* object) {
+  std::vector<Ref<GstObject>> bins = bins_around(object);
+  return bins.empty() ? new_ref(GST_OBJECT(object)) : std::move(bins.back());
+}
 
 /// A pad that frames pass. `element`: the one they enter by it; null where they leave one, or at
 /// the inner side of a ghost pad.
@@ -30,5 +51,12 @@ DownstreamPath find_path_downstream(GstPad* source, const std::function<bool(Gst
 
 /// Whether `wanted` says yes for an element before `sink`, through bins, on any branch.
 bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted);
+
+/// The state of `element`, or the one that it is changing to.
+GstState state_of(GstElement* element);
+
+/// Like gst_element_sync_state_with_parent(), but repeats when the application has changed the
+/// state of `bin` meanwhile. Otherwise `element` could return to a state that the bin has left.
+void follow_state(GstElement* bin, GstElement* element);
 
 }  // namespace spidar

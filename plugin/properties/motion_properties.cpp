@@ -2,11 +2,191 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/properties/motion_properties.h"
 
+#include <vector>
+
+#include <glib.h>
+
+#include "core/touch/contact_force.h"
 #include "plugin/properties/device_rows.h"
-#include "plugin/properties/motion_rows.h"
+#include "plugin/properties/property_table.h"
 
 namespace spidar {
 namespace {
+
+using MotionRow = Property<MotionProperties>;
+
+/// What cannot be read leaves the pointer as it was, with a warning, as GObject does it.
+void set_pointer(MotionProperties& properties, const GValue* value) {
+  const char* const text = g_value_get_string(value);
+  const std::optional<Pointer> pointer = parse_pointer(text ? text : "");
+  if (pointer) {
+    properties.pointer = pointer->kind;
+    properties.analyzer.pointer = pointer->place;
+  } else {
+    g_warning("pointer=\"%s\" is neither 'grip' nor 'mouse' nor a place X,Y, each from 0 to 1",
+              text ? text : "");
+  }
+}
+
+MotionRow pointer_row() {
+  return {[](const MotionProperties&) {
+            return g_param_spec_string(
+                "pointer", "Pointer",
+                "Which place weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
+                "shares of the picture from its top left corner",
+                kMiddle, kPlaying);
+          },
+          set_pointer,
+          [](const MotionProperties& properties, GValue* value) {
+            g_value_take_string(
+                value,
+                g_strdup(text_of({properties.pointer, properties.analyzer.pointer}).c_str()));
+          }};
+}
+
+/// Which motion is felt, and how: from `controller` to `filter-beta`.
+std::vector<MotionRow> feel_rows() {
+  return {
+      MotionRow::choice<ControllerKind>(
+          {"controller", "Controller", "How speed is converted to force"}, "GstSpidarController",
+          {{ControllerKind::kLinear, "Linear: full force at the largest speed so far (eq. 11-13)",
+            "linear"},
+           {ControllerKind::kNonlinear, "Nonlinear: arctangent of the speed (eq. 14-15)",
+            "nonlinear"},
+           {ControllerKind::kAdaptive,
+            "Adaptive: nonlinear, with an alpha that follows the speeds of the scene (a tenth to "
+            "ten times the one that is set) and no force below the measurement's noise",
+            "adaptive"}},
+          kControllable, KEPT_IN(analyzer.controller.kind)),
+      MotionRow::choice<MotionKind>(
+          {"motion", "Motion", "Which motion in the picture is rendered as force"},
+          "GstSpidarFeltMotion",
+          {{MotionKind::kMean,
+            "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
+            "closest to the paper (eq. 1-10)",
+            "mean"},
+           {MotionKind::kObject,
+            "The dominant object relative to the background; no force when only the camera moves",
+            "object"},
+           {MotionKind::kObjects,
+            "All objects relative to the background, weighted by area and by distance from the "
+            "pointer",
+            "objects"},
+           {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
+            "camera"}},
+          kControllable, KEPT_IN(analyzer.motion)),
+      MotionRow::text(
+          {"feel", "Feel",
+           "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, or the rules "
+           "themselves, with semicolons between them"},
+          kPlaying, KEPT_IN(feel)),
+      pointer_row(),
+      MotionRow::number({"max-force", "Maximum force",
+                         "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
+                        0, 20, kControllable, KEPT_IN(analyzer.controller.max_force_N)),
+      MotionRow::number(
+          {"alpha", "Alpha",
+           "How quickly force rises with speed, in s/px at 480 lines: half of max-force is reached "
+           "at 1/alpha px/s. Not with controller=linear"},
+          1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
+      MotionRow::number(
+          {"depth-gain", "Depth gain",
+           "Force towards the viewer when the object grows: factor of the speed that growth causes "
+           "at half a frame's height. 0: none"},
+          0, 100, kControllable, KEPT_IN(analyzer.axes.depth)),
+      MotionRow::number(
+          {"roll-gain", "Roll gain",
+           "Torque about the view axis when the object turns: factor of the speed that turning "
+           "causes at half a frame's height. 0: none"},
+          0, 100, kControllable, KEPT_IN(analyzer.axes.roll)),
+      MotionRow::number(
+          {"filter-min-cutoff", "Filter minimum cutoff",
+           "Cutoff of the One-Euro filter while the motion is steady, in Hz; delays by 1/(2 pi "
+           "cutoff) seconds. 0: no filter"},
+          0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
+      MotionRow::number(
+          {"filter-beta", "Filter beta",
+           "How much the filter's cutoff rises with the motion's rate of change, in Hz per px/s^2 "
+           "at 480 lines"},
+          0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
+  };
+}
+
+/// How motion and force are shown.
+std::vector<MotionRow> display_rows() {
+  return {
+      MotionRow::choice<OverlayKind>(
+          {"overlay", "Overlay",
+           "What is drawn into the video. Frames that other elements hold are copied first"},
+          "GstSpidarOverlay",
+          {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
+           {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
+           {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"}},
+          kPlaying, KEPT_IN(display.overlay)),
+      MotionRow::number(
+          {"arrow-scale", "Arrow scale",
+           "Length of a track's arrow, as a multiple of the point's displacement since the "
+           "previous frame"},
+          0.1, 100, kControllable, KEPT_IN(display.arrow_scale)),
+      MotionRow::on_off(
+          {"debug-window", "Debug window",
+           "Show picture, tracks, grip, tensions and settings in a window. Becomes false "
+           "when the window is closed or cannot be opened"},
+          kPlaying, KEPT_IN(display.debug_window)),
+      MotionRow::on_off(
+          {"attach-meta", "Attach meta",
+           "Attach motion, tracks, wrench and the boxes of objects to each frame as metas. The "
+           "picture is neither copied nor changed"},
+          kPlaying, KEPT_IN(display.attach_meta)),
+  };
+}
+
+constexpr double kMostRelief_mm = 30;
+constexpr double kLeastStiffness_N_m = 10;
+constexpr double kMostTexture = 10;
+
+/// What is touched in the picture.
+std::vector<MotionRow> touch_rows() {
+  return {
+      MotionRow::choice<TouchKind>(
+          {"touch", "Touch", "Which surface the grip touches in the picture"}, "GstSpidarTouch",
+          {{TouchKind::kOff, "No surface: the motion of the film is felt", "off"},
+           {TouchKind::kLuma, "A relief of the frame's brightness: bright is near", "luma"},
+           {TouchKind::kDepth,
+            "A relief of the depth in the right half of the frame, of what the left half shows: "
+            "bright is near",
+            "depth"},
+           {TouchKind::kDepthBelow, "The same, with the depth in the lower half of the frame",
+            "depth-below"}},
+          kControllable, KEPT_IN(touch.kind)),
+      MotionRow::number(
+          {"touch-relief", "Touch relief",
+           "Height of the relief from black to white, or from far to near, in millimetres, about "
+           "the centre of the workspace"},
+          0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
+      MotionRow::number(
+          {"touch-stiffness", "Touch stiffness",
+           "Stiffness of the surface, in newtons per metre. A device with slow or unmeasured "
+           "drives gets less, with a warning"},
+          kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
+          KEPT_IN(touch.stiffness_N_m)),
+      MotionRow::number(
+          {"touch-friction", "Touch friction",
+           "Coefficient of static friction of the surface; that of kinetic friction is "
+           "four fifths of it"},
+          0, 1, kControllable, KEPT_IN(touch.friction)),
+      MotionRow::number(
+          {"touch-texture", "Touch texture",
+           "Lateral force of the picture's fine detail, as a multiple of the slope that it "
+           "has in the relief; 0 turns it off"},
+          0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
+      MotionRow::number(
+          {"motion-share", "Motion share",
+           "With touch, the share of the force of the film's motion that is felt besides. Without "
+           "touch, all of it is"},
+          0, 1, kControllable, KEPT_IN(touch.motion_share)),
+  };
+}
 
 MotionRow device_row() {
   return MotionRow::text(
@@ -63,6 +243,32 @@ const PropertyTable<MotionProperties>& motion_properties() {
                                            display_rows(),
                                            touch_rows()};
   return table;
+}
+
+std::optional<Pointer> parse_pointer(const std::string& text) {
+  Pointer pointer;
+  if (text == "grip" || text == "mouse") {
+    pointer.kind = text == "grip" ? PointerKind::kGrip : PointerKind::kMouse;
+    return pointer;
+  }
+  // Without regard to the locale.
+  gchar* end = nullptr;
+  const double x = g_ascii_strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != ',') return std::nullopt;
+  const char* const second = end + 1;
+  const double y = g_ascii_strtod(second, &end);
+  if (end == second || *end != '\0') return std::nullopt;
+  if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) return std::nullopt;
+  pointer.place = {x, y};
+  return pointer;
+}
+
+std::string text_of(const Pointer& pointer) {
+  if (pointer.kind == PointerKind::kGrip) return "grip";
+  if (pointer.kind == PointerKind::kMouse) return "mouse";
+  char x[G_ASCII_DTOSTR_BUF_SIZE], y[G_ASCII_DTOSTR_BUF_SIZE];
+  return std::string(g_ascii_formatd(x, sizeof x, "%g", pointer.place.x())) + "," +
+         g_ascii_formatd(y, sizeof y, "%g", pointer.place.y());
 }
 
 }  // namespace spidar

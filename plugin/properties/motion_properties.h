@@ -4,16 +4,50 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include <Eigen/Core>
 #include <gst/gst.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "plugin/properties/display_properties.h"
-#include "plugin/properties/on_device_error.h"
-#include "plugin/properties/touch_properties.h"
+#include "core/touch/depth_picture.h"
+#include "plugin/device/device_warnings.h"
 
 namespace spidar {
+
+/// Where the relief comes from.
+enum class TouchKind { kOff, kLuma, kDepth, kDepthBelow };
+
+struct TouchProperties {
+  TouchKind kind = TouchKind::kOff;
+  double relief_mm = 8;  ///< from black to white, or from far to near
+  double stiffness_N_m = 500;
+  double friction = 0.3;    ///< μs; μd is 0.8 of it
+  double texture = 0;       ///< gain of the fine detail's slope
+  double motion_share = 0;  ///< of the film's motion, which is felt besides
+
+  /// Where in its frames the film has depth that is touched; nothing where they are all picture.
+  std::optional<DepthLayout> packed() const {
+    if (kind == TouchKind::kDepth) return DepthLayout::kRight;
+    if (kind == TouchKind::kDepthBelow) return DepthLayout::kBelow;
+    return std::nullopt;
+  }
+};
+
+/// What is drawn into the video.
+enum class OverlayKind {
+  kNone,
+  kForce,   ///< outlines of objects, the force, finger and contact
+  kTracks,  ///< arrows of the motion, too
+};
+
+struct DisplayProperties {
+  OverlayKind overlay = OverlayKind::kNone;
+  double arrow_scale = 4;
+  bool debug_window = false;
+  bool attach_meta = false;
+};
 
 template <typename Settings>
 class PropertyTable;
@@ -39,5 +73,20 @@ struct MotionProperties {
 
 /// All of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
+
+struct Pointer {
+  PointerKind kind = PointerKind::kFixed;
+  /// Of kFixed; of the others, where they are until the device runs or the mouse moves. (0, 0) is
+  /// the top left corner of the picture, (1, 1) its bottom right one.
+  Eigen::Vector2d place{0.5, 0.5};
+};
+
+/// As it is by default.
+constexpr const char* kMiddle = "0.5,0.5";
+
+/// "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for all else.
+std::optional<Pointer> parse_pointer(const std::string& text);
+/// The inverse.
+std::string text_of(const Pointer& pointer);
 
 }  // namespace spidar

@@ -22,13 +22,110 @@
  */
 #include "plugin/provider/device_provider.h"
 
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstring>
+#include <functional>
+#include <iterator>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "plugin/gobject/ref.h"
-#include "plugin/provider/board_watch.h"
+#include "spidar/realtime/thread_setup.h"
+#include "spidar/session/board_list.h"
+
+namespace spidar {
+namespace {
+
+/// What spidarmotion can be given: the boards that there are, and one simulated device. None is
+/// opened.
+std::vector<BoardInfo> playable_boards();
+
+/// Lists the boards again and again on a thread of its own. libusb's hotplug events would not be
+/// enough: they tell nothing of serial lines, and come before udev has given the permission.
+class BoardWatch {
+ public:
+  static constexpr std::chrono::milliseconds kInterval{500};
+
+  /// `changed` is called on the thread, with what is gone and what is there in addition to `known`.
+  using Changed =
+      std::function<void(const std::vector<BoardInfo>& gone, const std::vector<BoardInfo>& come)>;
+  BoardWatch(std::vector<BoardInfo> known, Changed changed);
+  ~BoardWatch();
+  BoardWatch(const BoardWatch&) = delete;
+  BoardWatch& operator=(const BoardWatch&) = delete;
+
+ private:
+  void run();
+
+  std::vector<BoardInfo> known_;
+  const Changed changed_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool end_ = false;
+  std::thread thread_;
+};
+
+/// Boards count as different when the serial number or the permission to open them differs.
+bool same(const BoardInfo& a, const BoardInfo& b) {
+  return std::tie(a.device, a.usb_id, a.serial, a.accessible) ==
+         std::tie(b.device, b.usb_id, b.serial, b.accessible);
+}
+
+/// The elements of `boards` that are not in `others`.
+std::vector<BoardInfo> without(const std::vector<BoardInfo>& boards,
+                               const std::vector<BoardInfo>& others) {
+  std::vector<BoardInfo> left;
+  std::copy_if(boards.begin(), boards.end(), std::back_inserter(left), [&](const BoardInfo& board) {
+    return std::none_of(others.begin(), others.end(),
+                        [&](const BoardInfo& other) { return same(board, other); });
+  });
+  return left;
+}
+
+std::vector<BoardInfo> playable_boards() {
+  std::vector<BoardInfo> boards = list_boards();
+  // The device behind the packets of an emulated board is the same simulated one.
+  boards.erase(std::remove_if(
+                   boards.begin(), boards.end(),
+                   [](const BoardInfo& board) { return board.device.compare(0, 4, "sim:") == 0; }),
+               boards.end());
+  return boards;
+}
+
+BoardWatch::BoardWatch(std::vector<BoardInfo> known, Changed changed)
+    : known_(std::move(known)), changed_(std::move(changed)) {
+  thread_ = start_thread("spidar-boards", [this] { run(); });
+}
+
+BoardWatch::~BoardWatch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    end_ = true;
+  }
+  ended_.notify_all();
+  thread_.join();
+}
+
+void BoardWatch::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!ended_.wait_for(lock, kInterval, [this] { return end_; })) {
+    lock.unlock();
+    std::vector<BoardInfo> now = playable_boards();
+    const std::vector<BoardInfo> gone = without(known_, now), come = without(now, known_);
+    known_ = std::move(now);
+    if (!gone.empty() || !come.empty()) changed_(gone, come);
+    lock.lock();
+  }
+}
+
+}  // namespace
+}  // namespace spidar
 
 using spidar::BoardInfo;
 using spidar::BoardWatch;

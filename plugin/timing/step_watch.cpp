@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/timing/step_watch.h"
 
-#include "plugin/gobject/bins.h"
 #include "plugin/gobject/downstream.h"
 
 namespace spidar {

@@ -2,17 +2,99 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_recorder.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <sys/stat.h>
+#include <utility>
+
 #include <gst/gst.h>
 
-#include "plugin/tools/film_decoder.h"
-#include "plugin/tools/stored_sound.h"
-#include "plugin/tools/stream_time.h"
+#include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/tracks/file_pipeline.h"
+#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/track_notes.h"
 
 namespace spidar {
-
 namespace {
+
+/// A film that could not be read is hardly worth waiting for: decodebin may lose the error.
+constexpr GstClockTime kUnreadStart = 10 * GST_SECOND;
+
+/// Reports `percent` of the film as done.
+class Progress {
+ public:
+  explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
+
+  /// Counts the frames that come out of `motion` in `pipeline`.
+  void watch(GstElement* pipeline) {
+    GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+    GstPad* frames = gst_element_get_static_pad(motion, "src");
+    gst_pad_add_probe(frames, GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
+    gst_object_unref(frames);
+    gst_object_unref(motion);
+  }
+
+ private:
+  static GstPadProbeReturn passes(GstPad* frames, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<Progress*>(user);
+    if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
+    if (self.film_ns_ <= 0) {
+      self.film_ns_ = -1;  // the container does not tell
+      return GST_PAD_PROBE_REMOVE;
+    }
+    const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));
+    if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
+    const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
+    if (percent > self.told_ && percent < 100) {
+      self.told_ = percent;
+      self.tell_(self.told_);
+    }
+    return GST_PAD_PROBE_OK;
+  }
+
+  const std::function<void(int percent)> tell_;
+  gint64 film_ns_ = 0;
+  int told_ = 0;
+};
+
+/// Which file it is, and how it was left.
+bool is_same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
+         a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+void set_properties(GstElement* motion, const RecordProperties& properties) {
+  for (const auto& [name, value] : properties.values)
+    gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
+}
+
+GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
+  GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+  if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT) return GST_PAD_PROBE_OK;
+  GstSegment segment;
+  gst_event_copy_segment(event, &segment);
+  if (segment.format != GST_FORMAT_TIME || segment.time <= segment.base) return GST_PAD_PROBE_OK;
+  // As much as possible by an earlier beginning, so that the track begins with the film.
+  const GstClockTime earlier = std::min(segment.start, segment.time - segment.base);
+  segment.start -= earlier;
+  segment.time -= earlier;
+  segment.base = segment.time;
+  GstEvent* const moved = gst_event_new_segment(&segment);
+  gst_event_set_seqnum(moved, gst_event_get_seqnum(event));
+  gst_event_unref(event);
+  GST_PAD_PROBE_INFO_DATA(info) = moved;
+  return GST_PAD_PROBE_OK;
+}
+
+/// Moves the segments that pass `pad` so that running time is stream time, which the track is found
+/// by when it is replayed. They differ where a film does not begin at 0: MPEG-TS, MPEG-PS, FLV.
+void follow_stream_time(GstPad* pad) {
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
+}
 
 void tag(GstElement* pipeline, const TrackNotes& notes) {
   GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
@@ -30,18 +112,64 @@ void tag(GstElement* pipeline, const TrackNotes& notes) {
 FilmOutcome record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell) {
+  if (!std::filesystem::exists(film)) throw std::runtime_error("there is no such file");
+  struct stat at_first {
+  }, at_last{};
+  stat(film.c_str(), &at_first);
+  Progress progress(tell);
+  FilmFingerprint fingerprint;
+  int64_t pictures_end_ns = 0;
+  std::string unread;
+  try {
+    const Film read = read_film(film);
+    pictures_end_ns = read.end_ns.value_or(0);
+    fingerprint = fingerprint_of(read.packets);
+  } catch (const std::runtime_error& why) {
+    unread = why.what();  // decoding it may tell more
+  }
+  FilmWatch watch;
   StoredSound stored;
-  const FilmOutcome outcome =
-      decode_film({film, properties,
-                   "spidarextract name=extract extract.wrench ! " + encoder_of(track.target()) +
-                       " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
-                   [&](GstElement* pipeline, const FilmFingerprint& fingerprint) {
-                     stored.watch(pipeline, "stored");
-                     tag(pipeline, {fingerprint, properties.settings});
-                   },
-                   tell});
+  std::string error;
+  try {
+    run_pipeline(
+        "filesrc name=film ! decodebin name=decode videoconvert name=convert ! "
+        "spidarmotion name=motion device=none attach-meta=true ! "
+        "spidarextract name=extract extract.wrench ! " +
+            encoder_of(track.target()) +
+            " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
+        [&](GstElement* pipeline) {
+          set_location(pipeline, "film", film);
+          GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
+          set_properties(motion, properties);
+          gst_object_unref(motion);
+          watch.begin(pipeline);
+          progress.watch(pipeline);
+          stored.watch(pipeline, "stored");
+          tag(pipeline, {fingerprint, properties.settings});
+        },
+        unread.empty() ? kLongestStart : kUnreadStart);
+  } catch (const SilentFailure& ended) {
+    error = unread.empty() ? ended.what() : unread;
+  } catch (const std::runtime_error& ended) {
+    error = ended.what();
+  }
+  if (stat(film.c_str(), &at_last) != 0) {
+    throw std::runtime_error("it was removed while it was read, or its share has gone");
+  }
+  if (!is_same_file(at_first, at_last)) {
+    throw std::runtime_error("it was changed while it was read: wait until it is complete");
+  }
+  const FilmEnd end = film_end(film);
+  // Where the file is whole, its duration may be that of sound that goes on after the pictures.
+  std::optional<int64_t> end_ns;
+  if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
+  const std::string problem = watch.problem(error, end_ns);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  if (end == FilmEnd::kCutOff) {
+    throw std::runtime_error("its end is missing: it is damaged or cut off");
+  }
   stored.check(track);
-  return outcome;
+  return {watch.felt(), watch.remark()};
 }
 
 }  // namespace spidar

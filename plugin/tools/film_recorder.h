@@ -6,11 +6,15 @@
 #include <functional>
 #include <string>
 
-#include "plugin/tools/film_decoder.h"
-#include "plugin/tools/record_properties.h"
+#include "plugin/tools/record_options.h"
 #include "plugin/tracks/part_file.h"
 
 namespace spidar {
+
+struct FilmOutcome {
+  std::string felt;    ///< how much of the film is felt, and why the rest is not
+  std::string remark;  ///< what else is to be known of it; usually empty
+};
 
 /// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
 /// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`

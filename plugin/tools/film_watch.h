@@ -13,6 +13,16 @@
 
 namespace spidar {
 
+enum class FilmEnd {
+  kWhole,
+  kCutOff,   ///< within a chunk, a segment, a box or a page, or before the last page
+  kUnknown,  ///< the file does not say
+};
+
+/// By what AVI, Matroska, WebM, MP4, QuickTime and Ogg say of their length. The demuxers of
+/// GStreamer take such a film that is cut off for a shorter one that is whole.
+FilmEnd film_end(const std::string& path);
+
 /// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
 /// application to judge. Outlives the pipeline.
 class FilmWatch {

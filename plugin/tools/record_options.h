@@ -5,12 +5,40 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "plugin/tools/film_list.h"
-#include "plugin/tools/record_properties.h"
-
 namespace spidar {
+
+struct RecordProperties {
+  /// Names and values, for gst_util_set_object_arg().
+  std::vector<std::pair<std::string, std::string>> values;
+  /// Those that differ from their defaults, by name, in one form for every way to type them:
+  /// "max-force=2 motion=camera". Empty when all have their defaults.
+  std::string settings;
+};
+
+/// With the rules of `feel` themselves in place of the file, beside `film` or elsewhere, that has
+/// them, so that a track tells what it was made by. Throws std::runtime_error when they cannot be
+/// read.
+RecordProperties with_rules(const RecordProperties& properties, const std::string& film);
+
+/// `words` are of the form PROPERTY=VALUE. Throws UsageError, which says what would be right, for
+/// those that do not change what a track contains, or would make it one of zeros;
+/// std::runtime_error when GStreamer has no spidarmotion.
+RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
+
+struct ListedFilm {
+  std::string path;
+  /// Where it is below the folder that was given; empty if the film itself was given.
+  std::filesystem::path subfolder;
+};
+
+/// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
+/// end as those of films do (".mkv" in small or capital letters), without hidden ones: the largest
+/// first, so that a long film does not come last and alone. Links to folders are not followed.
+/// Throws std::runtime_error if a folder has no film or cannot be read.
+std::vector<ListedFilm> list_films(const std::vector<std::string>& names);
 
 struct RecordOptions {
   bool force = false;

@@ -126,14 +126,12 @@ class CommandLine {
   int check() { return check_track(check_); }
 
   void add_convert() {
-    CLI::App* const app =
-        add("convert", "convert between FLAC, Matroska, WAV, HJIF, traces and funscript",
-            &CommandLine::convert);
+    CLI::App* const app = add("convert", "convert between FLAC, Matroska, WAV, HJIF and funscript",
+                              &CommandLine::convert);
     app->footer(
-        "FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), a trace of\n"
-        "spidarmotion (.csv, .jsonl), or a funscript. TO is what its name ends in: .flac, .mka, "
-        ".wav,\n"
-        ".hjif, .ahap (a vibration for telephones) or .funscript; a file of this name is replaced\n"
+        "FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a\n"
+        "funscript. TO is what its name ends in: .flac, .mka, .wav, .hjif, .ahap (a vibration for\n"
+        "telephones) or .funscript; a file of this name is replaced\n"
         "when the new one is complete. What TO cannot hold is printed.");
     app->add_option("FROM", convert_.from)->required();
     app->add_option("TO", convert_.to)->required();

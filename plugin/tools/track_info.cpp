@@ -30,7 +30,7 @@ struct FilmOfTrack {
 
 /// Throws std::runtime_error when `path` is a film without a track.
 FilmOfTrack find_track(const std::string& path) {
-  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".csv", ".jsonl", ".funscript"}) {
+  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript"}) {
     if (ends_with(path, end)) return {{}, path, {}};
   }
   Film film;

@@ -15,8 +15,6 @@
 #include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
-#include "plugin/tools/stored_sound.h"
-#include "plugin/tools/trace_track.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/track_file.h"
 
@@ -115,15 +113,6 @@ void set_location(GstElement* pipeline, const char* name, const std::string& pat
   gst_object_unref(element);
 }
 
-std::string quoted(const std::string& path) {
-  std::string text = "\"";
-  for (const char c : path) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\"";
-}
-
 std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".flac")) {
     return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
@@ -196,8 +185,6 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
                              "read; use the track that it was made from");
   }
   if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
-  if (ends_with(path, ".csv")) return read_csv_trace(path, read_text(path));
-  if (ends_with(path, ".jsonl")) return read_json_trace(path, read_text(path));
   const TrackFile track = read_track_file(path);
   if (condition) *condition = {track.faults, track.missing(), track.notes};
   return samples_of(track);
@@ -224,6 +211,56 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
         write_funscript(samples, options.axis, options.tolerance.value_or(kFunscriptTolerance)));
   }
   part.publish();
+}
+
+void StoredSound::watch(GstElement* pipeline, const char* name) {
+  GstElement* const element = gst_bin_get_by_name(GST_BIN(pipeline), name);
+  GstPad* const pad = gst_element_get_static_pad(element, "sink");
+  gst_pad_add_probe(
+      pad,
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM),
+      flows, this, nullptr);
+  gst_object_unref(pad);
+  gst_object_unref(element);
+}
+
+GstPadProbeReturn StoredSound::flows(GstPad*, GstPadProbeInfo* info, gpointer user) {
+  auto& self = *static_cast<StoredSound*>(user);
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
+    GstCaps* caps = nullptr;
+    gst_event_parse_caps(event, &caps);
+    const char* const format = gst_structure_get_string(gst_caps_get_structure(caps, 0), "format");
+    self.format_ = format ? format : "";
+    return GST_PAD_PROBE_OK;
+  }
+  GstMapInfo map;
+  if (!gst_buffer_map(GST_PAD_PROBE_INFO_BUFFER(info), &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
+  for (size_t i = 0; i < map.size; ++i) self.sum_ = (self.sum_ ^ map.data[i]) * 0x100000001b3;
+  self.bytes_ += map.size;
+  gst_buffer_unmap(GST_PAD_PROBE_INFO_BUFFER(info), &map);
+  return GST_PAD_PROBE_OK;
+}
+
+void StoredSound::check(const PartFile& part) const {
+  part.check_in_place();
+  StoredSound read;
+  std::string why;
+  try {
+    run_pipeline(
+        "filesrc name=file ! decodebin ! audioconvert dithering=none noise-shaping=none ! "
+        "audio/x-raw,layout=interleaved,format=" +
+            format_ + " ! fakesink name=read sync=false",
+        [&](GstElement* pipeline) {
+          set_location(pipeline, "file", part.path());
+          read.watch(pipeline, "read");
+        });
+  } catch (const std::runtime_error& error) {
+    why = std::string(": ") + error.what();
+  }
+  if (why.empty() && read.bytes_ == bytes_ && read.sum_ == sum_) return;
+  throw std::runtime_error(part.target() + ": what is read back is not what was written" + why);
 }
 
 }  // namespace spidar

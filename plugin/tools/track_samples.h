@@ -3,6 +3,7 @@
 /// Reads and writes whole tracks of 1000 samples a second, in all file formats.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include <gst/gst.h>
 
 #include "core/track/track_format.h"
+#include "plugin/tracks/part_file.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_notes.h"
 
@@ -27,8 +29,8 @@ struct TrackCondition {
 /// The force upwards: the channel of formats that have only one.
 constexpr size_t kUsualAxis = 1;
 
-/// The format follows from the end of the name: HJIF (`.hjif`), a trace of spidarmotion (`.csv`,
-/// `.jsonl`), one channel (`.funscript`), else sound of any rate that spidarsink accepts. Gaps
+/// The format follows from the end of the name: HJIF (`.hjif`), one channel
+/// (`.funscript`), else sound of any rate that spidarsink accepts. Gaps
 /// become silence, and so do samples that are not numbers, which `condition` counts. Throws
 /// std::runtime_error.
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr,
@@ -80,7 +82,26 @@ void await_message(GstElement* pipeline, GstMessageType awaited,
 void set_location(GstElement* pipeline, const char* name, const std::string& path);
 
 bool ends_with(const std::string& text, const std::string& end);
-/// Quotes a location for a launch line.
-std::string quoted(const std::string& path);
+
+/// Sound that flows through a pad, as a checksum. Outlives the pipeline.
+class StoredSound {
+ public:
+  StoredSound() = default;
+  StoredSound(const StoredSound&) = delete;
+  StoredSound& operator=(const StoredSound&) = delete;
+
+  /// Of the element `name` in a pipeline that has not started.
+  void watch(GstElement* pipeline, const char* name);
+  /// Decodes the file `part`, which a pipeline with an element "stored" (encoder_of()) has written.
+  /// Throws std::runtime_error when that is not what has flowed.
+  void check(const PartFile& part) const;
+
+ private:
+  static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+
+  std::string format_;  // of the samples, as caps name it
+  uint64_t bytes_ = 0;
+  uint64_t sum_ = 0xcbf29ce484222325;  // FNV-1a
+};
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline that reads a file from a thread that can be stopped.
+/// A pipeline that reads a file from a thread that can be stopped, and the kinds of streams in it.
 #pragma once
 
 #include <atomic>
@@ -49,5 +49,25 @@ class FilePipeline {
   mutable std::atomic<uint64_t> read_{0};
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
+
+enum class StreamKind {
+  kVideo,
+  kSound,        ///< for ears
+  kHapticTrack,  ///< six channels, at a rate that no sound has
+  kOther,
+};
+
+/// Of the caps of a parsed or decoded stream.
+StreamKind kind_of(const GstCaps* caps);
+
+/// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
+/// unless there is a known reason.
+std::string why_missing(GstElement* bin);
+
+/// Stream time of a buffer that passes the pad; GST_CLOCK_TIME_NONE when it has none.
+GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer);
+
+/// Current caps, else what the pad could have. Owned by the caller.
+GstCaps* caps_of(GstPad* pad);
 
 }  // namespace spidar

@@ -10,10 +10,8 @@
 
 #include <gst/gst.h>
 
-#include "plugin/gobject/pads.h"
 #include "plugin/tracks/file_pipeline.h"
-#include "plugin/tracks/film_streams.h"
-#include "plugin/tracks/packet_hash.h"
+#include "plugin/tracks/film_fingerprint.h"
 
 namespace spidar {
 namespace {

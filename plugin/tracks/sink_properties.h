@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "plugin/properties/on_device_error.h"
+#include "plugin/device/device_warnings.h"
 
 namespace spidar {
 

@@ -35,7 +35,6 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/base/gstflowcombiner.h>
 
-#include "plugin/gobject/pads.h"
 #include "plugin/tracks/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
@@ -224,14 +223,21 @@ static void gst_spidar_extract_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_extract_parent_class)->finalize(object);
 }
 
+/// Gives the element the pad that the template describes and returns it. The element keeps it.
+static GstPad* add_pad(GstElement* element, GstStaticPadTemplate* pad_template) {
+  GstPad* pad = gst_pad_new_from_static_template(pad_template, pad_template->name_template);
+  gst_element_add_pad(element, pad);
+  return pad;
+}
+
 static void gst_spidar_extract_init(GstSpidarExtract* self) {
-  self->sink = spidar::add_pad(GST_ELEMENT(self), &track_sink_template);
+  self->sink = add_pad(GST_ELEMENT(self), &track_sink_template);
   gst_pad_set_chain_function(self->sink, gst_spidar_extract_chain);
   gst_pad_set_event_function(self->sink, gst_spidar_extract_sink_event);
   gst_pad_set_query_function(self->sink, gst_spidar_extract_sink_query);
-  self->src = spidar::add_pad(GST_ELEMENT(self), &track_src_template);
+  self->src = add_pad(GST_ELEMENT(self), &track_src_template);
   gst_pad_set_query_function(self->src, gst_spidar_extract_src_query);
-  self->wrench = spidar::add_pad(GST_ELEMENT(self), &wrench_template);
+  self->wrench = add_pad(GST_ELEMENT(self), &wrench_template);
   gst_pad_set_query_function(self->wrench, gst_spidar_extract_wrench_query);
   gst_pad_set_event_function(self->wrench, gst_spidar_extract_wrench_event);
   self->track = new TrackStream(self->wrench);

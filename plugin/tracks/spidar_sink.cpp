@@ -188,8 +188,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
 static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->warnings->start();
-  delete self->input;
-  self->input = new spidar::TrackInput;
+  *self->input = spidar::TrackInput();
   self->schedule->forget();
   return TRUE;
 }
@@ -299,8 +298,7 @@ static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* valu
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
 
-static void follow_ts_offset(GObject* object, GParamSpec*, gpointer) {
-  GstSpidarSink* self = GST_SPIDAR_SINK(object);
+static void follow_ts_offset(GstSpidarSink* self) {
   self->output->set_offset(gst_base_sink_get_ts_offset(GST_BASE_SINK(self)));
 }
 

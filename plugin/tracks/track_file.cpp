@@ -14,7 +14,6 @@
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
-#include "plugin/tracks/film_streams.h"
 
 namespace spidar {
 namespace {

@@ -12,7 +12,7 @@
 #include <gst/gst.h>
 
 #include "core/track/track_format.h"
-#include "core/track/track_thinner.h"
+#include "core/track/track_reader.h"
 
 namespace spidar {
 

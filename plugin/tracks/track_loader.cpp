@@ -5,12 +5,18 @@
 #include <atomic>
 #include <condition_variable>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
+#include "plugin/gobject/category.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/sidecar.h"
+#include "plugin/tracks/track_warnings.h"
 #include "spidar/realtime/thread_setup.h"
+
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(element)
 
 namespace spidar {
 namespace {
@@ -71,6 +77,19 @@ LoadedTrack load_track(const std::string& wanted, const std::string& film,
     loaded.problem = clause(error.what());
   }
   return loaded;
+}
+
+/// Names what is set and changes nothing while a track is played.
+void name_unused(GstElement* element, const std::string& path) {
+  gchar* feel = nullptr;
+  g_object_get(element, "feel", &feel, nullptr);
+  if (feel) {
+    GST_ELEMENT_WARNING(
+        element, RESOURCE, SETTINGS,
+        ("feel=%s has no effect while the haptic track %s is played.", feel, path.c_str()),
+        ("Leave out the one or the other, or make the haptic track anew with it."));
+  }
+  g_free(feel);
 }
 
 }  // namespace
@@ -163,6 +182,25 @@ void TrackLoader::stop() {
   }
   const std::lock_guard<std::mutex> pointer_lock(mutex_);
   reading_ = nullptr;
+}
+
+std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
+  if (loaded.path.empty()) return std::nullopt;
+  if (loaded.problem.empty() && !loaded.is_compared) {
+    GstPad* pad = gst_element_get_static_pad(element, "sink");
+    loaded.problem = other_film(pad, loaded.track->duration_ns, frame_ns);
+    gst_object_unref(pad);
+  }
+  if (loaded.problem.empty()) {
+    TrackWarnings(element).check(loaded.track->faults, true, loaded.path);
+    name_unused(element, loaded.path);
+    return std::move(loaded.track);
+  }
+  GST_ELEMENT_WARNING(
+      element, RESOURCE, SETTINGS,
+      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), loaded.problem.c_str()),
+      ("The video is analysed in its place."));
+  return std::nullopt;
 }
 
 }  // namespace spidar

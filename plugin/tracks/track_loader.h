@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads the track for a film in a thread of its own.
+/// Reads the track for a film in a thread of its own, and says whether it is felt.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+
+#include <gst/gst.h>
 
 #include "plugin/tracks/track_file.h"
 
@@ -61,5 +64,9 @@ class TrackLoader {
   std::shared_ptr<Reading> reading_;
   std::thread thread_;
 };
+
+/// The track to be felt for the film that comes to the sink pad of `element`. Nothing when there is
+/// none; a warning on the bus when it cannot be used, or is that of another film.
+std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns);
 
 }  // namespace spidar

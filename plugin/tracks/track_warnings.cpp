@@ -9,19 +9,23 @@
 
 namespace spidar {
 
-void TrackWarnings::check(const TrackFaults& faults, bool has_time) {
+void TrackWarnings::check(const TrackFaults& faults, bool has_time, const std::string& path) {
+  const std::string track = "The haptic track" + (path.empty() ? "" : " " + path);
   if (faults.not_finite > 0 && !not_finite_) {
     not_finite_ = true;
     GST_ELEMENT_WARNING(
         element_, STREAM, DECODE,
-        ("The haptic track has samples that are not numbers; they are played as rest."),
+        ("%s has %" G_GUINT64_FORMAT " samples that are not numbers; they are played as rest.",
+         track.c_str(), static_cast<guint64>(faults.not_finite)),
         ("NaN or infinite."));
   }
   if (faults.beyond_full > 0 && !beyond_full_) {
     beyond_full_ = true;
     GST_ELEMENT_WARNING(element_, STREAM, DECODE,
-                        ("The haptic track has samples beyond full scale, 10 N and 1 N m; "
-                         "max-force limits them all the same."),
+                        ("%s has %" G_GUINT64_FORMAT
+                         " samples beyond full scale, 10 N and 1 N m; max-force limits them all "
+                         "the same.",
+                         track.c_str(), static_cast<guint64>(faults.beyond_full)),
                         ("Is it ordinary sound?"));
   }
   if (!has_time && !no_time_) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What spidarsink reports on the bus about the samples of a haptic track.
+/// What is reported on the bus about the samples of a haptic track.
 #pragma once
+
+#include <string>
 
 #include <gst/gst.h>
 
@@ -17,7 +19,8 @@ class TrackWarnings {
   /// A new stream begins: every warning may be posted again.
   void start() { *this = TrackWarnings(element_); }
   /// Looks at the faults so far, and at whether the last buffer had a time at which to feel it.
-  void check(const TrackFaults& faults, bool has_time);
+  /// `path` is that of the track, if it is a file.
+  void check(const TrackFaults& faults, bool has_time, const std::string& path = "");
 
  private:
   GstElement* element_;

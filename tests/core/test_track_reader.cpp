@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "core/track/track_reader.h"
-#include "core/track/track_thinner.h"
 
 namespace spidar::test::track_reader_test {
 namespace {

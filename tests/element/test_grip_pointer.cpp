@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/frame/grip_pointer.h"
-#include "plugin/properties/pointer_text.h"
+#include "plugin/properties/motion_properties.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::test::grip_pointer_test {

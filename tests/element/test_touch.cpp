@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/touch/relief_stream.h"
-#include "plugin/filter/touch/touched_motion.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/profile.h"

@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plugin/tracks/beside_film.h"
 #include "plugin/tracks/part_file.h"
+#include "plugin/tracks/sidecar.h"
 
 namespace spidar {
 

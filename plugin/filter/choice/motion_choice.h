@@ -16,7 +16,7 @@
 #include "core/choice/chosen.h"
 #include "core/picture_turn.h"
 #include "plugin/filter/choice/feel_file.h"
-#include "plugin/filter/choice/mouse_pointer.h"
+#include "plugin/filter/choice/sink_mouse.h"
 
 namespace spidar {
 

@@ -14,7 +14,7 @@
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/filter/engine/motion_engine.h"
 #include "plugin/filter/frame/scene_view.h"
-#include "plugin/properties/display_properties.h"
+#include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 
 namespace spidar {

@@ -14,7 +14,7 @@
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/frame/grip_pointer.h"
 #include "plugin/filter/touch/relief_stream.h"
-#include "plugin/properties/touch_properties.h"
+#include "plugin/properties/motion_properties.h"
 
 namespace spidar {
 

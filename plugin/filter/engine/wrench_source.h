@@ -9,7 +9,7 @@
 
 #include "core/analysis/analyzer_settings.h"
 #include "plugin/filter/frame/frame_report.h"
-#include "plugin/properties/touch_properties.h"
+#include "plugin/properties/motion_properties.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar {

@@ -4,11 +4,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gst/video/video.h>
 
+#include "core/choice/chosen.h"
+#include "core/picture_turn.h"
+#include "core/touch/depth_picture.h"
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/frame/scene_view.h"
 
@@ -32,5 +37,10 @@ constexpr const char* kObjectName = "spidar-object";
 /// another spidarmotion has attached are replaced; its detections stay.
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
                          int width, int height);
+
+/// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
+std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
+                                             std::optional<DepthLayout> packed,
+                                             const PictureTurn& turn);
 
 }  // namespace spidar

@@ -2,7 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/reports/motion_meta.h"
 
+#include <utility>
+
 #include <gst-spidar/gstspidarmotionmeta.h>
+
+#include "core/motion/objects/moving_object.h"
+#include "plugin/filter/reports/limit_watch.h"
 
 namespace spidar {
 namespace {
@@ -34,15 +39,39 @@ void set_tracks(GstStructure* structure, const std::vector<GstSpidarMotionTrack>
   gst_structure_set(structure, "tracks", G_TYPE_VARIANT, array, nullptr);
 }
 
+/// What a frame shows and how it is felt, as message and meta have it.
+GstSpidarFrameMotion motion_of(const ImageMotion& felt, const Wrench& wrench) {
+  GstSpidarFrameMotion m{};
+  m.velocity_x = felt.velocity_px_s.x();
+  m.velocity_y = felt.velocity_px_s.y();
+  m.growth = felt.growth_1_s;
+  m.roll = felt.roll_rad_s;
+  m.force_x = wrench.force_N.x();
+  m.force_y = wrench.force_N.y();
+  m.force_z = wrench.force_N.z();
+  m.torque_x = wrench.torque_Nm.x();
+  m.torque_y = wrench.torque_Nm.y();
+  m.torque_z = wrench.torque_Nm.z();
+  return m;
+}
+
+void set_motion(GstStructure* structure, const GstSpidarFrameMotion& m) {
+  const std::pair<const char*, double> fields[] = {
+      {"velocity-x", m.velocity_x}, {"velocity-y", m.velocity_y}, {"force-x", m.force_x},
+      {"force-y", m.force_y},       {"force-z", m.force_z},       {"torque-x", m.torque_x},
+      {"torque-y", m.torque_y},     {"torque-z", m.torque_z},
+  };
+  for (const auto& [name, value] : fields) {
+    gst_structure_set(structure, name, G_TYPE_DOUBLE, value, nullptr);
+  }
+}
+
 void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
-                    m.interval, "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y",
-                    G_TYPE_DOUBLE, m.velocity_y, "growth", G_TYPE_DOUBLE, m.growth, "roll",
-                    G_TYPE_DOUBLE, m.roll, "force-x", G_TYPE_DOUBLE, m.force_x, "force-y",
-                    G_TYPE_DOUBLE, m.force_y, "force-z", G_TYPE_DOUBLE, m.force_z, "torque-x",
-                    G_TYPE_DOUBLE, m.torque_x, "torque-y", G_TYPE_DOUBLE, m.torque_y, "torque-z",
-                    G_TYPE_DOUBLE, m.torque_z, nullptr);
+                    m.interval, "growth", G_TYPE_DOUBLE, m.growth, "roll", G_TYPE_DOUBLE, m.roll,
+                    nullptr);
+  set_motion(structure, m);
 }
 
 /// Copies the meta of `from` to `to`, whose picture is `scale_x` × `scale_y` times as large.
@@ -102,6 +131,14 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark t
   return FALSE;
 }
 
+/// Of the one object that is felt; 0 if it is none, or not one alone.
+double felt_error_px_s(const Frame& frame) {
+  for (const MovingObject& object : frame.objects) {
+    if (object.id == frame.felt_object) return object.error_px_s;
+  }
+  return 0;
+}
+
 }  // namespace
 
 void register_motion_meta() {
@@ -120,23 +157,11 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
                         int width, int height) {
   GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
-  const ImageMotion& felt = scene.motion;
-  const Eigen::Vector3d &force = scene.wrench.force_N, &torque = scene.wrench.torque_Nm;
-  GstSpidarFrameMotion motion{};
+  GstSpidarFrameMotion motion = motion_of(scene.motion, scene.wrench);
   motion.width = static_cast<guint>(width);
   motion.height = static_cast<guint>(height);
   motion.running_time = static_cast<guint64>(report.frame.running_ns);
   motion.interval = static_cast<guint64>(report.frame.interval_ns);
-  motion.velocity_x = felt.velocity_px_s.x();
-  motion.velocity_y = felt.velocity_px_s.y();
-  motion.growth = felt.growth_1_s;
-  motion.roll = felt.roll_rad_s;
-  motion.force_x = force.x();
-  motion.force_y = force.y();
-  motion.force_z = force.z();
-  motion.torque_x = torque.x();
-  motion.torque_y = torque.y();
-  motion.torque_z = torque.z();
   std::vector<GstSpidarMotionTrack> tracks;
   tracks.reserve(scene.tracks.size());
   for (const SceneTrack& track : scene.tracks) {
@@ -148,6 +173,34 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const Scen
   gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.frame.goes_on() ? TRUE : FALSE,
                     nullptr);
   set_tracks(structure, tracks);
+}
+
+void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,
+                         gint* unread) {
+  if (g_atomic_int_get(unread) >= kMostUnread) return;
+  const Frame& frame = report.frame;
+  GstStructure* s =
+      gst_structure_new("spidar-motion",                                                        //
+                        "timestamp", G_TYPE_UINT64, GST_BUFFER_PTS(buffer),                     //
+                        "stream-time", G_TYPE_UINT64, static_cast<guint64>(frame.stream_ns),    //
+                        "running-time", G_TYPE_UINT64, static_cast<guint64>(frame.running_ns),  //
+                        "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),                 //
+                        "repeated", G_TYPE_BOOLEAN, is_again(frame.picture) ? TRUE : FALSE,     //
+                        "features", G_TYPE_UINT, static_cast<guint>(frame.features),            //
+                        "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),       //
+                        "object", G_TYPE_UINT, frame.felt_object,                               //
+                        nullptr);
+  set_motion(s, motion_of(frame.motion, frame.wrench));
+  gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
+  describe_limits(report.limit, report.device_limit, s);
+  GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
+  g_atomic_int_inc(unread);
+  // The message holds the element until then.
+  const auto count_down = [](gpointer count, GstMiniObject*) {
+    g_atomic_int_add(static_cast<gint*>(count), -1);
+  };
+  gst_mini_object_weak_ref(GST_MINI_OBJECT_CAST(message), count_down, unread);
+  gst_element_post_message(element, message);
 }
 
 }  // namespace spidar

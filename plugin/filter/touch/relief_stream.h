@@ -19,13 +19,21 @@
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "plugin/filter/frame/frame_luma.h"
-#include "plugin/properties/touch_properties.h"
+#include "plugin/properties/motion_properties.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {
+
+/// Returns the displacement from the previous frame to this one, in pixels of the frame: x right, y
+/// down. `place` is the position of the finger, with (0, 0) at the top left corner of the picture
+/// and (1, 1) at the bottom right. The result is the motion of the object whose box contains the
+/// finger (of several, the one with the smallest area), otherwise that of the background at this
+/// point. With motion=mean, which detects neither, it is the motion of the whole picture. Zero if
+/// the motion is unknown, or if the frame repeats the previous picture.
+Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& place);
 
 /// The contact settings that the properties yield on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
