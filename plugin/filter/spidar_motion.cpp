@@ -80,8 +80,9 @@ static GstStaticPadTemplate motion_src_template =
     GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
 
 G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
-                        GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
-                                                "motion of a video to a SPIDAR"))
+                        G_IMPLEMENT_INTERFACE(GST_TYPE_PRESET, nullptr)
+                            GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
+                                                    "motion of a video to a SPIDAR"))
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
 
 spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self) {

@@ -18,7 +18,7 @@
  * Buffers are 40 ms long, and marked as gaps where there is no force. A sample is known when the
  * frame after the next one is: `wrench` reports that latency. Either source pad may be left
  * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue;
- * otherwise the pipeline waits for ever.
+ * otherwise the pipeline waits for ever, and a warning says so after a second.
  *
  * Played backwards, `wrench` has gap events in place of samples.
  *
@@ -35,6 +35,8 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/base/gstflowcombiner.h>
 
+#include "plugin/gobject/downstream.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/tracks/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
@@ -56,6 +58,7 @@ struct _GstSpidarExtract {
   GstFlowCombiner* flows;
   guint without_meta;  // how many frames in succession
   gboolean warned;     // about them
+  gint told;           // atomic: of sinks that wait for each other
 };
 
 static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -95,6 +98,38 @@ static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn
   return gst_flow_combiner_update_pad_flow(self->flows, pad, flow);
 }
 
+/// So much of a stream a queue takes by default. A video sink that has not taken the first picture
+/// by then, while the pipeline waits for its sinks, waits for that of the track.
+static constexpr GstClockTime kQueue = GST_SECOND;
+
+/// Called by the clock, while the video is being pushed.
+static gboolean tell_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user) {
+  GstSpidarExtract* self = GST_SPIDAR_EXTRACT(user);
+  const spidar::Ref<GstObject> pipeline = spidar::root_of(self);
+  const bool waits = GST_STATE_PENDING(pipeline.get()) != GST_STATE_VOID_PENDING;
+  if (!waits || g_atomic_int_exchange(&self->told, TRUE)) return TRUE;
+  GST_ELEMENT_WARNING(
+      self, STREAM, FAILED,
+      ("The sink of the video waits for that of the haptic track, which gets nothing as long as "
+       "it waits: put a queue between spidarextract and the sink of the video."),
+      ("The first samples are known some frames later: spidarextract name=x x.src ! queue ! …"));
+  return TRUE;
+}
+
+/// Until there are samples, the sinks may wait for each other.
+static GstFlowReturn push_video(GstSpidarExtract* self, GstBuffer* buffer) {
+  const bool may_wait = !self->track->has_pushed() && gst_pad_is_linked(self->wrench);
+  if (!may_wait) return gst_pad_push(self->src, buffer);
+  const spidar::Ref<GstClock> clock(gst_system_clock_obtain());
+  GstClockID alarm =
+      gst_clock_new_single_shot_id(clock.get(), gst_clock_get_time(clock.get()) + kQueue);
+  gst_clock_id_wait_async(alarm, tell_of_queue, gst_object_ref(self), gst_object_unref);
+  const GstFlowReturn flow = gst_pad_push(self->src, buffer);
+  gst_clock_id_unschedule(alarm);
+  gst_clock_id_unref(alarm);
+  return flow;
+}
+
 static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
@@ -113,7 +148,7 @@ static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuf
   }
   const GstFlowReturn track_flow = self->track->add(frame);
   combined(self, self->wrench, track_flow);
-  return combined(self, self->src, gst_pad_push(self->src, buffer));
+  return combined(self, self->src, push_video(self, buffer));
 }
 
 static gboolean gst_spidar_extract_sink_event(GstPad*, GstObject* parent, GstEvent* event) {
@@ -206,6 +241,7 @@ static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->warned = FALSE;
     self->without_meta = 0;
+    g_atomic_int_set(&self->told, FALSE);
   }
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);

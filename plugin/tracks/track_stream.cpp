@@ -189,7 +189,7 @@ GstFlowReturn TrackStream::finish() {
 }
 
 void TrackStream::flush() {
-  begun_ = false;
+  begun_ = pushed_ = false;
   gst_segment_init(&sent_, GST_FORMAT_UNDEFINED);
   if (!buffer_) return;
   gst_buffer_unmap(buffer_, &map_);
@@ -242,6 +242,7 @@ GstFlowReturn TrackStream::push() {
     gst_buffer_unref(full);
     return GST_FLOW_NOT_NEGOTIATED;
   }
+  pushed_ = true;
   return gst_pad_push(pad_, full);
 }
 

@@ -67,6 +67,8 @@ class TrackStream {
   /// So is the segment.
   void reset();
 
+  /// Whether a buffer has been pushed since the beginning, or the last flush.
+  bool has_pushed() const { return pushed_; }
   /// Of the frame added last.
   const Wrench& last_wrench() const { return last_wrench_; }
 
@@ -90,6 +92,7 @@ class TrackStream {
   GstSegment sent_{};     // of the samples
   bool negotiated_ = false;
   bool begun_ = false;
+  bool pushed_ = false;
   int64_t jumped_to_ns_ = -1;  // of the last frame, if that is_alone()
   TrackSampler sampler_;
   int64_t last_frame_ns_ = 0;  // running time

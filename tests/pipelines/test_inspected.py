@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What applications ask of the elements before they play, and what they are told when nothing plays. The argument is the
+file of presets."""
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+os.environ["GST_PRESET_PATH"] = str(pathlib.Path(sys.argv.pop(1)).parent)
+import gst_case  # noqa: E402
+from gst_case import Gst  # noqa: E402
+
+LIVE = "videotestsrc num-buffers=50 ! spidarmotion device=none attach-meta=true ! spidarextract name=x "
+
+
+class Inspected(gst_case.GstCase):
+    def exists(self, *options):
+        return subprocess.run(["gst-inspect-1.0", "--exists", *options, "spidarmotion"], check=False).returncode == 0
+
+    def test_the_element_exists_in_the_version_of_the_project(self):
+        self.assertTrue(self.exists("--atleast-version=0.1"))
+        self.assertFalse(self.exists("--atleast-version=99.0"))
+
+    def test_presets_have_the_values_that_they_are_called_after(self):
+        element = Gst.ElementFactory.make("spidarmotion")
+        names = ("motion", "controller", "alpha", "max-force", "depth-gain", "roll-gain", "filter-min-cutoff",
+                 "filter-beta")
+
+        def values():
+            return {name: element.get_property(name) for name in names}
+
+        new = values()
+        self.assertEqual(sorted(element.get_preset_names()), ["film", "gentle", "paper"])
+        self.assertTrue(element.load_preset("paper"))
+        self.assertEqual(values(), {**new, "motion": 0, "filter-min-cutoff": 0})
+        self.assertTrue(element.load_preset("gentle"))
+        self.assertEqual(values(), {**new, "max-force": 1})
+        self.assertTrue(element.load_preset("film"))
+        self.assertEqual(values(), new)
+
+
+class Extract(gst_case.GstCase):
+    def test_sinks_that_wait_for_each_other_are_told_of(self):
+        pipeline = self.parse(LIVE + "x.src ! fakesink x.wrench ! fakesink")
+        pipeline.set_state(Gst.State.PLAYING)
+        told = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, gst_case.ENDS | Gst.MessageType.WARNING)
+        self.assertEqual(told.type, Gst.MessageType.WARNING)
+        self.assertIn("put a queue between spidarextract and the sink of the video", told.parse_warning()[0].message)
+
+    def test_nothing_is_told_behind_a_queue_or_of_a_pipeline_that_is_paused(self):
+        outcome = self.play(LIVE + "x.src ! queue ! fakesink x.wrench ! fakesink")
+        self.assertTrue(outcome.eos, outcome.error)
+        self.assertEqual(outcome.warnings, [])
+        # Longer than what is waited for: the video has been shown, and the application holds it there.
+        pipeline = self.parse(LIVE + "x.src ! fakesink x.wrench ! fakesink async=false")
+        pipeline.set_state(Gst.State.PAUSED)
+        told = pipeline.bus.timed_pop_filtered(1500 * Gst.MSECOND, gst_case.ENDS | Gst.MessageType.WARNING)
+        self.assertIsNone(told)
+
+
+if __name__ == "__main__":
+    unittest.main()
