@@ -94,12 +94,21 @@ TEST(PlayRecord, KnowsWhichFrameIsShown) {
   EXPECT_EQ(record.shown_at(9)->time_s, 3 * 0.1);
 }
 
+TEST(PlayRecord, BeginsAgainAfterASeek) {
+  Record record;
+  for (int number : {4, 5, 1}) add_frame(record, number);
+  ASSERT_EQ(record.frames().size(), 1u);
+  EXPECT_EQ(record.reasons().size(), 1u);
+  EXPECT_EQ(record.shown_at(9)->time_s, 0.1);
+}
+
 TEST(PlayRecord, ARepeatedFrameKeepsTheForceOfItsPicture) {
   Record record;
   add_frame(record, 1);
   add_frame(record, 2, "none", ", repeated=(boolean)true");
   EXPECT_EQ(record.frames().size(), 1u);
   EXPECT_EQ(record.repeated(), 1u);
+  EXPECT_EQ(record.reasons().size(), 2u) << "why nothing is felt is said of every frame";
 }
 
 TEST(PlayReport, IsFiveLinesOfWhatAPersonWants) {

@@ -50,13 +50,20 @@ TEST(Timeline, PlotsMoreOrFewerSecondsWithinBounds) {
   EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s) << "the choice stays";
 }
 
-TEST(Timeline, AnotherStreamForgetsAll) {
+TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {
   Timeline timeline;
-  record(timeline, 0, 100);
+  timeline.add(moment(0, 500));
+  record(timeline, 1, 1000);
   timeline.add(ForceTick{1'000'000'000, {1, 0, 0}});
+  ControllerSettings linear;
+  linear.kind = ControllerKind::kLinear;
+  const auto at_250_px_s = [&] { return timeline.gain_curve(linear, 250, 2)[1]; };
+  // Eq. 12 and 13: in proportion to the largest speed, which is not shown any more.
+  EXPECT_NEAR(at_250_px_s(), linear.max_force_N / 2, kRounding);
   timeline.forget();
   EXPECT_TRUE(timeline.moments().empty());
   EXPECT_TRUE(timeline.columns(0, 2, 1)[0].is_empty);
+  EXPECT_NEAR(at_250_px_s(), linear.max_force_N, kRounding) << "it is the largest now";
 }
 
 /// A force of 2 N to the right, which drops to nothing for 40 ms at 0.5 s.

@@ -75,9 +75,13 @@ constexpr double kMargin_mm = 1;
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
                 double max_force_N) {
   const Timeline::Part moments = timeline.plotted();
-  const Rect content = draw_panel(
-      brush, panel, "Force",
-      moments.empty() ? "" : number("%.2f N delivered", moments.back().felt.force_N.norm()));
+  std::string note;
+  if (!moments.empty()) {
+    const Wrench& felt = moments.back().felt;
+    note = number("%.2f N, ", felt.force_N.norm()) +
+           number("%.0f mN m delivered", 1e3 * felt.torque_Nm.norm());
+  }
+  const Rect content = draw_panel(brush, panel, "Force", note);
   const double most_N = std::max(max_force_N, kLeastForce_N);
   const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "N");
