@@ -159,8 +159,10 @@ class KernelSession : public KernelUsb {
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (bench.digit[i] != dac.digit(volts.volt[i])) return false;
     // The grip is in the middle, where every force below the limit can be made; a solver's
-    // rounding.
-    return std::abs(last.delivered.force_N.x() - force_x_N) < 0.01;
+    // rounding. It is added to that of the least tensions, which are those of rest.
+    const Eigen::Matrix<double, 6, 1> rest =
+        structure_matrix(profile.geometry, {}) * profile.min_tension_N();
+    return std::abs(last.delivered.force_N.x() - rest[0] - force_x_N) < 0.01;
   }
 };
 
