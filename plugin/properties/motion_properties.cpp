@@ -29,19 +29,20 @@ void set_pointer(MotionProperties& properties, const GValue* value) {
 }
 
 MotionRow pointer_row() {
-  return {[](const MotionProperties&) {
-            return g_param_spec_string(
-                "pointer", "Pointer",
-                "Which place weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
-                "shares of the picture from its top left corner",
-                kMiddle, kPlaying);
-          },
-          set_pointer,
-          [](const MotionProperties& properties, GValue* value) {
-            g_value_take_string(
-                value,
-                g_strdup(text_of({properties.pointer, properties.analyzer.pointer}).c_str()));
-          }};
+  return {
+      [](const MotionProperties&) {
+        return g_param_spec_string(
+            "pointer", "Pointer",
+            "Which place weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
+            "shares of the picture from its top left corner",
+            kMiddle, kPlaying);
+      },
+      set_pointer,
+      [](const MotionProperties& properties, GValue* value) {
+        g_value_take_string(
+            value,
+            g_strdup(text_of(Pointer{properties.pointer, properties.analyzer.pointer}).c_str()));
+      }};
 }
 
 /// Which motion is felt, and how: from `controller` to `filter-beta`.

@@ -40,11 +40,6 @@
 #include "spidar/session/board_list.h"
 
 namespace spidar {
-namespace {
-
-/// What spidarmotion can be given: the boards that there are, and one simulated device. None is
-/// opened.
-std::vector<BoardInfo> playable_boards();
 
 /// Lists the boards again and again on a thread of its own. libusb's hotplug events would not be
 /// enough: they tell nothing of serial lines, and come before udev has given the permission.
@@ -71,6 +66,8 @@ class BoardWatch {
   std::thread thread_;
 };
 
+namespace {
+
 /// Boards count as different when the serial number or the permission to open them differs.
 bool same(const BoardInfo& a, const BoardInfo& b) {
   return std::tie(a.device, a.usb_id, a.serial, a.accessible) ==
@@ -88,6 +85,8 @@ std::vector<BoardInfo> without(const std::vector<BoardInfo>& boards,
   return left;
 }
 
+/// What spidarmotion can be given: the boards that there are, and one simulated device. None is
+/// opened.
 std::vector<BoardInfo> playable_boards() {
   std::vector<BoardInfo> boards = list_boards();
   // The device behind the packets of an emulated board is the same simulated one.
@@ -97,6 +96,8 @@ std::vector<BoardInfo> playable_boards() {
                boards.end());
   return boards;
 }
+
+}  // namespace
 
 BoardWatch::BoardWatch(std::vector<BoardInfo> known, Changed changed)
     : known_(std::move(known)), changed_(std::move(changed)) {
@@ -124,7 +125,6 @@ void BoardWatch::run() {
   }
 }
 
-}  // namespace
 }  // namespace spidar
 
 using spidar::BoardInfo;

@@ -255,7 +255,7 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
 
 // --- object ------------------------------------------------------------------------------------
 
-static constexpr spidar::PropertyEffect<GstSpidarSink> kEffects[] = {
+static constexpr spidar::PropertyEffect<GstSpidarSink> kSinkEffects[] = {
     {"mute", [](auto* self, auto* v) { self->schedule->set_muted(g_value_get_boolean(v)); }},
     {"max-force", [](auto* self, auto* v) { self->output->set_max_force(g_value_get_double(v)); }},
 };
@@ -268,7 +268,7 @@ static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue
   const bool known = spidar::sink_properties().set(*self->properties, id, value);
   GST_OBJECT_UNLOCK(self);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  spidar::follow_property(kEffects, self, spec, value);
+  spidar::follow_property(kSinkEffects, self, spec, value);
   g_mutex_unlock(&self->setting);
 }
 
