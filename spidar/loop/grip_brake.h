@@ -18,10 +18,9 @@ namespace spidar {
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, or
 ///   when it moves as the strings alone would move a bare grip. After kRest_s it returns within
 ///   kReturn_s, and goes to rest again at a far lower speed if there still is no hand.
-/// - It also goes to rest again if the grip yields to the force that returns as only a loose hand,
-/// or
-///   none, lets it yield. Such a grip follows slowly, so that its speed does not give it away, and
-///   stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
+/// - It also goes to rest again if the grip yields to the force that returns as only a loose hand
+///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
+///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
 ///   film reverses its force. Until a hand has withstood a force, a fast grip that has gone far
 ///   along the force is one that yields, too.
 ///
@@ -35,7 +34,7 @@ class GripBrake {
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
   static constexpr double kDampedFrom_m_s = 0.6;
-  static constexpr double kDamping_N_s_m = 7;
+  static constexpr double kDamping_N_s_m = 7.5;
   /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
   static constexpr double kBareGrip_kg = 0.1;
   static constexpr double kRest_s = 1.0;
