@@ -153,4 +153,24 @@ void BusWarnings::check_overlay(const GstVideoInfo& info) {
        "videoconvert in front of the element, with caps such as format=I420."));
 }
 
+const char* words_of(FrameProblem problem) {
+  switch (problem) {
+    case FrameProblem::kNone:
+      return "a haptic track is played";
+    case FrameProblem::kNoTimestamp:
+      return "it has no timestamp";
+    case FrameProblem::kSameTimestamp:
+      return "its timestamp is equal or nearly equal to that of the previous frame";
+    case FrameProblem::kFallingTimestamp:
+      return "its timestamp is earlier than that of the previous frame";
+    case FrameProblem::kTooSmall:
+      return "it has less memory than its picture needs";
+    case FrameProblem::kNotShown:
+      return "it is outside the segment or cropped to nothing";
+    case FrameProblem::kSmallHalf:
+      return "the half of it that is picture is too small";
+  }
+  return "unknown problem";
+}
+
 }  // namespace spidar

@@ -55,4 +55,7 @@ class BusWarnings {
   DeviceWarnings device_;
 };
 
+/// Why a frame is not analysed, for the log.
+const char* words_of(FrameProblem problem);
+
 }  // namespace spidar

@@ -92,8 +92,8 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
 
 static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.analyzed) {
-    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: FrameProblem %d",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), static_cast<int>(report.problem));
+    GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.problem));
     return;
   }
   const spidar::Frame& found = report.frame;
