@@ -67,11 +67,14 @@ TOOLS = ("info", "convert", "plot")  # of which each film goes through one
 DIMENSIONS = {"container": tuple(CONTAINERS), "pictures": tuple(PICTURES), "sound": tuple(SOUNDS),
               "sound time": tuple(SOUND_TIMES), "times": TIMES, "extra": EXTRAS, "name": tuple(NAMES),
               "cut": CUTS, "player": PLAYERS, "tool": TOOLS}
-# Every day, all pairs of values of these: the container with everything, and what meets in a demuxer or a player.
-# Pictures and sound, for example, meet in the container only.
-EVERYDAY = {frozenset(pair) for pair in (
+# All pairs of values of these: the container with everything, and what meets in a demuxer or a player. Pictures and
+# sound, for example, meet in the container only.
+MEETING = {frozenset(pair) for pair in (
     *(("container", name) for name in DIMENSIONS if name != "container"),
     ("sound", "sound time"), ("times", "player"), ("name", "tool"))}
+# Of these films, so many are played every day that each value occurs, and each pair of these: what decides when a
+# picture is shown.
+EVERYDAY = {frozenset(pair) for pair in (("container", "times"), ("times", "player"))}
 
 EXTRA_CONTAINERS = {"turned by 90": ("mp4", "mov", "3gp"), "poster": ("mp4", "mov", "mkv"),
                     "second video": ("mkv", "mp4", "mov", "ts"), "SRT": ("mkv",), "ASS": ("mkv",),
@@ -145,8 +148,21 @@ def cover(starts, meet):
     return films
 
 
+def meeting():
+    return cover([], lambda a, b: frozenset((a, b)) in MEETING)
+
+
 def every_day():
-    return cover([], lambda a, b: frozenset((a, b)) in EVERYDAY)
+    """Some of meeting(), chosen by a greedy search."""
+    def worth(film):
+        return set(film.items()) | {pair for pair in pairs(film) if frozenset(name for name, _ in pair) in EVERYDAY}
+
+    left, films = meeting(), []
+    wanted = set().union(*map(worth, left))
+    while wanted:
+        films.append(max(left, key=lambda film: len(worth(film) & wanted)))
+        wanted -= worth(films[-1])
+    return films
 
 
 def whole(names):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Failures of the matrix that are known: the check, the films that it concerns, words of the message, and the cause.
-The table lists them with counts. An entry of KNOWN that no film of every day needs any more is a failure, so that it is
+The table lists them with counts. An entry of KNOWN that no film of `--meeting` needs any more is a failure, so that it is
 removed."""
 
 
@@ -24,7 +24,7 @@ KNOWN = (
      "matroskademux cuts the first picture where the sound begins: its time is that of the first sound"),
     *((check, B_FRAMES, "", NO_TIMES) for check in ("pictures", "analysed", "own_track", "felt")),
 )
-# That only films of the suite `films` have.
+# That only films of `--whole` have.
 RARE = (
     *((check, of(container="fragmented mp4", pictures="AV1"), words, "the last picture is lost in qtdemux or av1dec")
       for check, words in (("pictures", "pictures of"), ("felt", "off the track"))),

@@ -3,15 +3,16 @@
 # Copyright 2026 the gst-spidar authors
 """Plays and records films of every kind that ffmpeg makes, and prints what was tried:
 
-    matrix.py CORPUS SPIDARTRACK SPIDAR_FEEL [--whole [DIMENSION,...]] [--only TEXT] [--keep FOLDER] [--jobs N]
+    matrix.py CORPUS SPIDARTRACK SPIDAR_FEEL [--meeting | --whole [DIMENSION,...]] [--only TEXT] [--keep FOLDER] [--jobs N]
 
-In the films, every pair of values of the dimensions that EVERYDAY names occurs (dimensions.py), and each film goes
-through one of the tools. With --whole, every pair of values of all dimensions occurs, every combination of values
-of those that are given, and each film goes through all tools. --only takes the films whose description contains TEXT,
+In the films, every value of every dimension occurs, every pair of values of the dimensions that EVERYDAY names
+(dimensions.py), with --meeting of those that MEETING names, and each film goes through one of the tools. With --whole,
+every pair of values of all dimensions occurs, every combination of values of those that are given, and each film goes
+through all tools. --only takes the films whose description contains TEXT,
 --keep keeps what was written for them. CORPUS is a folder for the films, which are made once.
 
-It fails when a check fails that known_failures.py does not know, or, with the release of GStreamer that this list is
-for, when an entry of it is needed no more. Up to five films that fail beside others are tried again alone. The exit
+It fails when a check fails that known_failures.py does not know, or, with --meeting and the release of GStreamer that
+this list is for, when an entry of it is needed no more. Up to five films that fail beside others are tried again alone. The exit
 status is 77 if what it needs is not installed."""
 import argparse
 import collections
@@ -158,10 +159,10 @@ class Maker:
 
 def run(options, programs):
     """The number of failures."""
-    if options.whole is None:
-        kinds = dimensions.every_day()
-    else:
+    if options.whole is not None:
         kinds = dimensions.whole([name for name in options.whole.split(",") if name])
+    else:
+        kinds = dimensions.meeting() if options.meeting else dimensions.every_day()
     began = time.monotonic()
     table, lock, players = Table(), threading.Lock(), queue.SimpleQueue()
     chosen = [i for i, kind in enumerate(kinds) if options.only in ", ".join(kind.values())]
@@ -203,7 +204,7 @@ def run(options, programs):
     for player, count in hangs.items():
         print(f"{player} hung or showed nothing in {count} plays, which were repeated, or lost its end after all was "
               "seen and felt")
-    if options.whole is None and not options.only and not maker.refused:
+    if options.meeting and not options.only and not maker.refused:
         table.look_for_stale()
     print(f"{len(chosen)} films in {time.monotonic() - began:.0f} s, {processor_s():.0f} s of processor time, "
           f"{table.failures} failures")
@@ -214,6 +215,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name in ("corpus", "spidartrack", "spidar_feel"):
         parser.add_argument(name, type=Path)
+    parser.add_argument("--meeting", action="store_true")
     parser.add_argument("--whole", nargs="?", const="")
     parser.add_argument("--only", default="")
     parser.add_argument("--keep")
