@@ -16,7 +16,9 @@ enum class ControllerKind { kLinear, kNonlinear, kAdaptive };
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::kNonlinear;
   double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
-  double alpha_s_px = 0.01;  ///< α of eq. 15, per px/s of the reference frame, finite and ≥ 0
+  /// α of eq. 15, per px/s of the reference frame, finite and ≥ 0. The default was chosen on 50
+  /// clips (docs/feeling.md, What can be told apart).
+  double alpha_s_px = 0.0025;
 };
 
 /// What a controller is told of one frame, in px/s of the reference frame.

@@ -212,7 +212,7 @@ class Pictures(unittest.TestCase):
         self.assertTrue(found.has_picture_before)
         # As in test_motion.cpp; what enters on the left is another part of the texture.
         self.assertAlmostEqual(found.velocity_x_px_s, 100, delta=0.03 / 0.04)
-        self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.01 * 200), delta=0.015)
+        self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.0025 * 200), delta=0.015)
         motion.restart()
         self.assertFalse(motion.analyze(SPOTS, 240, 240, 1).has_picture_before)
 

@@ -200,7 +200,7 @@ static void pictures_become_a_wrench(void) {
   GstSpidarMotionSettings settings;
   gst_spidar_motion_settings_init(&settings);
   REQUIRE(settings.controller == GST_SPIDAR_NONLINEAR && settings.motion == GST_SPIDAR_OBJECT);
-  REQUIRE(settings.max_force_N == 3 && settings.alpha_s_px == 0.01 && settings.pointer_y == 0.5);
+  REQUIRE(settings.max_force_N == 3 && settings.alpha_s_px == 0.0025 && settings.pointer_y == 0.5);
   settings.motion = GST_SPIDAR_MEAN;
   settings.max_force_N = 1.5;
   REQUIRE(gst_spidar_motion_configure(motion, &settings, &error));

@@ -218,10 +218,10 @@ TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
   const std::vector<Frame> frames = analyze(scene);
   const double to_reference = kReferenceHeight_px / scene.settings().height;
   // As a map of vectors, F(|v|) v / |v| is nowhere steeper than at 0: 2 Fmax α / π.
-  const double tolerance_N = 2 * 3.0 * 0.01 / M_PI * kVelocity_px_s * to_reference;
+  const double tolerance_N = 2 * 3.0 * 0.0025 / M_PI * kVelocity_px_s * to_reference;
   for (int n = 1; n < kFrames; ++n) {
     const Eigen::Vector2d v = to_reference * mean_velocity(scene, n);
-    const double force_N = 2 * 3.0 / M_PI * std::atan(0.01 * v.norm());
+    const double force_N = 2 * 3.0 / M_PI * std::atan(0.0025 * v.norm());
     const Eigen::Vector3d expected_N =
         force_N * Eigen::Vector3d(v.x(), -v.y(), 0) / v.norm();  // device: y up
     EXPECT_LT((frames[n].wrench.force_N - expected_N).norm(), tolerance_N) << n;

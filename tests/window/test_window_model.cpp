@@ -178,6 +178,7 @@ TEST(GainCurve, IsThatOfTheController) {
   moment.interval_s = 0;
   timeline.add(moment);
   ControllerSettings settings;  // eq. 15: 2 · 3 / π · atan(0.01 v)
+  settings.alpha_s_px = 0.01;
   const std::vector<double> nonlinear = timeline.gain_curve(settings, 200, 3);
   ASSERT_EQ(nonlinear.size(), 3u);
   EXPECT_EQ(nonlinear[0], 0);

@@ -264,7 +264,7 @@ typedef struct {
   GstSpidarFeltMotion motion;     /*!< [GST_SPIDAR_OBJECT] */
   double max_force_N;             /*!< the largest force, finite and not negative [3] */
   /*! How quickly force rises with speed, except with GST_SPIDAR_LINEAR: half of the largest force
-   * is reached at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative [0.01].
+   * is reached at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative [0.0025].
    */
   double alpha_s_px;
   /*! Where GST_SPIDAR_OBJECTS is felt most, as a share of the picture's width from the left [0.5]

@@ -36,7 +36,7 @@ struct MotionSettings {
   double max_force_N = 3;                          ///< the largest force, finite and not negative
   /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
   /// at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative.
-  double alpha_s_px = 0.01;
+  double alpha_s_px = 0.0025;
   /// Where kObjects is felt most, as a share of the picture's width: 0 is its left edge, 1 its
   /// right one. Finite.
   double pointer_x = 0.5;
