@@ -70,7 +70,7 @@ class OneEuroFilter {
   bool started_ = false;
 };
 
-/// Parameters of the 1 € filter, see one_euro_filter.h. A velocity that changes at a px/s² is
+/// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is
 /// delayed by 1 / (2π (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) at any
 /// a: 2 px/s with the default β, which cannot be felt (AdaptiveController::kLeast_px_s).
 /// docs/feeling.md compares other values.
