@@ -21,7 +21,8 @@ struct Frame : MeasuredFrame {
   Chosen choice;             ///< without `object`
   uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
   ImageMotion motion;        ///< the one that is felt, unfiltered, in px/s of the frame
-  Wrench wrench;             ///< wanted by the controller, before any safety limit
+  Wrench wrench;  ///< wanted by the controller, before any safety limit; turned and weakened as it
+                  ///< is shown
 
   bool has_motion_before() const { return picture != PictureKind::kFirst; }
   /// The picture before is shown again, and its wrench goes on. Rest has nothing that could go on.

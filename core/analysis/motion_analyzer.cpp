@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/analysis/frame_renderer.h"
+#include "core/analysis/force_renderer.h"
 #include "core/motion/cadence.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/motion_estimator.h"
@@ -33,7 +33,7 @@ struct MotionAnalyzer::Impl {
   OpenCvTracker tracker;   // for the mean
   MotionEstimator motion;  // for all else
   Cadence cadence;
-  FrameRenderer renderer;
+  ForceRenderer renderer;
   std::optional<int64_t> last_running_ns;
   bool anew = true;
   FilmPlace film;

@@ -13,7 +13,7 @@
 namespace spidar {
 
 /// Takes each picture through the steps: whether it repeats the one before, how camera and objects
-/// move (MotionEstimator), which of these is felt, and with what wrench (FrameRenderer). One thread
+/// move (MotionEstimator), which of these is felt, and with what wrench (ForceRenderer). One thread
 /// at a time.
 ///
 /// A frame that shows the previous picture again does not tell whether anything moves. It waits

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is found in a frame before anything is chosen to be felt.
+/// What is measured in a frame. Of its objects the dominant one is named; what is felt is chosen
+/// after it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Chooses which motion of the picture is felt.
+/// The motions of a frame that can be felt: of an object, of the objects at a pointer or in a box,
+/// of the camera.
 #pragma once
 
 #include <vector>

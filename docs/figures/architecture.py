@@ -59,7 +59,7 @@ luma = box(180, 100, 150, 90, "plugin", "spidarmotion", "maps the frame,", "give
 field = box(370, 100, 150, 90, "core", "field", "where each block", "went since before")
 motion = box(560, 100, 150, 90, "core", "motion", "camera, objects,", "which one is felt")
 force = box(750, 100, 150, 90, "core", "force", "filter, controller:", "velocity to wrench")
-schedule = box(940, 100, 210, 90, "plugin", "WrenchSchedule", "keeps what the loop", "has no room for yet")
+schedule = box(940, 100, 210, 90, "plugin", "WrenchBacklog", "keeps what the loop", "has no room for yet")
 for a, b in ((frame, luma), (luma, field), (field, motion), (motion, force), (force, schedule)):
     arrow(a["r"], b["l"])
 text(735, 213, "what was found goes to the bus, the trace, the meta, the overlay and the window", 12, colour="#555")
@@ -75,7 +75,7 @@ arrow(schedule["b"], ring["t"])
 # The loop.
 lane(400, 180, "spidar-haptic, 1000 times a second, real-time priority", "No lock, no allocation, no file, no log, no exception.")
 tick = box(940, 465, 210, 80, "core", "WrenchTimeline", "wrench for this millisecond,", "interpolated between frames")
-safety = box(745, 465, 160, 80, "spidar", "WrenchSafety", "limits, slew,", "ramp to rest")
+safety = box(745, 465, 160, 80, "spidar", "WrenchLimits", "limits, slew,", "ramp to rest")
 solver = box(550, 465, 160, 80, "core", "TensionSolver", "wrench and pose to", "string tensions")
 motors = box(355, 465, 160, 80, "spidar", "TensionSlew, heat", "tensions to volts")
 pose = box(160, 465, 160, 80, "core", "PoseSolver", "string lengths", "to pose")

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
 
@@ -40,7 +40,7 @@ class ForceGrip final : public Grip {
   const GripTraits traits_;
   GripReading reading_;
   PoseTrust trust_;
-  BoardLink<ForceOutput, ForceReading> link_;
+  LinkThread<ForceOutput, ForceReading> link_;
 };
 
 }  // namespace spidar

@@ -7,7 +7,7 @@
 #include <sys/utsname.h>
 
 #include "core/touch/contact_force.h"
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/conformance/delay_test.h"
 #include "spidar/conformance/report_text.h"
 #include "spidar/conformance/wiring_text.h"

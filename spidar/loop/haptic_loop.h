@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The 1 ms cycle: time → wrench → safety → grip → pose.
+/// The 1 ms cycle: time → wrench → vibration budget → brake → limits → grip → pose.
 #pragma once
 
 #include <atomic>
@@ -13,9 +13,9 @@
 #include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"
 #include "spidar/loop/loop_time.h"
-#include "spidar/loop/safety.h"
 #include "spidar/loop/tick_record.h"
 #include "spidar/loop/wrench_callback.h"
+#include "spidar/loop/wrench_limits.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 #include "spidar/touch/touch_rendering.h"
@@ -171,7 +171,7 @@ class HapticLoop {
   PlaybackClock clock_;
   SafetyLimits limits_;
   TouchRendering touch_;
-  WrenchSafety safety_;
+  WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};
   VibrationBudget vibration_{grip_->traits().radius_m};
   IdleWatch idle_;

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/boards/board_link.h"
 #include "spidar/boards/falcon_board.h"
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/force_grip.h"
 #include "spidar/boards/inverse3_board.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/boards/mouse_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/boards/usb_board.h"

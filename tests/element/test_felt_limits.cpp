@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/force/felt_force.h"
-#include "spidar/loop/safety.h"
+#include "spidar/loop/wrench_limits.h"
 #include "tests/element/no_force_reason_test.h"
 
 namespace spidar::test::felt_limits_test {

@@ -10,7 +10,7 @@
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/felt_force.h"
 #include "core/motion/camera/background.h"
-#include "plugin/filter/reports/limit_watch.h"
+#include "plugin/filter/reports/no_force_watch.h"
 
 namespace spidar::test::no_force_reason_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/boards/board_link.h"
 #include "spidar/boards/cyverse_board.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/emulation/emulated_boards.h"
 #include "spidar/emulation/emulated_transport.h"

@@ -21,7 +21,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/guardian/guardian.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"

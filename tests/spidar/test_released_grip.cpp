@@ -132,7 +132,7 @@ TEST(ReleasedGrip, AHandNoticesNothing) {
         hand.inertia_kg_m2 *= mass_kg / hand.mass_kg;
         hand.mass_kg = mass_kg;
         PlayedGrip grip(profile, hand, pulses({3, 0, 0}, rate_Hz, true));
-        WrenchSafety safety;
+        WrenchLimits safety;
         for (int i = 0; i < 800; ++i) {
           grip.tick();
           const TickRecord last = grip.snapshot().last;

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
-#include "spidar/loop/safety.h"
+#include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test::safety_test {
 namespace {
@@ -135,8 +135,8 @@ TEST(StaleRamp, SurvivesAnything) {
   EXPECT_EQ(ramp.apply(true, 0, at_once), 1);
 }
 
-TEST(WrenchSafety, LeavesNothingOfBefore) {
-  WrenchSafety safety;
+TEST(WrenchLimits, LeavesNothingOfBefore) {
+  WrenchLimits safety;
   for (int i = 0; i < 100; ++i) safety.apply(force(3, 0, 0), true, kTick_s, {});
   for (int i = 0; i < 41; ++i) safety.apply(force(3, 0, 0), false, kTick_s, {});
   // To the left at once: no rest of the force to the right is ramped in.
@@ -145,9 +145,9 @@ TEST(WrenchSafety, LeavesNothingOfBefore) {
   }
 }
 
-TEST(WrenchSafety, RestsInTimeHoweverLowTheSlewLimit) {
+TEST(WrenchLimits, RestsInTimeHoweverLowTheSlewLimit) {
   SafetyLimits limits;
-  WrenchSafety safety;
+  WrenchLimits safety;
   for (int i = 0; i < 100; ++i) safety.apply(force(3, 0, 0), true, kTick_s, limits);
   limits.max_slew_N_s = 1;
   Wrench commanded;
@@ -156,13 +156,13 @@ TEST(WrenchSafety, RestsInTimeHoweverLowTheSlewLimit) {
   EXPECT_EQ(commanded.force_N.norm(), 0);
 }
 
-TEST(WrenchSafety, HoldsItsLimitsForAnySequence) {
+TEST(WrenchLimits, HoldsItsLimitsForAnySequence) {
   constexpr int kSeed = 20240501;
   std::mt19937_64 random(kSeed);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  WrenchSafety safety;
+  WrenchLimits safety;
   SafetyLimits limits;
   double largest_N = limits.max_force_N;  // ever allowed
   bool fresh = false;

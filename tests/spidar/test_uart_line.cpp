@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_transport.h"
 #include "tests/support/pseudo_terminal.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/loop/safety.h"
+#include "spidar/loop/wrench_limits.h"
 #include "tests/support/released_grip.h"
 
 namespace spidar::test::vibration_test {
@@ -230,7 +230,7 @@ TEST(Vibration, OfAStrobeFilmIsWithinTheBudgetInTheHand) {
 
 /// What the loop commands differs in no bit from the safety chain alone.
 void expect_untouched(PlayedGrip& grip, int ticks) {
-  WrenchSafety safety;
+  WrenchLimits safety;
   for (int i = 0; i < ticks; ++i) {
     grip.tick();
     const TickRecord last = grip.snapshot().last;

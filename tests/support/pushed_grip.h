@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "spidar/boards/board.h"
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/grip/grip.h"
 
 namespace spidar::test {
@@ -40,7 +40,7 @@ class LinkedForce {
 
  private:
   const std::unique_ptr<ForceBoard> board_;
-  BoardLink<ForceOutput, ForceReading> link_;
+  LinkThread<ForceOutput, ForceReading> link_;
 };
 
 }  // namespace spidar::test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
-#include "spidar/loop/safety.h"
+#include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test {
 namespace {

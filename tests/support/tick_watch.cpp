@@ -106,7 +106,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
     fail(record, "torque too large");
   }
 
-  // See WrenchSafety. A lowered limit cuts off at once, and a lost device has nothing to command.
+  // See WrenchLimits. A lowered limit cuts off at once, and a lost device has nothing to command.
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
   if (following_ && !lost) {
     const double ramp = StaleRamp::kSteepest / limits.ramp_s;

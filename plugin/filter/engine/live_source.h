@@ -11,9 +11,9 @@
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/wrench_source.h"
 #include "plugin/filter/frame/frame_luma.h"
-#include "plugin/filter/reports/limit_watch.h"
+#include "plugin/filter/reports/no_force_watch.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/timing/wrench_schedule.h"
+#include "plugin/timing/wrench_backlog.h"
 
 namespace spidar {
 
@@ -21,7 +21,7 @@ class LiveSource : public WrenchSource {
  public:
   /// All are the engine's, and outlive this. `schedule` takes the wrenches; `turn` is how frames
   /// are turned before they are shown.
-  LiveSource(WrenchSchedule& schedule, LimitWatch& limits, FrameTouch& touch,
+  LiveSource(WrenchBacklog& schedule, NoForceWatch& limits, FrameTouch& touch,
              const PictureTurn& turn)
       : schedule_(schedule), limits_(limits), touch_(touch), turn_(turn) {}
 
@@ -53,8 +53,8 @@ class LiveSource : public WrenchSource {
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
 
-  WrenchSchedule& schedule_;
-  LimitWatch& limits_;
+  WrenchBacklog& schedule_;
+  NoForceWatch& limits_;
   FrameTouch& touch_;
   const PictureTurn& turn_;
   FrameLuma luma_;

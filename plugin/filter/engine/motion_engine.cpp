@@ -18,7 +18,7 @@ std::string MotionEngine::open(const MotionProperties& properties) {
   live_.connect(loop);
   track_.connect(loop);
   touch_.connect();
-  limit_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
+  no_force_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
   return trace_problem;
 }
 
@@ -43,7 +43,7 @@ bool MotionEngine::stop() {
 void MotionEngine::set_muted(bool muted) {
   live_.set_muted(muted);
   track_.set_muted(muted);
-  limit_watch_.set_muted(muted);
+  no_force_watch_.set_muted(muted);
   touch_.set_muted(muted);
 }
 
@@ -81,7 +81,7 @@ GstStructure* MotionEngine::stats() const {
   GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
   stats_.describe(structure);
   const std::optional<LoopSnapshot> loop = output_.snapshot();
-  describe_limits(limit_watch_.of_film(loop), limit_watch_.of_device(loop), structure);
+  describe_limits(no_force_watch_.of_film(loop), no_force_watch_.of_device(loop), structure);
   gst_structure_set(structure, "track-frames", G_TYPE_UINT64, track_.frames(), nullptr);
   touch_.describe(structure);
   output_.describe(structure);
@@ -93,7 +93,7 @@ GstStructure* MotionEngine::stats() const {
 }
 
 NoForceReason MotionEngine::no_force_reason() const {
-  return limit_watch_.first(output_.snapshot());
+  return no_force_watch_.first(output_.snapshot());
 }
 
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
@@ -112,7 +112,7 @@ void MotionEngine::restart_timing() {
     track_.restart();
     output_.set_skipped(0);
   }
-  limit_watch_.forget();
+  no_force_watch_.forget();
 }
 
 void MotionEngine::set_track(std::optional<TrackFile> track) {
@@ -144,7 +144,7 @@ bool MotionEngine::find_time(const PassingFrame& frame) {
 const FrameReport& MotionEngine::process(const PassingFrame& frame) {
   report_.begin();
   if (!find_time(frame) || !source_->take(frame, report_)) return report_;
-  report_.device_limit = limit_watch_.of_device(output_.snapshot());
+  report_.device_limit = no_force_watch_.of_device(output_.snapshot());
   if (trace_.is_open()) report_.trace_failed = !trace_.write(report_);
   if (report_.analyzed) stats_.add(report_.frame, report_.took_ns);
   return report_;

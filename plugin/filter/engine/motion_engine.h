@@ -17,10 +17,10 @@
 #include "plugin/filter/engine/track_source.h"
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/reports/frame_trace.h"
-#include "plugin/filter/reports/limit_watch.h"
 #include "plugin/filter/reports/motion_stats.h"
+#include "plugin/filter/reports/no_force_watch.h"
 #include "plugin/properties/motion_properties.h"
-#include "plugin/timing/wrench_schedule.h"
+#include "plugin/timing/wrench_backlog.h"
 
 namespace spidar {
 
@@ -102,12 +102,12 @@ class MotionEngine {
   bool find_time(const PassingFrame& frame);
 
   // These outlive the output's thread, which hands on what waits.
-  WrenchSchedule schedule_;
-  LimitWatch limit_watch_;
+  WrenchBacklog schedule_;
+  NoForceWatch no_force_watch_;
   PictureTurn turn_;
   FrameTouch touch_{output_};
-  LiveSource live_{schedule_, limit_watch_, touch_, turn_};
-  TrackSource track_{output_, schedule_, limit_watch_, touch_};
+  LiveSource live_{schedule_, no_force_watch_, touch_, turn_};
+  TrackSource track_{output_, schedule_, no_force_watch_, touch_};
   std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
   HapticOutput output_;
   // Streaming thread.

@@ -12,8 +12,8 @@
 #include "plugin/device/haptic_output.h"
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/wrench_source.h"
-#include "plugin/filter/reports/limit_watch.h"
-#include "plugin/timing/wrench_schedule.h"
+#include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/block_schedule.h"
 #include "plugin/tracks/track_file.h"
 
@@ -64,7 +64,7 @@ class TrackReplay {
 class TrackSource : public WrenchSource {
  public:
   /// All are the engine's, and outlive this. `times` knows when the sink shows a frame.
-  TrackSource(const HapticOutput& output, const WrenchSchedule& times, LimitWatch& limits,
+  TrackSource(const HapticOutput& output, const WrenchBacklog& times, NoForceWatch& limits,
               FrameTouch& touch)
       : output_(output), times_(times), limits_(limits), touch_(touch) {}
 
@@ -89,8 +89,8 @@ class TrackSource : public WrenchSource {
             int64_t running_ns, FrameReport& report);
 
   const HapticOutput& output_;
-  const WrenchSchedule& times_;
-  LimitWatch& limits_;
+  const WrenchBacklog& times_;
+  NoForceWatch& limits_;
   FrameTouch& touch_;
   BlockSchedule samples_;
   TrackReplay replay_;

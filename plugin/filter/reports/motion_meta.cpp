@@ -7,7 +7,7 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 
 #include "core/motion/objects/moving_object.h"
-#include "plugin/filter/reports/limit_watch.h"
+#include "plugin/filter/reports/no_force_watch.h"
 
 namespace spidar {
 namespace {

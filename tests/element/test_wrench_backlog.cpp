@@ -3,7 +3,7 @@
 // Wrenches that wait until the haptic loop has room for them.
 #include <gtest/gtest.h>
 
-#include "plugin/timing/wrench_schedule.h"
+#include "plugin/timing/wrench_backlog.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 
@@ -34,7 +34,7 @@ struct Schedule : testing::Test {
   }
 
   LoopDriver driver;
-  WrenchSchedule schedule;
+  WrenchBacklog schedule;
 };
 
 TEST_F(Schedule, KeepsWhatTheLoopHasNoRoomFor) {
@@ -68,7 +68,7 @@ TEST_F(Schedule, AChangeOfTheRateMovesWhatWaits) {
 
 TEST_F(Schedule, CountsWhatItRefuses) {
   constexpr size_t kRing = 256;
-  for (size_t n = 0; n < kRing + WrenchSchedule::kMostWaiting + 3; ++n) {
+  for (size_t n = 0; n < kRing + WrenchBacklog::kMostWaiting + 3; ++n) {
     add(static_cast<int64_t>(n));
   }
   EXPECT_EQ(schedule.refused(), 3u);

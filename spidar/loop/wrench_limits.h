@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The steps between a wanted wrench and the grip: finite → limit → slew → stale. Each step is a
-/// small object that can be tested alone. None of them allocates, locks or throws.
+/// The last steps of a wrench before the grip, after the vibration budget and the brake: finite →
+/// limit → slew → stale. Each step is a small object that can be tested alone. None of them
+/// allocates, locks or throws.
 #pragma once
 
 #include <cstdint>
@@ -67,7 +68,7 @@ class StaleRamp {
 /// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
 /// that both together do not exceed that limit. A fresh command therefore changes by at most
 /// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
-class WrenchSafety {
+class WrenchLimits {
  public:
   /// Returns the wrench to apply, `dt_s` after the last call. If not `fresh`, `wanted` is ignored,
   /// and the wrench applied last ramps to exactly zero.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/reports/limit_watch.h"
+#include "plugin/filter/reports/no_force_watch.h"
 
 #include <algorithm>
 
@@ -78,38 +78,38 @@ NoForceReason NoForceHistory::limit(int64_t now_ns) const noexcept {
   return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
 }
 
-void LimitWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit) {
+void NoForceWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit) {
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.add(shown_ns, size_N(wrench), limit);
   newest_ns_ = shown_ns;
 }
 
-void LimitWatch::forget() {
+void NoForceWatch::forget() {
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.forget();
   newest_ns_ = 0;
 }
 
-void LimitWatch::set_muted(bool muted) {
+void NoForceWatch::set_muted(bool muted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   muted_ = muted;
 }
 
-void LimitWatch::set_touching(bool touching) {
+void NoForceWatch::set_touching(bool touching) {
   const std::lock_guard<std::mutex> lock(mutex_);
   touching_ = touching;
 }
 
-void LimitWatch::set_can_touch(bool can_touch) {
+void NoForceWatch::set_can_touch(bool can_touch) {
   const std::lock_guard<std::mutex> lock(mutex_);
   can_touch_ = can_touch;
 }
 
-NoForceReason LimitWatch::film(const std::optional<LoopSnapshot>& loop) const {
+NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const {
   return frames_.limit(loop ? loop->last.running_ns : newest_ns_);
 }
 
-NoForceReason LimitWatch::device(const std::optional<LoopSnapshot>& loop) const {
+NoForceReason NoForceWatch::device(const std::optional<LoopSnapshot>& loop) const {
   if (!loop) return NoForceReason::kNoDevice;
   const NoForceReason reason = limit_of_device(*loop, muted_);
   if (reason != NoForceReason::kNone) return reason;
@@ -120,17 +120,17 @@ NoForceReason LimitWatch::device(const std::optional<LoopSnapshot>& loop) const 
   return was_due && is_late(*loop) ? NoForceReason::kLate : NoForceReason::kNone;
 }
 
-NoForceReason LimitWatch::of_film(const std::optional<LoopSnapshot>& loop) const {
+NoForceReason NoForceWatch::of_film(const std::optional<LoopSnapshot>& loop) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return film(loop);
 }
 
-NoForceReason LimitWatch::of_device(const std::optional<LoopSnapshot>& loop) const {
+NoForceReason NoForceWatch::of_device(const std::optional<LoopSnapshot>& loop) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return device(loop);
 }
 
-NoForceReason LimitWatch::first(const std::optional<LoopSnapshot>& loop) const {
+NoForceReason NoForceWatch::first(const std::optional<LoopSnapshot>& loop) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const NoForceReason of_device = device(loop);
   if (touching_) return of_device;

@@ -19,7 +19,7 @@ namespace spidar {
 /// Turns the running times of an element into those of the sink behind it, and hands the wrenches
 /// to the haptic loop. What the loop has no room for waits here: seconds of frames between the
 /// element and the sink, or a long ts-offset. Thread-safe; without a loop everything is forgotten.
-class WrenchSchedule {
+class WrenchBacklog {
  public:
   /// More than waits for any sink: a quarter of an hour at 60 frames/s. What comes then is refused.
   static constexpr size_t kMostWaiting = 1 << 16;

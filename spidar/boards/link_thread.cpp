@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/boards/board_link.h"
+#include "spidar/boards/link_thread.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -48,22 +48,22 @@ ExchangeStatus status_of(LinkFault fault) noexcept {
 }  // namespace
 
 template <typename Output, typename Reading>
-BoardLink<Output, Reading>::BoardLink(BoardOf<Output, Reading>& board,
-                                      const BoardSettings& settings)
+LinkThread<Output, Reading>::LinkThread(BoardOf<Output, Reading>& board,
+                                        const BoardSettings& settings)
     : board_(board), settings_(settings) {
   sem_init(&requested_, 0, 0);
   sem_init(&replied_, 0, 0);
 }
 
 template <typename Output, typename Reading>
-BoardLink<Output, Reading>::~BoardLink() {
+LinkThread<Output, Reading>::~LinkThread() {
   close();
   sem_destroy(&requested_);
   sem_destroy(&replied_);
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::open(const std::function<void()>& prepare) {
+void LinkThread<Output, Reading>::open(const std::function<void()>& prepare) {
   close();
   board_.open();
   try {
@@ -86,7 +86,7 @@ void BoardLink<Output, Reading>::open(const std::function<void()>& prepare) {
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::start() {
+void LinkThread<Output, Reading>::start() {
   stop_ = false;
   thread_ = start_thread("spidar-link", [this] {
     request_exact_timers();
@@ -96,7 +96,7 @@ void BoardLink<Output, Reading>::start() {
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::stop() noexcept {
+void LinkThread<Output, Reading>::stop() noexcept {
   if (!thread_.joinable()) return;
   stop_ = true;
   sem_post(&requested_);
@@ -117,7 +117,7 @@ void BoardLink<Output, Reading>::stop() noexcept {
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::run() noexcept {
+void LinkThread<Output, Reading>::run() noexcept {
   while (!stop_) {
     if (sem_wait(&requested_) != 0) continue;
     Request request;
@@ -131,21 +131,21 @@ void BoardLink<Output, Reading>::run() noexcept {
 
 /// Returns false when a connection has lost its guardian.
 template <typename Output, typename Reading>
-bool BoardLink<Output, Reading>::guarded(bool pulling) noexcept {
+bool LinkThread<Output, Reading>::guarded(bool pulling) noexcept {
   bool all = true;
   for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
   return all;
 }
 
 template <typename Output, typename Reading>
-LinkFault BoardLink<Output, Reading>::why_unguarded() const noexcept {
+LinkFault LinkThread<Output, Reading>::why_unguarded() const noexcept {
   const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
                                   [](const auto& guardian) { return guardian->zeroed(); });
   return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
 }
 
 template <typename Output, typename Reading>
-typename BoardLink<Output, Reading>::Reply BoardLink<Output, Reading>::answer(
+typename LinkThread<Output, Reading>::Reply LinkThread<Output, Reading>::answer(
     const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
@@ -166,7 +166,7 @@ typename BoardLink<Output, Reading>::Reply BoardLink<Output, Reading>::answer(
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::exchange_now(const Request& request, Reply& reply) noexcept {
+void LinkThread<Output, Reading>::exchange_now(const Request& request, Reply& reply) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
   reply.fault = board_.cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
@@ -180,14 +180,14 @@ void BoardLink<Output, Reading>::exchange_now(const Request& request, Reply& rep
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::count(LinkFault fault) noexcept {
+void LinkThread<Output, Reading>::count(LinkFault fault) noexcept {
   faults_[static_cast<size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
   if (fault != LinkFault::kNone) last_fault_.store(fault, std::memory_order_relaxed);
 }
 
 template <typename Output, typename Reading>
-ExchangeStatus BoardLink<Output, Reading>::exchange(const Output& output,
-                                                    Reading& reading) noexcept {
+ExchangeStatus LinkThread<Output, Reading>::exchange(const Output& output,
+                                                     Reading& reading) noexcept {
   if (!open_) return ExchangeStatus::kLost;
   last_ = output;
   const Request request{++number_, output};
@@ -201,7 +201,7 @@ ExchangeStatus BoardLink<Output, Reading>::exchange(const Output& output,
 /// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
 /// is none, the newest with a fault, or nothing.
 template <typename Output, typename Reading>
-std::optional<typename BoardLink<Output, Reading>::Reply> BoardLink<Output, Reading>::ask(
+std::optional<typename LinkThread<Output, Reading>::Reply> LinkThread<Output, Reading>::ask(
     const Request& request) noexcept {
   // When the queue is full, the board has not answered for some time, and this output is dropped.
   if (requests_.push(request)) sem_post(&requested_);
@@ -218,7 +218,7 @@ std::optional<typename BoardLink<Output, Reading>::Reply> BoardLink<Output, Read
 }
 
 template <typename Output, typename Reading>
-bool BoardLink<Output, Reading>::bring_to_zero() noexcept {
+bool LinkThread<Output, Reading>::bring_to_zero() noexcept {
   // What a guardian has set to zero must not be restored.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
@@ -232,7 +232,7 @@ bool BoardLink<Output, Reading>::bring_to_zero() noexcept {
 }
 
 template <typename Output, typename Reading>
-bool BoardLink<Output, Reading>::put_out_zero() noexcept {
+bool LinkThread<Output, Reading>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_.cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
@@ -247,7 +247,7 @@ bool BoardLink<Output, Reading>::put_out_zero() noexcept {
 }
 
 template <typename Output, typename Reading>
-void BoardLink<Output, Reading>::close() noexcept {
+void LinkThread<Output, Reading>::close() noexcept {
   if (!open_) return;
   open_ = false;
   stop();
@@ -261,7 +261,7 @@ void BoardLink<Output, Reading>::close() noexcept {
 }
 
 template <typename Output, typename Reading>
-LinkHealth BoardLink<Output, Reading>::health() const noexcept {
+LinkHealth LinkThread<Output, Reading>::health() const noexcept {
   LinkHealth health;
   for (size_t i = 0; i < kLinkFaults; ++i)
     health.faults[i] = faults_[i].load(std::memory_order_relaxed);
@@ -273,8 +273,8 @@ LinkHealth BoardLink<Output, Reading>::health() const noexcept {
   return health;
 }
 
-template class BoardLink<MotorVolts, DeviceReading>;
-template class BoardLink<ForceOutput, ForceReading>;
+template class LinkThread<MotorVolts, DeviceReading>;
+template class LinkThread<ForceOutput, ForceReading>;
 
 BoardDevice::BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings)
     : board_(std::move(board)), count_zero_(settings.count_zero), link_(*board_, settings) {}

@@ -62,7 +62,7 @@ NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
 NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch);
 
 /// Thread-safe. `loop` is nothing while no device is open.
-class LimitWatch {
+class NoForceWatch {
  public:
   /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
   /// for one that is too weak to feel.

@@ -16,10 +16,10 @@
 namespace spidar {
 
 /// camera and objects → the motion that is felt → filter → gain controller → wrench.
-class FrameRenderer {
+class ForceRenderer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
-  explicit FrameRenderer(const AnalyzerSettings& settings = {});
+  explicit ForceRenderer(const AnalyzerSettings& settings = {});
 
   /// See MotionAnalyzer::configure(); AnalyzerSettings::tracker does not matter here.
   void configure(const AnalyzerSettings& settings);

@@ -33,7 +33,7 @@ namespace spidar {
 ///
 /// `Output` has a function pulls(output), whether it differs from rest, and scaled(output, share).
 template <typename Output, typename Reading>
-class BoardLink {
+class LinkThread {
  public:
   /// Share of a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
@@ -44,8 +44,8 @@ class BoardLink {
   static constexpr int kRamp_ms = 20;
 
   /// `board` outlives the link. Of the settings, those of the guardian and the thread are used.
-  BoardLink(BoardOf<Output, Reading>& board, const BoardSettings& settings);
-  ~BoardLink();
+  LinkThread(BoardOf<Output, Reading>& board, const BoardSettings& settings);
+  ~LinkThread();
 
   /// `prepare` is called with the open board, under guard, before the first exchange. Throws
   /// DeviceError, and what it throws.
@@ -112,7 +112,7 @@ class BoardLink {
 /// Decides when the counts are set to zero, and leaves all else to the link.
 class BoardDevice final : public Device {
  public:
-  using Link = BoardLink<MotorVolts, DeviceReading>;
+  using Link = LinkThread<MotorVolts, DeviceReading>;
   static constexpr int64_t kReplyWait_ns = Link::kReplyWait_ns;
   static constexpr int64_t kTransfer_ns = Link::kTransfer_ns;
   static constexpr int kRamp_ms = Link::kRamp_ms;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/timing/wrench_schedule.h"
+#include "plugin/timing/wrench_backlog.h"
 
 namespace spidar {
 namespace {
@@ -10,7 +10,7 @@ constexpr size_t kHandedOn = 512;
 
 }  // namespace
 
-void WrenchSchedule::connect(HapticLoop* loop) {
+void WrenchBacklog::connect(HapticLoop* loop) {
   const std::lock_guard<std::mutex> lock(mutex_);
   loop_ = loop;
   recent_.clear();
@@ -18,7 +18,7 @@ void WrenchSchedule::connect(HapticLoop* loop) {
   refused_ = 0;
 }
 
-void WrenchSchedule::add(const TimedWrench& entry) {
+void WrenchBacklog::add(const TimedWrench& entry) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!loop_ || muted_) return;
   if (recent_.size() - handed_ == kMostWaiting) {
@@ -30,12 +30,12 @@ void WrenchSchedule::add(const TimedWrench& entry) {
   hand_on_locked();
 }
 
-void WrenchSchedule::hand_on() {
+void WrenchBacklog::hand_on() {
   const std::lock_guard<std::mutex> lock(mutex_);
   hand_on_locked();
 }
 
-void WrenchSchedule::hand_on_locked() {
+void WrenchBacklog::hand_on_locked() {
   if (!loop_) return;
   for (; handed_ < recent_.size(); ++handed_) {
     TimedWrench shown = recent_[handed_];
@@ -45,25 +45,25 @@ void WrenchSchedule::hand_on_locked() {
   for (; handed_ > kHandedOn; --handed_) recent_.pop_front();
 }
 
-void WrenchSchedule::forget() {
+void WrenchBacklog::forget() {
   const std::lock_guard<std::mutex> lock(mutex_);
   forget_locked();
 }
 
-void WrenchSchedule::forget_locked() {
+void WrenchBacklog::forget_locked() {
   recent_.clear();
   handed_ = 0;
   if (loop_) loop_->cancel_scheduled();
 }
 
-void WrenchSchedule::set_muted(bool muted) {
+void WrenchBacklog::set_muted(bool muted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (muted && !muted_) forget_locked();
   muted_ = muted;
 }
 
-void WrenchSchedule::change_rate(double multiplier, GstClockTime running_time,
-                                 GstClockTime upstream) {
+void WrenchBacklog::change_rate(double multiplier, GstClockTime running_time,
+                                GstClockTime upstream) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto skipped = static_cast<GstClockTime>(skipped_ns_);
   instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
@@ -77,32 +77,32 @@ void WrenchSchedule::change_rate(double multiplier, GstClockTime running_time,
   hand_on_locked();
 }
 
-double WrenchSchedule::rate_multiplier() const {
+double WrenchBacklog::rate_multiplier() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return instant_rate_.multiplier();
 }
 
-int64_t WrenchSchedule::at_sink_ns(int64_t running_ns) const {
+int64_t WrenchBacklog::at_sink_ns(int64_t running_ns) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return instant_rate_.at_sink(running_ns + skipped_before_ns_);
 }
 
-void WrenchSchedule::skip(GstClockTime duration) {
+void WrenchBacklog::skip(GstClockTime duration) {
   const std::lock_guard<std::mutex> lock(mutex_);
   skipped_ns_ += static_cast<int64_t>(duration);
 }
 
-int64_t WrenchSchedule::skipped_ns() const {
+int64_t WrenchBacklog::skipped_ns() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return skipped_ns_;
 }
 
-void WrenchSchedule::begin_segment() {
+void WrenchBacklog::begin_segment() {
   const std::lock_guard<std::mutex> lock(mutex_);
   skipped_before_ns_ = skipped_ns_;
 }
 
-void WrenchSchedule::restart() {
+void WrenchBacklog::restart() {
   const std::lock_guard<std::mutex> lock(mutex_);
   instant_rate_.reset();
   recent_.clear();
@@ -110,7 +110,7 @@ void WrenchSchedule::restart() {
   skipped_ns_ = skipped_before_ns_ = 0;
 }
 
-uint64_t WrenchSchedule::refused() const {
+uint64_t WrenchBacklog::refused() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return refused_;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/safety.h"
+#include "spidar/loop/wrench_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noe
   return share();
 }
 
-Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,
+Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
                            const SafetyLimits& limits) noexcept {
   slew_before_ = slew_;
   stale_before_ = stale_;
@@ -66,12 +66,12 @@ Wrench WrenchSafety::apply(const Wrench& wanted, bool fresh, double dt_s,
   return slew_.last();
 }
 
-void WrenchSafety::undo() noexcept {
+void WrenchLimits::undo() noexcept {
   slew_ = slew_before_;
   stale_ = stale_before_;
 }
 
-void WrenchSafety::reset() noexcept {
+void WrenchLimits::reset() noexcept {
   slew_.reset();
   stale_.reset();
   slew_before_ = slew_;

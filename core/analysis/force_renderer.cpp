@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/analysis/frame_renderer.h"
+#include "core/analysis/force_renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,14 +77,14 @@ void validate(const AnalyzerSettings& settings) {
   }
 }
 
-FrameRenderer::FrameRenderer(const AnalyzerSettings& settings)
+ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
     : settings_(settings), controller_(make_controller(settings.controller)) {
   validate(settings);
   choice_.set_rules(settings.feel);
   choice_.set_kept(settings.kept);
 }
 
-void FrameRenderer::configure(const AnalyzerSettings& settings) {
+void ForceRenderer::configure(const AnalyzerSettings& settings) {
   validate(settings);
   if (settings.controller.kind == settings_.controller.kind) {
     controller_->configure(settings.controller);
@@ -96,14 +96,14 @@ void FrameRenderer::configure(const AnalyzerSettings& settings) {
   choice_.set_kept(settings.kept);
 }
 
-Chosen FrameRenderer::choose(const Frame& frame, const FilmPlace& film) {
+Chosen ForceRenderer::choose(const Frame& frame, const FilmPlace& film) {
   if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
   return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
                          frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
                          frame.picture == PictureKind::kFirst, film, settings_.boxes.get()});
 }
 
-ImageMotion FrameRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,
+ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,
                                             const Chosen& choice) const {
   if (choice.is_free()) return free_motion(frame);
   if (choice.object) return motion_of(*choice.object);
@@ -121,7 +121,7 @@ ImageMotion FrameRenderer::motion_of_choice(const Frame& frame, const FilmPlace&
   return {};
 }
 
-ImageMotion FrameRenderer::free_motion(const Frame& frame) const {
+ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
   switch (settings_.motion) {
     case MotionKind::kMean:
       return frame.mean;
@@ -141,12 +141,12 @@ ImageMotion FrameRenderer::free_motion(const Frame& frame) const {
   return object ? motion_of(*object) : ImageMotion();
 }
 
-void FrameRenderer::restart() {
+void ForceRenderer::restart() {
   controller_->reset();
   choice_.reset();
 }
 
-void FrameRenderer::render(Frame& frame, const FilmPlace& film) {
+void ForceRenderer::render(Frame& frame, const FilmPlace& film) {
   const Chosen choice = choose(frame, film);
   frame.choice = choice;
   frame.choice.object = nullptr;
