@@ -35,7 +35,8 @@ class Inspected(gst_case.GstCase):
         new = values()
         self.assertEqual(sorted(element.get_preset_names()), ["film", "gentle", "paper"])
         self.assertTrue(element.load_preset("paper"))
-        self.assertEqual(values(), {**new, "motion": 0, "filter-min-cutoff": 0})
+        self.assertEqual(values(), {**new, "motion": 0, "alpha": 0.01, "depth-gain": 0, "roll-gain": 0,
+                                    "filter-min-cutoff": 0})
         self.assertTrue(element.load_preset("gentle"))
         self.assertEqual(values(), {**new, "max-force": 1})
         self.assertTrue(element.load_preset("film"))
