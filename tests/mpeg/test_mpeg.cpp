@@ -46,6 +46,11 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// For the shell; none of the paths here contains a quotation mark.
+std::string quoted(const std::string& text) {
+  return "'" + text + "'";
+}
+
 double largest_difference(const std::vector<TrackSample>& a, const std::vector<TrackSample>& b) {
   double largest = 0;
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
