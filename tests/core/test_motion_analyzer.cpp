@@ -124,14 +124,14 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
     EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
 
     // Exactly eq. 15 of the velocity reported.
-    NonlinearController controller(3.0, 0.01);
+    NonlinearController controller(3.0, 0.0025);
     const Wrench expected = render_motion(
         controller, kReferenceHeight_px / size.height * analysis.motion.velocity_px_s);
     EXPECT_EQ(analysis.wrench.stacked(), expected.stacked());
 
     // 0.01 · 480 px in 40 ms: 120 px/s of the reference frame. No slope of eq. 15 is above that at
     // 0.
-    const double slope_N_s_px = 2 * 3.0 / M_PI * 0.01;
+    const double slope_N_s_px = 2 * 3.0 / M_PI * 0.0025;
     EXPECT_NEAR(analysis.wrench.force_N.x(), controller.force_N(120),
                 slope_N_s_px * tolerance_px_s * kReferenceHeight_px / size.height)
         << size.width << "x" << size.height;
@@ -279,7 +279,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   settings.controller.kind = ControllerKind::kNonlinear;
   analyzer.configure(settings);
   const Frame nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
-  NonlinearController controller(1.0, 0.01);
+  NonlinearController controller(1.0, 0.0025);
   EXPECT_EQ(nonlinear.wrench.stacked(),
             render_motion(controller, kReferenceHeight_px / 360 * nonlinear.motion.velocity_px_s)
                 .stacked());

@@ -29,6 +29,7 @@ constexpr double kMean_px = 0.03;
 AnalyzerSettings with(MotionKind kind) {
   AnalyzerSettings settings;
   settings.motion = kind;
+  settings.controller.alpha_s_px = 0.01;  // so steep that these motions give most of the force
   return settings;
 }
 

@@ -218,7 +218,7 @@ TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
 }
 
 TEST_F(DeviceTest, ALowerMaxForceHoldsWithTheNextTickAndNeedsNoFrame) {
-  open("device=sim");
+  open("device=sim alpha=0.01");
   play();
   for (int n = 0; n < 5; ++n) {
     push_next();
@@ -243,7 +243,7 @@ TEST_F(DeviceTest, MaxForceOfAClosedElementHoldsWhenItOpens) {
 }
 
 TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
-  open("device=sim");
+  open("device=sim alpha=0.01");
   play();
   const auto play_frame = [&] {
     push_next();
@@ -273,7 +273,7 @@ TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
 }
 
 TEST_F(DeviceTest, ASlightlyLateFrameLeavesNoDipAndAMissingOneEndsIn50ms) {
-  open("device=sim");
+  open("device=sim alpha=0.01");
   play();
   // Live and without latency: each frame is analysed when it is due, or up to 8 ms later.
   const int late_ms[] = {0, 0, 0, 0, 0, 0, 8, 1, 0, 6, 8, 0};

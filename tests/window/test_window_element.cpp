@@ -136,7 +136,7 @@ TEST_F(WindowElement, TheWindowIsWhatThePropertySaysWhoeverSetsIt) {
 }
 
 TEST_F(WindowElement, AWindowSystemThatHangsHoldsUpNothing) {
-  open("device=sim debug-window=true");
+  open("device=sim debug-window=true alpha=0.01");
   look(*window());
   display->freeze();
   // The window waits for the X server as soon as the socket between them is full.
