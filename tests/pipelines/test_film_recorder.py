@@ -104,9 +104,9 @@ class FilmRecorder(track_case.TrackCase):
             "ffmpeg -nostdin -v error -y -i stored.mp4 -c copy -metadata:s:v rotate=90 turned.mp4; "
             "ffmpeg -nostdin -v error -y -i turned.mp4 -c:v libx264 -metadata:s:v rotate=0 upright.mp4")
         for film in ("stored", "turned", "upright"):
-            self.spidartrack("record", "--format", "wav", film + ".mp4", "--", "motion=mean")
+            self.spidartrack("record", "--format", "wav", film + ".mp4", "--", "motion=mean", "alpha=0.01")
         self.gst("filesrc location=turned.mp4 ! decodebin ! videoconvert ! videoflip video-direction=auto ! spidarmotion "
-                 "motion=mean device=none attach-meta=true ! spidarextract name=x x.wrench ! wavenc ! "
+                 "motion=mean alpha=0.01 device=none attach-meta=true ! spidarextract name=x x.wrench ! wavenc ! "
                  "filesink location=flipped.mp4.haptic.wav")
         felt = {film: self.samples(film + ".mp4.haptic.wav")[1800]
                 for film in ("stored", "turned", "upright", "flipped")}

@@ -100,7 +100,7 @@ class Properties(ElementCase):
         return [getattr(value, "value_nick", value) for value in read]
 
     def test_defaults_are_the_documented_ones(self):
-        defaults = {"device": "sim", "profile": None, "max-force": 3, "alpha": .01, "motion": "object", "pointer": "0.5,0.5",
+        defaults = {"device": "sim", "profile": None, "max-force": 3, "alpha": .0025, "motion": "object", "pointer": "0.5,0.5",
                     "filter-min-cutoff": 1, "filter-beta": .08, "ts-offset": 0, "qos": False, "touch": "off",
                     "touch-relief": 8, "touch-stiffness": 500, "touch-friction": .3, "touch-texture": 0, "motion-share": 0}
         self.assertEqual(self.values(make(), defaults), list(defaults.values()))

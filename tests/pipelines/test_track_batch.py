@@ -45,7 +45,7 @@ class Batch(track_case.TrackCase):
         self.assertEqual(len(self.samples("a film.avi.haptic.flac")), 2000)
         track = self.samples("b.avi.haptic.flac")
         self.assertEqual(len(track), 1000)
-        self.assertGreater(max(abs(sample[0]) for sample in track), .1)
+        self.assertGreater(max(abs(sample[0]) for sample in track), .05)
         before = os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns
         self.assertIn("is there", self.spidartrack("record", "a film.avi", "b.avi"))
         self.assertEqual(os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns, before)
@@ -211,9 +211,9 @@ class Batch(track_case.TrackCase):
             self.spidartrack("record", "x.avi", "--format", name, "--", "max-force=2", "motion=camera")
             self.assert_said("was recorded with max-force=2 motion=camera, and not with the defaults", "record", "x.avi",
                              "--format", name)
-        # The last one of a name counts, and 0.01 is the default.
+        # The last one of a name counts, and 0.0025 is the default.
         self.assertIn("is there", self.spidartrack("record", "x.avi", "--", "motion=mean", "motion=camera",
-                                                   "max_force=2.0", "alpha=0.01"))
+                                                   "max_force=2.0", "alpha=0.0025"))
         self.assert_said("and not with alpha=0.02", "record", "x.avi", "--", "alpha=0.02")
         self.spidartrack("record", "--force", "x.avi")
         self.assertIn("is there", self.spidartrack("record", "x.avi"))
