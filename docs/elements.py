@@ -31,9 +31,10 @@ DOCS = Path(__file__).resolve().parent
 WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
 ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0 unless it is told another one, and the plugin has the version of "
          "the project: ask with `--atleast-version=0.1`. Players ask for no version.\n")
-PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`gst_preset_load_preset()`), which set motion, "
-           "controller, filter, gains and largest force. GStreamer finds them where its own data are, and in "
-           "`GST_PRESET_PATH`.\n")
+PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, "
+           "`gst_preset_load_preset()`), which set motion, controller, filter, gains and largest force. GStreamer finds "
+           "them where its own data are, and in `GST_PRESET_PATH`. In a launch line, a preset replaces what the line sets, "
+           "`max-force`, too, wherever it stands.\n")
 CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only. "
            "*Controllable* means that a `GstControlSource` can drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",

@@ -75,7 +75,7 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZer
   ChosenDevice chosen;
   chosen.board = board_info(options.device);
   const bool named = !options.profile.empty() || !chosen.board.profile.empty();
-  if (named || motors == Motors::kPulled)
+  if ((named && motors != Motors::kZeroed) || motors == Motors::kPulled)
     chosen.profile = profile_for(options.device, options.profile);
   else
     chosen.profile = to_read_only(chosen.board);

@@ -72,6 +72,7 @@ void add_profile_file(CLI::App& app, const std::string& name, std::string& file,
 /// What a command does with the motors.
 enum class Motors {
   kOff,     ///< they stay at zero, so no profile is needed
+  kZeroed,  ///< they are set to zero, and no profile may stand in the way, named or remembered
   kPulled,  ///< a real board needs a profile that somebody named
 };
 

@@ -40,7 +40,7 @@ int rest(const RestOptions& options) {
 }
 
 int zero(const DeviceOptions& options) {
-  ChosenDevice chosen = choose_device(options, Motors::kOff);
+  ChosenDevice chosen = choose_device(options, Motors::kZeroed);
   bool answered = false;
   if (chosen.grip) {
     ForceHold hold(*chosen.grip, every_millisecond());
@@ -179,7 +179,9 @@ void add_zero(Program& program) {
   add_device(app, options);
   app.footer(
       "Sets every motor to zero volts at once. This is useful because a board keeps its last\n"
-      "value when the program that drove it has ended.");
+      "value when the program that drove it has ended. No profile is needed: one that is named "
+      "with\n"
+      "--profile or was chosen for the board is not read.");
 }
 
 void add_pull(Program& program) {

@@ -106,7 +106,10 @@ Wording wording(NoForceReason limit) noexcept {
               "The frames come too late: their force is known only after they should have been "
               "shown."};
     case NoForceReason::kNoDevice:
-      return {"no-device", "No device is open: with device=none the video is only analysed."};
+      return {
+          "no-device",
+          "No device is open: device=none was set, or a warning has said why the device gives no "
+          "force."};
   }
   return {"unknown", ""};
 }
