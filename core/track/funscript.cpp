@@ -44,8 +44,9 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
   }
   const bool inverted = root.value("inverted", Json(false)) == Json(true);
   constexpr double kPercent = 100;
-  const double used =
-      root.contains("range") ? number(root, "range", kPercent, "the script") / kPercent : 1;
+  const double range =
+      root.contains("range") ? number(root, "range", kPercent, "the script") : kPercent;
+  const double used = range > 0 ? range / kPercent : 1;
   std::vector<Action> found;
   for (size_t i = 0; i < actions->size(); ++i) {
     const std::string where = "actions[" + std::to_string(i) + "]";

@@ -33,8 +33,10 @@ constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;
 
 /// Samples, 1000 a second, of straight lines between the positions, in `channel`; the others are 0.
 /// Before the first position they are 0, too. "range" is the percentage of the full scale that is
-/// used, about the middle. Throws FunscriptError: not JSON, no actions, a position or range that is
-/// not from 0 to 100, or a time that does not rise or is too late.
+/// used: launchcontrol, the player that the format comes from, scales the positions by it, and its
+/// usual limits put them about the middle. As there, 0 and a script without it stand for all.
+/// Throws FunscriptError: not JSON, no actions, a position or range that is not from 0 to 100, or a
+/// time that does not rise or is too late.
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
                                         size_t most_samples = kMostFunscriptSamples);
 

@@ -70,6 +70,10 @@ TEST(Funscript, OnlyTheRangeIsUsed) {
       read_funscript(R"({"range":80,"actions":[{"at":0,"pos":0},{"at":1,"pos":100}]})", 1);
   EXPECT_FLOAT_EQ(read[0][1], -0.8F);
   EXPECT_FLOAT_EQ(read[1][1], 0.8F);
+  const auto all =
+      read_funscript(R"({"range":0,"actions":[{"at":0,"pos":0},{"at":1,"pos":75}]})", 1);
+  EXPECT_FLOAT_EQ(all[0][1], -1);
+  EXPECT_FLOAT_EQ(all[1][1], 0.5F);
 }
 
 TEST(Funscript, ExtremesAreClipped) {
