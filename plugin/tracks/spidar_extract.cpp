@@ -56,9 +56,9 @@ struct _GstSpidarExtract {
   // Streaming thread.
   TrackStream* track;
   GstFlowCombiner* flows;
-  guint without_meta;  // how many frames in succession
-  gboolean warned;     // about them
-  gint told;           // atomic: of sinks that wait for each other
+  gint without_meta;  // atomic: how many frames in succession
+  gint warned;        // atomic: about them
+  gint told;          // atomic: of sinks that wait for each other
 };
 
 static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -98,6 +98,36 @@ static GstFlowReturn combined(GstSpidarExtract* self, GstPad* pad, GstFlowReturn
   return gst_flow_combiner_update_pad_flow(self->flows, pad, flow);
 }
 
+static bool is_motion(GstElement* element) {
+  return g_strcmp0(G_OBJECT_TYPE_NAME(element), "GstSpidarMotion") == 0;
+}
+
+static bool is_silent_motion(GstElement* element) {
+  gboolean attaches = TRUE;
+  if (is_motion(element)) g_object_get(element, "attach-meta", &attaches, nullptr);
+  return !attaches;
+}
+
+/// Once, that frames have no data, and what is wrong with the pipeline.
+static void warn_of_data(GstSpidarExtract* self) {
+  if (g_atomic_int_exchange(&self->warned, TRUE)) return;
+  const char* why = "there is no spidarmotion in front of spidarextract";
+  if (spidar::is_upstream(self->sink, is_silent_motion)) {
+    why = "spidarmotion has attach-meta=false";
+  } else if (spidar::is_upstream(self->sink, is_motion)) {
+    why = "what is between spidarmotion and spidarextract takes it away";
+  } else if (!spidar::find_path_downstream(self->src, is_motion).empty()) {
+    why = "spidarmotion is behind spidarextract, and belongs in front of it";
+  }
+  GST_ELEMENT_WARNING(
+      self, STREAM, FORMAT,
+      ("Frames come without the data of spidarmotion, and the haptic track is silent where they "
+       "do: %s. Right is: … ! spidarmotion attach-meta=true ! spidarextract name=x x.src ! queue ! "
+       "VIDEOSINK x.wrench ! …",
+       why),
+      (nullptr));
+}
+
 /// So much of a stream a queue takes by default. A video sink that has not taken the first picture
 /// by then, while the pipeline waits for its sinks, waits for that of the track.
 static constexpr GstClockTime kQueue = GST_SECOND;
@@ -107,7 +137,12 @@ static gboolean tell_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(user);
   const spidar::Ref<GstObject> pipeline = spidar::root_of(self);
   const bool waits = GST_STATE_PENDING(pipeline.get()) != GST_STATE_VOID_PENDING;
-  if (!waits || g_atomic_int_exchange(&self->told, TRUE)) return TRUE;
+  if (!waits) return TRUE;
+  if (g_atomic_int_get(&self->without_meta) > 0) {
+    warn_of_data(self);  // whose pipeline has the queue, too
+    return TRUE;
+  }
+  if (g_atomic_int_exchange(&self->told, TRUE)) return TRUE;
   GST_ELEMENT_WARNING(
       self, STREAM, FAILED,
       ("The sink of the video waits for that of the haptic track, which gets nothing as long as "
@@ -136,15 +171,10 @@ static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuf
   // No warning for a frame without a picture, nor for a single one: when two frames have the same
   // time, spidarmotion analyses only the first, and says so.
   const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
-  self->without_meta = is_missing ? self->without_meta + 1 : 0;
-  if (self->without_meta == 2 && !self->warned) {
-    self->warned = TRUE;
-    GST_ELEMENT_WARNING(
-        self, STREAM, FORMAT,
-        ("Frames come without the data of spidarmotion: the haptic track is silent "
-         "where they do."),
-        ("Put 'spidarmotion attach-meta=true' in front of spidarextract, and nothing "
-         "that cuts or turns the picture between them."));
+  if (!is_missing) {
+    g_atomic_int_set(&self->without_meta, 0);
+  } else if (g_atomic_int_add(&self->without_meta, 1) == 1) {
+    warn_of_data(self);
   }
   const GstFlowReturn track_flow = self->track->add(frame);
   combined(self, self->wrench, track_flow);
@@ -239,9 +269,8 @@ static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
                                                             GstStateChange transition) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    self->warned = FALSE;
-    self->without_meta = 0;
-    g_atomic_int_set(&self->told, FALSE);
+    for (gint* value : {&self->without_meta, &self->warned, &self->told})
+      g_atomic_int_set(value, 0);
   }
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);

@@ -51,6 +51,37 @@ class Extract(gst_case.GstCase):
         self.assertEqual(told.type, Gst.MessageType.WARNING)
         self.assertIn("put a queue between spidarextract and the sink of the video", told.parse_warning()[0].message)
 
+    def test_what_is_wrong_with_the_order_is_told(self):
+        for line, why in (("spidarextract name=x ! spidarmotion device=none ! fakesink x.wrench ! fakesink",
+                           "spidarmotion is behind spidarextract, and belongs in front of it"),
+                          ("spidarmotion device=none ! spidarextract name=x ! fakesink x.wrench ! fakesink",
+                           "spidarmotion has attach-meta=false"),
+                          ("spidarextract name=x ! queue ! fakesink x.wrench ! fakesink",
+                           "there is no spidarmotion in front of spidarextract")):
+            pipeline = self.parse("videotestsrc ! video/x-raw,width=160,height=120,framerate=25/1 ! " + line)
+            pipeline.set_state(Gst.State.PLAYING)
+            told = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, gst_case.ENDS | Gst.MessageType.WARNING)
+            self.assertEqual(told.type, Gst.MessageType.WARNING)
+            message = told.parse_warning()[0].message
+            self.assertIn(f"silent where they do: {why}. Right is: … ! spidarmotion attach-meta=true ! spidarextract",
+                          message)
+            pipeline.set_state(Gst.State.NULL)
+
+    def test_a_trace_is_the_file_of_one_element(self):
+        def trace(of):
+            return f"spidarmotion device=none trace={self.path(of)}"
+
+        film = "videotestsrc num-buffers=10 ! video/x-raw,width=64,height=48,framerate=25/1 ! "
+        outcome = self.play(f"{film} {trace('a.csv')} ! {trace('a.csv')} ! {trace('B.JSONL')} ! fakesink")
+        self.assertTrue(outcome.eos, outcome.error)
+        self.assertEqual(outcome.warnings, [f"Cannot write the trace '{self.path('a.csv')}': another element or program "
+                                            "is writing it; each needs its own file."])
+        for name, rows in (("a.csv", 11), ("B.JSONL", 10)):
+            self.assertEqual(self.path(name).read_text().count("\n"), rows)
+        # It is free again afterwards, and begins anew.
+        self.assertEqual(self.play(f"{film} {trace('a.csv')} ! fakesink").warnings, [])
+        self.assertEqual(self.path("a.csv").read_text().count("\n"), 11)
+
     def test_nothing_is_told_behind_a_queue_or_of_a_pipeline_that_is_paused(self):
         outcome = self.play(LIVE + "x.src ! queue ! fakesink x.wrench ! fakesink")
         self.assertTrue(outcome.eos, outcome.error)

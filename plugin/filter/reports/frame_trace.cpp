@@ -7,6 +7,9 @@
 #include <cstring>
 #include <initializer_list>
 #include <string_view>
+#include <strings.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <utility>
 
 #include "core/analysis/analysis_json.h"
@@ -20,8 +23,10 @@ constexpr const char* kHeader =
     "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
     "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit\n";
 
+/// In small or capital letters.
 bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+  return text.size() >= end.size() &&
+         strncasecmp(text.data() + text.size() - end.size(), end.data(), end.size()) == 0;
 }
 
 template <typename Number>
@@ -29,6 +34,18 @@ void append(std::string& row, Number value) {
   char text[32];
   const std::to_chars_result end = std::to_chars(text, text + sizeof text, value);
   row.append(text, end.ptr).push_back(',');
+}
+
+/// Empties the file, which is this trace's until it is closed. Empty string, or the reason why that
+/// is not possible. Devices and pipes may have several writers, and some network file systems have
+/// no locks.
+std::string claim(int opened) {
+  struct stat status {};
+  if (fstat(opened, &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return "another element or program is writing it; each needs its own file";
+  }
+  return ftruncate(opened, 0) == 0 ? std::string() : std::strerror(errno);
 }
 
 }  // namespace
@@ -39,18 +56,18 @@ std::string FrameTrace::open(const std::string& path) {
   if (!is_json_ && !ends_with(path, ".csv")) {
     return "its name ends neither in .csv nor in .jsonl, which says what to write";
   }
-  const int opened = open_output(path.c_str(), O_TRUNC);
+  const int opened = open_output(path.c_str(), 0);
   if (opened < 0) return output_reason(errno);
-  file_ = fdopen(opened, "w");
-  if (!file_) {
-    const int error = errno;
+  std::string reason = claim(opened);
+  if (reason.empty() && !(file_ = fdopen(opened, "w"))) reason = std::strerror(errno);
+  if (!reason.empty()) {
     ::close(opened);
-    return std::strerror(error);
+    return reason;
   }
   line_ = is_json_ ? "" : kHeader;
   const SigpipeBlock no_sigpipe;
   if (!put() || std::fflush(file_) != 0) {
-    const std::string reason = std::strerror(errno);
+    reason = std::strerror(errno);
     close();
     return reason;
   }
