@@ -146,6 +146,7 @@ int convert_track(const ConvertOptions& options) {
   save.axis = channel_of(options.axis);
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(options.from, &condition, save.axis);
+  expect_own_track(condition);
   save.notes = condition.notes;
   const TrackSummary summary = summarise(samples);
   if (has_own_range(to, save)) {

@@ -245,12 +245,13 @@ void draw(const std::vector<TrackSample>& samples, const FilmStills& stills,
 }  // namespace
 
 int plot_track(const PlotOptions& options) {
-  const std::string ending = std::filesystem::path(options.png).extension().string();
-  if (!ending.empty() && ending != ".png") {
+  const bool has_ending = std::filesystem::path(options.png).has_extension();
+  if (has_ending && !ends_with(options.png, ".png")) {
     throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
   }
   TrackCondition condition;
   const std::vector<TrackSample> samples = load_track(options.track, &condition);
+  expect_own_track(condition);
   if (samples.empty()) throw std::runtime_error(options.track + ": has no samples to draw");
   FilmStills stills;
   if (!options.film.empty()) {

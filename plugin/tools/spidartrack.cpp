@@ -25,8 +25,8 @@ using namespace spidar;
 class CommandLine {
  public:
   CommandLine() {
-    app_.set_help_flag("-h,--help", "Explain the program, or a command, and end");
-    app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION);
+    app_.set_help_flag("-h,--help", "Explain the program or the command, and end");
+    app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION, "Print the version, and end");
     app_.require_subcommand(1);
     app_.footer("spidartrack COMMAND --help explains a command.");
     add_record();
@@ -60,47 +60,60 @@ class CommandLine {
   }
 
   void add_record() {
-    CLI::App* const app = add("record", "record the haptic tracks of films, into files beside them",
+    CLI::App* const app = add("record", "analyse films and write their haptic tracks beside them",
                               &CommandLine::record);
     record_.jobs = usable_processors();
     app->footer(
-        "Analyses films, or all films in a folder and below, the largest first, as fast as they "
-        "can\n"
-        "be decoded, and writes the haptic track of FILM.mp4 beside it, as FILM.mp4.haptic.flac. "
-        "A\n"
-        "track that is there is left alone, so that the command goes on where it was interrupted; "
-        "if\n"
-        "it is that of another film, or was recorded with other properties, that is an error.\n"
-        "Properties of spidarmotion that change the force follow --: -- motion=camera max-force=2");
-    app->add_option("FILM", films_, "films, and folders of films")->required();
-    app->add_option("-j,--jobs", record_.jobs, "films at a time; as many as processors may be used")
-        ->check(number(1, 1024));
-    app->add_option("--folder", record_.folder,
-                    "where tracks are written, those of a folder in the same subfolders");
-    app->add_option("--format", record_.format, "flac (24 bits), mka or wav (both F32)")
-        ->check(CLI::IsMember({"flac", "mka", "wav"}));
+        R"(Writes the haptic track of FILM.mp4 as FILM.mp4.haptic.flac, as fast as the film can be
+decoded. A folder stands for all films in it and below it, the largest first.
+
+A film that has a track is left out, so that a command that was interrupted goes on when it
+is given again. A track of another film, or one that was recorded with other properties, is
+an error; --force replaces it.
+
+Properties of spidarmotion that change the force come last, after two dashes:
+  spidartrack record FILM.mp4 -- motion=camera max-force=2)");
+    app->add_option("FILM", films_, "films, and folders of films")->required()->type_name("");
+    app->add_option("-j,--jobs", record_.jobs,
+                    "how many films at a time; default: as many as processors may be used")
+        ->check(number(1, 1024))
+        ->type_name("N");
     app->add_option(
-        "--manifest", record_.manifest,
-        "a file that gets a line of JSON for each film: result, duration, felt share …");
-    app->add_flag("--force", record_.force, "also those that are there");
+           "--folder", record_.folder,
+           "the folder that tracks are written into; films in subfolders get the same ones")
+        ->type_name("FOLDER");
+    app->add_option("--format", record_.format,
+                    "flac (24 bits, the default), mka or wav (both 32-bit floating point)")
+        ->check(CLI::IsMember({"flac", "mka", "wav"}))
+        ->type_name("FORMAT");
+    app->add_option("--manifest", record_.manifest,
+                    "append a line of JSON to this file for each film: what became of it, and what "
+                    "is in its track")
+        ->type_name("FILE");
+    app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
   }
   int record() {
     set_films(record_, films_, properties_);
     return record_films(record_);
   }
 
+  /// The argument of commands that read a track.
+  static void add_track(CLI::App* app, const char* name, std::string& path) {
+    app->add_option(name, path, "a haptic track, or a film with one inside it or beside it")
+        ->required()
+        ->type_name("");
+  }
+
   void add_info() {
-    CLI::App* const app = add("info", "print the length and size of a track", &CommandLine::info);
+    CLI::App* const app =
+        add("info", "print how long and how strong a track is", &CommandLine::info);
     app->footer(
-        "Of a film: whether a haptic track is inside it or beside it, and belongs to it; then as "
-        "of\n"
-        "the track: how long it is, and how large: largest force and torque, steepest change, "
-        "peak\n"
-        "and mean square of each channel in shares of the full scale (10 N, 1 N m), and how much "
-        "of\n"
-        "its energy is above 30 Hz.");
-    app->add_option("TRACK", info_.path, "a track, or a film")->required();
-    app->add_flag("--json", info_.json, "as JSON");
+        R"(Prints the length of the track, its largest force and torque and their steepest change; and
+of each channel the peak and the root mean square, as shares of the full scale (10 N, 1 N m),
+and the share of its energy above 30 Hz. Of a film, also where its track is, and whether it
+is that of this film.)");
+    add_track(app, "TRACK", info_.path);
+    app->add_flag("--json", info_.json, "print it as JSON");
   }
   int info() { return print_info(info_); }
 
@@ -108,54 +121,60 @@ class CommandLine {
     CLI::App* const app =
         add("check", "report what in a track cannot be felt as it is", &CommandLine::check);
     app->footer(
-        "Whether nothing is missing at its end, all samples are numbers, none is beyond full "
-        "scale,\n"
-        "and force and torque stay below the limits and change no faster than 300 N/s; and how "
-        "much\n"
-        "of it is felt. What a device gives is within its limits in any case. A tenth of the "
-        "energy\n"
-        "of a channel above 30 Hz is no motion of a film. Exit status 1, and a line for each "
-        "thing\n"
-        "that is wrong.");
-    app->add_option("TRACK", check_.track)->required();
-    app->add_option("--max-force", check_.max_force_N, "in N; 3 as of spidarsink")
-        ->check(number(0, 20, " N"));
-    app->add_option("--max-torque", check_.max_torque_Nm, "in N m; 0.1 as of spidarsink")
-        ->check(number(0, 1, " N m"));
+        R"(Reports a track that is cut off, samples that are not numbers or beyond the full scale, force
+and torque above the limits, force that changes by more than 300 N/s, a channel with more than
+a tenth of its energy above 30 Hz, which is no motion of a film, and a track in which nothing
+is felt. The exit status is then 1. Playing such a track is safe: a device keeps its limits
+in any case. Also prints how much of the track is felt.)");
+    add_track(app, "TRACK", check_.track);
+    app->add_option("--max-force", check_.max_force_N,
+                    "largest force, in N; default: 3, as spidarsink has")
+        ->check(number(0, 20, " N"))
+        ->type_name("N");
+    app->add_option("--max-torque", check_.max_torque_Nm, "largest torque, in N m; default: 0.1")
+        ->check(number(0, 1, " N m"))
+        ->type_name("NM");
   }
   int check() { return check_track(check_); }
 
   void add_convert() {
-    CLI::App* const app = add("convert", "convert between FLAC, Matroska, WAV, HJIF and funscript",
-                              &CommandLine::convert);
-    app->footer(
-        "FROM is a track in FLAC, Matroska, WAV or another container, in HJIF (.hjif), or a\n"
-        "funscript. TO is what its name ends in: .flac, .mka, .wav, .hjif, .ahap (a vibration for\n"
-        "telephones) or .funscript; a file of this name is replaced\n"
-        "when the new one is complete. What TO cannot hold is printed.");
-    app->add_option("FROM", convert_.from)->required();
-    app->add_option("TO", convert_.to)->required();
-    app->add_option("--axis", convert_.axis, "of a funscript, and with --rate; fy")
-        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}));
+    CLI::App* const app =
+        add("convert", "convert a track into another format", &CommandLine::convert);
+    app->footer(R"(The formats follow from how the names end:
+  .flac .mka .wav  sound of six channels; also read from other containers and from films
+  .hjif            MPEG's format for haptics
+  .funscript       one channel as the positions of a linear device
+  .ahap            a vibration as strong as the force, for telephones; not read
+With --rate, .flac, .mka and .wav are sound of one channel, for bass shakers. An existing TO
+is replaced when the new file is complete. Prints what TO cannot hold.)");
+    add_track(app, "FROM", convert_.from);
+    app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
+    app->add_option("--axis", convert_.axis,
+                    "the channel of a funscript or with --rate: fx, fy (default), fz, tx, ty or tz")
+        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}))
+        ->type_name("CHANNEL");
     app->add_option("--rate", convert_.save.rate_Hz,
-                    "sound with this channel alone, in Hz, as for a bass shaker: 48000")
-        ->check(number(1000, 192000, " Hz"));
+                    "write sound of one channel, with so many samples a second, such as 48000")
+        ->check(number(1000, 192000, " Hz"))
+        ->type_name("HZ");
     app->add_option("--gain", convert_.gain,
-                    "of a funscript, AHAP and sound with --rate; so much that the largest value of "
-                    "the track fills the range")
-        ->check(number(1e-3, 1e6));
+                    "factor for a funscript, AHAP or --rate; default: the largest value of the "
+                    "track fills the range")
+        ->check(number(1e-3, 1e6))
+        ->type_name("FACTOR");
     app->add_option("--tolerance", convert_.save.tolerance,
-                    "share of the full scale by which curves may differ between their points: HJIF "
-                    "0.0004, AHAP 0.02, funscript 0.01")
-        ->check(number(0, 1));
+                    "largest error of curves, as a share of the full scale; default: 0.0004 for "
+                    "HJIF, 0.02 for AHAP, 0.01 for a funscript")
+        ->check(number(0, 1))
+        ->type_name("SHARE");
   }
   int convert() { return convert_track(convert_); }
 
   void add_plot() {
-    CLI::App* const app = add("plot", "draw a picture of a track", &CommandLine::plot);
-    app->footer("Draws force and torque over time. Needs gnuplot.");
-    app->add_option("TRACK", plot_.track)->required();
-    app->add_option("PNG", plot_.png)->required();
+    CLI::App* const app = add("plot", "draw force and torque over time", &CommandLine::plot);
+    app->footer("Needs gnuplot.");
+    add_track(app, "TRACK", plot_.track);
+    app->add_option("PNG", plot_.png, "the picture to write")->required()->type_name("");
     app->add_option("--film", plot_.film,
                     "draws stills of the film above, each over the moment it shows, which a dotted "
                     "line marks");

@@ -4,15 +4,11 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "core/force/felt_force.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
-#include "plugin/tracks/film_reader.h"
-#include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -21,36 +17,7 @@ namespace {
 constexpr double kMaxSlew_N_s = 300;
 constexpr double kMostFast = 0.1;
 
-/// A film that was given instead of a track.
-struct FilmOfTrack {
-  std::string film;   ///< empty: a track was given
-  std::string track;  ///< the film itself when the track is inside it
-  std::string other;  ///< why the track is that of another film; empty when it is not
-};
-
-/// Throws std::runtime_error when `path` is a film without a track.
-FilmOfTrack find_track(const std::string& path) {
-  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript"}) {
-    if (ends_with(path, end)) return {{}, path, {}};
-  }
-  Film film;
-  try {
-    film = read_film(path);
-  } catch (const std::runtime_error&) {
-    return {{}, path, {}};  // reading the track will tell why
-  }
-  if (film.has_track) return {path, path, {}};
-  const std::string sidecar = find_sidecar(path);
-  if (sidecar.empty()) {
-    throw std::runtime_error(path + ": is a film without a haptic track, inside it or beside it; " +
-                             "spidartrack record makes one");
-  }
-  const TrackFile track = read_track_file(sidecar);
-  return {path, sidecar, match_film(film, track.duration_ns, track.notes).problem};
-}
-
-void print_json(const FilmOfTrack& found, size_t count, const TrackFaults& faults,
-                const TrackSummary& summary) {
+void print_json(const TrackCondition& found, size_t count, const TrackSummary& summary) {
   nlohmann::ordered_json info;
   if (!found.film.empty()) info = {{"film", found.film}, {"belongs", found.other.empty()}};
   info["track"] = found.track;
@@ -60,8 +27,8 @@ void print_json(const FilmOfTrack& found, size_t count, const TrackFaults& fault
   info["largest_force_N"] = summary.largest_force_N;
   info["largest_torque_Nm"] = summary.largest_torque_Nm;
   info["steepest_N_s"] = summary.steepest_N_s;
-  info["not_finite"] = faults.not_finite;
-  info["beyond_full_scale"] = faults.beyond_full;
+  info["not_finite"] = found.faults.not_finite;
+  info["beyond_full_scale"] = found.faults.beyond_full;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const ChannelSummary& channel = summary.channels[i];
     info["channels"][channel_name(i)] = {
@@ -74,25 +41,22 @@ void print_json(const FilmOfTrack& found, size_t count, const TrackFaults& fault
 }  // namespace
 
 int print_info(const InfoOptions& options) {
-  const FilmOfTrack found = find_track(options.path);
-  const std::string& path = found.track;
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(path, &condition);
-  const TrackFaults& faults = condition.faults;
+  TrackCondition found;
+  const std::vector<TrackSample> samples = load_track(options.path, &found);
   const TrackSummary summary = summarise(samples);
   if (options.json) {
-    print_json(found, samples.size(), faults, summary);
+    print_json(found, samples.size(), summary);
     return kDone;
   }
   if (!found.film.empty()) {
     std::cout << found.film << ": the haptic track is "
-              << (found.film == path ? "inside the film" : "beside the film")
+              << (found.film == found.track ? "inside the film" : "beside the film")
               << (found.other.empty() ? "" : ", but is that of another film: " + found.other)
               << '\n';
   }
-  std::cout << path << ": " << samples.size() << " samples, "
+  std::cout << found.track << ": " << samples.size() << " samples, "
             << static_cast<double>(samples.size()) / kTrackRate_Hz << " s\n"
-            << (condition.missing.empty() ? "" : condition.missing + "\n") << "largest force "
+            << (found.missing.empty() ? "" : found.missing + "\n") << "largest force "
             << summary.largest_force_N << " N, torque " << summary.largest_torque_Nm
             << " N m, steepest " << summary.steepest_N_s << " N/s\n"
             << "channel       peak        rms   above 30 Hz\n";
@@ -106,17 +70,18 @@ int print_info(const InfoOptions& options) {
 }
 
 int check_track(const CheckOptions& options) {
-  const std::string& path = options.track;
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(path, &condition);
-  const TrackFaults& faults = condition.faults;
+  TrackCondition found;
+  const std::vector<TrackSample> samples = load_track(options.track, &found);
+  const std::string& path = found.track;
+  const TrackFaults& faults = found.faults;
   const TrackSummary summary = summarise(samples);
   int problems = 0;
   const auto problem = [&problems, &path]() -> std::ostream& {
     ++problems;
     return std::cout << path << ": ";
   };
-  if (!condition.missing.empty()) problem() << condition.missing << '\n';
+  if (!found.other.empty()) problem() << "is that of another film: " << found.other << '\n';
+  if (!found.missing.empty()) problem() << found.missing << '\n';
   if (faults.not_finite > 0) problem() << faults.not_finite << " samples are not numbers\n";
   if (faults.beyond_full > 0) problem() << faults.beyond_full << " samples are beyond full scale\n";
   if (summary.largest_force_N > options.max_force_N) {
@@ -138,12 +103,15 @@ int check_track(const CheckOptions& options) {
                 << " is above 30 Hz: is it sound for ears?\n";
     }
   }
-  if (problems == 0) std::cout << path << ": ok\n";
+  const bool is_silent = summary.felt == 0 && summary.largest_torque_Nm == 0;
+  if (problems == 0 && !is_silent) std::cout << path << ": ok\n";
+  const std::string least = shown(kFeltForce_N) + " N";
   std::cout << path << ": " << std::lround(100 * summary.felt) << " % of it is felt"
-            << (summary.felt < 1 ? "; in the rest the force is below " + shown(kFeltForce_N) + " N"
-                                 : "")
+            << (is_silent          ? ": the force is below " + least + ", and there is no torque"
+                : summary.felt < 1 ? "; in the rest the force is below " + least
+                                   : "")
             << '\n';
-  return problems == 0 ? kDone : kFailed;
+  return problems == 0 && !is_silent ? kDone : kFailed;
 }
 
 }  // namespace spidar

@@ -15,7 +15,9 @@
 #include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
+#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/part_file.h"
+#include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
 
 namespace spidar {
@@ -49,6 +51,29 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
     }
   }
   return samples;
+}
+
+/// Which file has the track, and what is known of the film when `path` is one. Throws
+/// std::runtime_error when that is a film without a track.
+TrackCondition find_track(const std::string& path, Film& film) {
+  TrackCondition found;
+  found.track = path;
+  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript", ".ahap"}) {
+    if (ends_with(path, end)) return found;
+  }
+  try {
+    film = read_film(path);
+  } catch (const std::runtime_error&) {
+    return found;  // reading the track will tell why
+  }
+  found.film = path;
+  if (film.has_track) return found;
+  found.track = find_sidecar(path);
+  if (found.track.empty()) {
+    throw std::runtime_error(path + ": is a film without a haptic track, inside it or beside it; " +
+                             "spidartrack record makes one");
+  }
+  return found;
 }
 
 /// Samples in memory, 1000 a second, as a file that `elements` make of them.
@@ -104,7 +129,8 @@ void write_channels(const PartFile& part, const std::string& encoder,
 }  // namespace
 
 bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return text.size() >= end.size() &&
+         g_ascii_strcasecmp(text.c_str() + text.size() - end.size(), end.c_str()) == 0;
 }
 
 void set_location(GstElement* pipeline, const char* name, const std::string& path) {
@@ -177,17 +203,32 @@ void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime li
 
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition,
                                     size_t funscript_axis) {
-  if (condition) *condition = {};
-  if (ends_with(path, ".funscript")) return read_funscript(read_text(path), funscript_axis);
-  if (ends_with(path, ".ahap")) {
+  Film film;
+  TrackCondition found = find_track(path, film);
+  std::vector<TrackSample> samples;
+  if (ends_with(path, ".funscript")) {
+    samples = read_funscript(read_text(path), funscript_axis);
+  } else if (ends_with(path, ".ahap")) {
     throw std::runtime_error(path +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
+  } else if (ends_with(path, ".hjif")) {
+    samples = read_hjif(read_text(path));
+  } else {
+    const TrackFile track = read_track_file(found.track);
+    found.faults = track.faults;
+    found.missing = track.missing();
+    found.notes = track.notes;
+    if (found.track != path) found.other = match_film(film, track.duration_ns, track.notes).problem;
+    samples = samples_of(track);
   }
-  if (ends_with(path, ".hjif")) return read_hjif(read_text(path));
-  const TrackFile track = read_track_file(path);
-  if (condition) *condition = {track.faults, track.missing(), track.notes};
-  return samples_of(track);
+  if (condition) *condition = found;
+  return samples;
+}
+
+void expect_own_track(const TrackCondition& condition) {
+  if (condition.other.empty()) return;
+  throw std::runtime_error(condition.track + ": is that of another film: " + condition.other);
 }
 
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,

@@ -19,8 +19,11 @@
 
 namespace spidar {
 
-/// Information in a file besides its samples.
+/// What is known of a track besides its samples.
 struct TrackCondition {
+  std::string track;  ///< the file that has the samples
+  std::string film;   ///< the film that was given in its place; empty: none
+  std::string other;  ///< why the track is that of another film; empty when it is not
   TrackFaults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
   TrackNotes notes;
@@ -29,12 +32,15 @@ struct TrackCondition {
 /// The force upwards: the channel of formats that have only one.
 constexpr size_t kUsualAxis = 1;
 
-/// The format follows from the end of the name: HJIF (`.hjif`), one channel
-/// (`.funscript`), else sound of any rate that spidarsink accepts. Gaps
-/// become silence, and so do samples that are not numbers, which `condition` counts. Throws
-/// std::runtime_error.
+/// Of a track, or of a film with a track inside it or beside it. The format follows from the end of
+/// the name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
+/// accepts. Gaps become silence, and so do samples that are not numbers, which `condition` counts.
+/// Throws std::runtime_error.
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr,
                                     size_t funscript_axis = kUsualAxis);
+
+/// Throws std::runtime_error when the track is that of another film than the one that was given.
+void expect_own_track(const TrackCondition& condition);
 
 struct SaveOptions {
   std::optional<double>
@@ -81,6 +87,7 @@ void await_message(GstElement* pipeline, GstMessageType awaited,
 /// Of the source or sink `name` in a pipeline. Unlike a launch line, it takes every file name.
 void set_location(GstElement* pipeline, const char* name, const std::string& path);
 
+/// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);
 
 /// Sound that flows through a pad, as a checksum. Outlives the pipeline.

@@ -112,7 +112,8 @@ class Batch(track_case.TrackCase):
                            "gblur=2,trim=end_frame=1,loop=-1:1,setpts=N/25/TB,crop=320:240:2*n:0\" -t 2 pan.avi")
         said = self.spidartrack("record", "pan.avi")
         self.assertRegex(said, r"pan.avi.haptic.flac; \d % of its frames are felt; 9\d %: .*camera")
-        self.assertRegex(self.spidartrack("check", "pan.avi.haptic.flac"), r"ok\n.* \d % of it is felt; in the rest")
+        self.assertEqual(self.spidartrack("check", "pan.avi", status=1), "pan.avi.haptic.flac: 0 % of it is felt: the "
+                         "force is below 0.04 N, and there is no torque\n")
 
     def test_a_manifest_that_cannot_be_written_is_an_error(self):
         self.make_film("x.avi")

@@ -188,10 +188,11 @@ class Conversion(track_case.TrackCase):
                            "'asetnsamples=100,asetpts=PTS+gte(N\\,5)*1000000000' -c:a pcm_f32le jump.mka")
         self.assert_said("reach to 1000000 s, and a track lasts at most 24 h", "convert", "jump.mka", "b.wav")
 
-    def test_info_of_a_film_is_that_of_its_track(self):
+    def test_a_film_stands_for_its_track(self):
         for name in ("film.avi", "two\nlines.avi", 'a"b\\.avi', b"\xff\xfe.avi".decode(errors="surrogateescape")):
             self.make_film(name)
-            self.assert_said("a film without a haptic track, inside it or beside it", "info", name)
+            for command in (["info"], ["check"], ["convert", "b.wav"], ["plot", "b.png"]):
+                self.assert_said("a film without a haptic track, inside it or beside it", command[0], name, *command[1:])
             for count in (1000, 1500):
                 self.make_track(name + ".haptic.wav", count)
                 self.assertEqual("of another film" in self.spidartrack("info", name), count != 1000)
@@ -199,6 +200,29 @@ class Conversion(track_case.TrackCase):
                 self.assertEqual(info["belongs"], count == 1000)
                 if "\udcff" not in name:
                     self.assertEqual(info["film"], name)
+                self.assertEqual("of another film" in self.spidartrack("check", name, status=int(count != 1000)),
+                                 count != 1000)
+                self.spidartrack("convert", name, "b.wav", status=int(count != 1000))
+            self.assertEqual(len(self.samples("b.wav")), 1000)
+            self.assert_said("is that of another film", "plot", name, "b.png")
+
+    def test_endings_may_be_in_capital_letters(self):
+        self.make_track("FILM.AVI.HAPTIC.WAV")
+        for name in ("B.FLAC", "C.MKA", "D.HJIF", "E.FUNSCRIPT", "F.WAV"):
+            self.spidartrack("convert", "FILM.AVI.HAPTIC.WAV", name)
+            self.spidartrack("info", name)
+        self.spidartrack("convert", "F.WAV", "G.AHAP")
+        self.assert_said("written, but not read", "info", "G.AHAP")
+        self.assertEqual(self.path("E.FUNSCRIPT").read_bytes()[:1], b"{")
+
+    def test_a_track_in_which_nothing_is_felt_is_not_ok(self):
+        for sample, said in (((0,) * 6, ": the force is below 0.04 N, and there is no torque"),
+                             ((0, .003, 0, 0, 0, 0), ": the force is below 0.04 N, and there is no torque"),
+                             ((0, 0, 0, .01, 0, 0), "; in the rest the force is below 0.04 N")):
+            self.make_track(sample=lambda _, sample=sample: sample)
+            is_felt = said.startswith(";")
+            self.assertEqual(self.spidartrack("check", "a.wav", status=int(not is_felt)),
+                             "a.wav: ok\n" * is_felt + f"a.wav: 0 % of it is felt{said}\n")
 
     @track_case.needs("gnuplot")
     def test_a_plot_shows_stills_of_its_film_and_of_no_other(self):
