@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Compares the pose solver with ceres::TinySolver and full Ceres, in nanoseconds and error, while
-// tracking encoder counts and from a cold start. Geometry and encoder step are those of the
-// SPIDAR-G6X3. Compare times within one run only; absolute times depend on the machine.
+// Compares the pose solver with ceres::TinySolver, in nanoseconds and error, while tracking encoder
+// counts and from a cold start. Geometry and encoder step are those of the SPIDAR-G6X3. Compare times
+// within one run only; absolute times depend on the machine.
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
 #include <Eigen/LU>
-#include <ceres/ceres.h>
 #include <ceres/rotation.h>
 #include <ceres/tiny_solver.h>
 #include <ceres/tiny_solver_autodiff_function.h>
@@ -83,7 +82,6 @@ class Peer {
   virtual const char* name() const = 0;
   virtual Pose solve(const StringVector& lengths_m) = 0;
   virtual void start(const Pose& pose) = 0;
-  virtual int passes() const { return 9; }
 };
 
 class Ours : public Peer {
@@ -107,29 +105,6 @@ class Tiny : public Peer {
     ceres::TinySolver<Function> solver;
     solver.Solve(Function(errors), &x);
     return last_ = to_pose(x.data(), last_.orientation);
-  }
-  void start(const Pose& pose) override { last_ = pose; }
-
- private:
-  Pose last_;
-};
-
-class FullCeres : public Peer {
- public:
-  const char* name() const override { return "Ceres"; }
-  int passes() const override { return 1; }
-  Pose solve(const StringVector& lengths_m) override {
-    double x[6] = {last_.position_m.x(), last_.position_m.y(), last_.position_m.z(), 0, 0, 0};
-    ceres::Problem problem;
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LengthErrors, 8, 6>(
-                                 new LengthErrors{last_.orientation, lengths_m}),
-                             nullptr, x);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    return last_ = to_pose(x, last_.orientation);
   }
   void start(const Pose& pose) override { last_ = pose; }
 
@@ -169,7 +144,7 @@ void tracking(const Peers& peers) {
   for (const auto& peer : peers) {
     std::vector<Pose> found(poses.size());
     const CallTimes ns = time_calls(
-        poses.size(), peer->passes(), [&] { peer->start(poses[0]); },
+        poses.size(), 9, [&] { peer->start(poses[0]); },
         [&](size_t i) { found[i] = peer->solve(lengths[i]); });
     std::vector<double> um, mrad;
     double um2 = 0, mrad2 = 0;
@@ -214,7 +189,7 @@ void cold_start(const Region& region, const Peers& peers, size_t count) {
   for (const auto& peer : peers) {
     std::vector<Pose> found(count);
     const CallTimes ns = time_calls(
-        count, std::min(3, peer->passes()), [] {},
+        count, 3, [] {},
         [&](size_t i) {
           peer->start({});
           found[i] = peer->solve(lengths[i]);
@@ -233,7 +208,6 @@ int spidar::bench::pose(int, char**) {
   Peers peers;
   peers.push_back(std::make_unique<Ours>());
   peers.push_back(std::make_unique<Tiny>());
-  peers.push_back(std::make_unique<FullCeres>());
   tracking(peers);
   const Eigen::Vector3d box_m = 0.95 * Eigen::Vector3d(0.06, 0.076, 0.06);
   const Region regions[] = {{"4 cm, 45 deg", Eigen::Vector3d::Constant(0.04), 0, 45 * kDegree},

@@ -34,21 +34,6 @@ Pose moving(double t_s) {
   return pose;
 }
 
-TEST(PoseSolver, InvertsTheForwardKinematicsOverTheWorkspace) {
-  const StringGeometry geometry = g6x3_geometry();
-  Random random(1);
-  for (int n = 0; n < 500; ++n) {
-    // ±4 cm and 45°: from the centre there is no other minimum on the way.
-    const Pose pose = random_pose(random, 0.04, M_PI / 4);
-    PoseSolver solver(geometry);
-    const PoseResult result = solver.locate(string_lengths_m(geometry, pose));
-    ASSERT_EQ(result.status, PoseStatus::kSolved) << "case " << n;
-    expect_same(pose, result.pose, kLocated_m);
-    EXPECT_LE(result.residual_m, kLocated_m);
-    if (HasFailure()) FAIL() << "case " << n;
-  }
-}
-
 TEST(PoseSolver, LocatesPosesTurnedByUpTo80Degrees) {
   const StringGeometry geometry = g6x3_geometry();
   Random random(2);
@@ -58,6 +43,7 @@ TEST(PoseSolver, LocatesPosesTurnedByUpTo80Degrees) {
     const PoseResult result = solver.locate(string_lengths_m(geometry, pose));
     ASSERT_EQ(result.status, PoseStatus::kSolved) << "case " << n;
     expect_same(pose, result.pose, kLocated_m);
+    EXPECT_LE(result.residual_m, kLocated_m);
     if (HasFailure()) FAIL() << "case " << n;
   }
 }
@@ -89,18 +75,6 @@ TEST(PoseSolver, NeverTakesTheWrongOneOfTwoPoses) {
   }
   EXPECT_LE(ambiguous, kPoses / 1000);
   EXPECT_GT(ambiguous, 0);
-}
-
-TEST(PoseSolver, FollowsAMotion) {
-  const StringGeometry geometry = g6x3_geometry();
-  PoseSolver solver(geometry);
-  for (int tick = 0; tick < 5000; ++tick) {
-    const Pose pose = moving(tick * 1e-3);
-    const PoseResult result = solver.solve(string_lengths_m(geometry, pose));
-    ASSERT_EQ(result.status, PoseStatus::kSolved) << "tick " << tick;
-    expect_same(pose, result.pose, kTracked_m);
-    if (HasFailure()) FAIL() << "tick " << tick;
-  }
 }
 
 // A quantised length errs by q/√12, uncorrelated; the least-squares pose then errs by the
