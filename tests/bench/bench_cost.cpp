@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Cost of the element in a pipeline, compared with identity, with the duration of a frame, and with
-// a decoder; for moving frames, repeated frames, still frames and gaps.
+// Processor time that the element adds to the streaming thread, beyond that of identity: for frames
+// that move, and for a picture that stands still.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <gst/app/gstappsrc.h>
 #include <gst/gst.h>
 
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/call_timer.h"
 #include "tests/bench/film_frames.h"
 #include "tests/bench/gst_pipeline.h"
-#include "tests/bench/paced_push.h"
 #include "tests/support/film_studio.h"
-#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -28,141 +24,128 @@ using namespace spidar::bench;
 using spidar::test::Picture;
 
 constexpr int kRate_Hz = 60;
-constexpr double kInterval_ms = 1e3 / kRate_Hz;
+constexpr int kWarmUp = 10;
+constexpr int kFrames = 60;
 
-struct Size {
-  int width, height;
-};
-
-/// A camera that pans over a background with an object in front: drawn before anything is timed.
-std::vector<Picture> film_of(const Size& size) {
-  spidar::test::FilmStudio studio(size.width, size.height, 1);
-  spidar::test::Film film = studio.pan_with_object();
-  return draw_all(film, spidar::test::kFilmFrames);
+double seconds(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void print_pushed(const Size& size, const std::vector<Picture>& film) {
-  constexpr int kFrames = 60;
-  constexpr int kPasses = 3;
-  const std::vector<std::string> filters = {"", "identity", "spidarmotion device=none",
-                                            "spidarmotion"};
-  GstCaps* caps = gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "I420", "width",
-                                      G_TYPE_INT, size.width, "height", G_TYPE_INT, size.height,
-                                      "framerate", GST_TYPE_FRACTION, kRate_Hz, 1, nullptr);
-  std::vector<GstBuffer*> frames;
-  for (const Picture& picture : film) frames.push_back(i420_buffer(picture));
+void sleep_until(double monotonic_s) {
+  timespec t{};
+  t.tv_sec = static_cast<time_t>(monotonic_s);
+  t.tv_nsec = static_cast<long>(1e9 * (monotonic_s - static_cast<double>(t.tv_sec)));
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr);
+}
 
+/// A pad that frames are pushed into, and what is behind it.
+class Line {
+ public:
+  Line(const std::string& filter, GstCaps* caps) {
+    const std::string description = filter + " ! fakesink async=false sync=false";
+    GError* error = nullptr;
+    GstElement* bin = gst_parse_bin_from_description(description.c_str(), TRUE, &error);
+    if (error) {
+      const std::string reason = error->message;
+      g_error_free(error);
+      throw std::runtime_error(description + ": " + reason);
+    }
+    pipeline_.reset(gst_pipeline_new(nullptr));
+    gst_bin_add(GST_BIN(pipeline_.get()), bin);
+    GstBus* bus = gst_element_get_bus(pipeline_.get());
+    // An application takes messages as they come; here nobody does.
+    gst_bus_set_flushing(bus, TRUE);
+    gst_object_unref(bus);
+    GstPad* sink = gst_element_get_static_pad(bin, "sink");
+    source_ = gst_pad_new("src", GST_PAD_SRC);
+    gst_pad_set_active(source_, TRUE);
+    const GstPadLinkReturn linked = gst_pad_link_full(source_, sink, GST_PAD_LINK_CHECK_NOTHING);
+    gst_object_unref(sink);
+    if (linked != GST_PAD_LINK_OK ||
+        gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE) {
+      throw std::runtime_error(description + ": does not play");
+    }
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    gst_pad_push_event(source_, gst_event_new_stream_start("film"));
+    gst_pad_push_event(source_, gst_event_new_caps(caps));
+    gst_pad_push_event(source_, gst_event_new_segment(&segment));
+  }
+  ~Line() {
+    gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
+    gst_object_unref(source_);
+  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  void push(GstBuffer* buffer) {
+    if (gst_pad_push(source_, buffer) != GST_FLOW_OK) {
+      throw std::runtime_error("a frame was refused");
+    }
+  }
+
+ private:
+  Element pipeline_;
+  GstPad* source_ = nullptr;
+};
+
+/// Pushes frames through `filter`, paced like a film: all of them to and fro, or the first one
+/// again and again. Adds the processor time of each but the first few, ms.
+void push_paced(const std::string& filter, GstCaps* caps, const std::vector<GstBuffer*>& frames,
+                bool moving, std::vector<double>& thread_ms) {
+  Line line(filter, caps);
+  const double start_s = seconds(CLOCK_MONOTONIC);
+  for (int n = 0; n < kWarmUp + kFrames; ++n) {
+    const size_t period = 2 * (frames.size() - 1);
+    const size_t i = moving ? static_cast<size_t>(n) % period : 0;
+    GstBuffer* buffer = gst_buffer_copy(frames[std::min(i, period - i)]);  // shares the picture
+    set_time(buffer, n, kRate_Hz);
+    sleep_until(start_s + static_cast<double>(n) / kRate_Hz);
+    const double before_s = seconds(CLOCK_THREAD_CPUTIME_ID);
+    line.push(buffer);
+    if (n >= kWarmUp) thread_ms.push_back(1e3 * (seconds(CLOCK_THREAD_CPUTIME_ID) - before_s));
+  }
+}
+
+/// A camera that pans over a background with an object in front.
+void print(int width, int height) {
+  constexpr int kPasses = 3;
+  spidar::test::FilmStudio studio(width, height, 1);
+  spidar::test::Film film = studio.pan_with_object();
+  std::vector<GstBuffer*> frames;
+  for (const Picture& picture : draw_all(film, spidar::test::kFilmFrames)) {
+    frames.push_back(i420_buffer(picture));
+  }
+  GstCaps* caps = gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "I420", "width",
+                                      G_TYPE_INT, width, "height", G_TYPE_INT, height, "framerate",
+                                      GST_TYPE_FRACTION, kRate_Hz, 1, nullptr);
   std::printf(
-      "\n### %dx%d\n\n"
-      "| frames | source ! … ! fakesink | thread, µs | over identity, µs | %% of 1/%d s | wall, µs "
-      "| 99 %% | other threads, %% of a core |\n|---|---|---|---|---|---|---|---|\n",
-      size.width, size.height, kRate_Hz);
-  const std::vector<std::pair<Content, const char*>> contents = {{Content::kMoving, "moving"},
-                                                                 {Content::kRepeated, "repeated"},
-                                                                 {Content::kStill, "still"},
-                                                                 {Content::kGap, "GAP"}};
-  for (const auto& [content, name] : contents) {
-    std::map<std::string, PushCost> costs;
-    // In turns: what disturbs meets all of them.
-    for (int pass = 0; pass < kPasses; ++pass) {
-      for (const std::string& filter : filters) {
-        const PushCost cost = push_paced(filter, caps, frames, content, kFrames, kRate_Hz);
-        PushCost& sum = costs[filter];
-        sum.thread_ms.insert(sum.thread_ms.end(), cost.thread_ms.begin(), cost.thread_ms.end());
-        sum.wall_ms.insert(sum.wall_ms.end(), cost.wall_ms.begin(), cost.wall_ms.end());
-        sum.others += cost.others / kPasses;
+      "\n### %dx%d\n\n| frames | source ! … ! fakesink | thread, ms | over identity, ms |\n"
+      "|---|---|---|---|\n",
+      width, height);
+  for (const bool moving : {true, false}) {
+    std::map<std::string, std::vector<double>> thread_ms;
+    for (int pass = 0; pass < kPasses; ++pass) {  // in turns: what disturbs meets all of them
+      for (const char* filter : {"identity", "spidarmotion device=none", "spidarmotion"}) {
+        push_paced(filter, caps, frames, moving, thread_ms[filter]);
       }
     }
-    const double identity_ms = quantile(costs["identity"].thread_ms, 0.5);
-    for (const std::string& filter : filters) {
-      const PushCost& cost = costs[filter];
-      const double thread_ms = quantile(cost.thread_ms, 0.5);
-      const double over_ms = thread_ms - identity_ms;
-      std::printf("| %s | %s | %.0f | %.0f | %.2f | %.0f | %.0f | %.1f |\n", name,
-                  filter.empty() ? "(nothing)" : filter.c_str(), 1e3 * thread_ms, 1e3 * over_ms,
-                  100 * over_ms / kInterval_ms, 1e3 * quantile(cost.wall_ms, 0.5),
-                  1e3 * quantile(cost.wall_ms, 0.99), 100 * cost.others);
+    const double identity_ms = quantile(thread_ms["identity"], 0.5);
+    for (const auto& [filter, ms] : thread_ms) {
+      std::printf("| %s | %s | %.3f | %.3f |\n", moving ? "moving" : "still", filter.c_str(),
+                  quantile(ms, 0.5), quantile(ms, 0.5) - identity_ms);
     }
   }
   for (GstBuffer* frame : frames) gst_buffer_unref(frame);
   gst_caps_unref(caps);
 }
 
-double process_time_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-/// Writes a film of `count` frames, which are those of `film` to and fro: H.264 in MP4.
-void encode(const std::vector<Picture>& film, int count, int rate_Hz, const std::string& file) {
-  const int width = film.front().width;
-  const int height = film.front().height;
-  constexpr double kBitsPerPixel = 0.06;  // as of a film
-  Pipeline pipeline(
-      "appsrc name=source format=time block=true caps=video/x-raw,format=I420,width=" +
-      std::to_string(width) + ",height=" + std::to_string(height) + ",framerate=" +
-      std::to_string(rate_Hz) + "/1,colorimetry=bt709 ! x264enc speed-preset=veryfast bitrate=" +
-      std::to_string(std::lround(1e-3 * kBitsPerPixel * rate_Hz * width * height)) +
-      " ! mp4mux ! filesink location=" + file);
-  pipeline.play();
-  const Element source = pipeline.by_name("source");
-  const int last = static_cast<int>(film.size()) - 1;
-  for (int n = 0; n < count; ++n) {
-    const int at = last - std::abs(n % (2 * last) - last);  // 0 … last … 0
-    GstBuffer* buffer = i420_buffer(film[static_cast<size_t>(at)]);
-    set_time(buffer, n, rate_Hz);
-    gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer);
-  }
-  gst_app_src_end_of_stream(GST_APP_SRC(source.get()));
-  pipeline.wait_for_end();
-}
-
-/// Processor time of a frame of all threads, whoever else uses the machine, for playing `file` of
-/// so many frames through avdec_h264 in one thread and `filter`.
-double decoding_ms(const std::string& file, int frames, const std::string& filter) {
-  Pipeline pipeline("filesrc location=" + file + " ! qtdemux ! avdec_h264 max-threads=1 ! " +
-                    filter + " ! fakesink sync=false");
-  pipeline.preroll();
-  const double begin_ms = process_time_ms();
-  pipeline.play();
-  pipeline.wait_for_end();
-  return (process_time_ms() - begin_ms) / (frames - 1);  // one was decoded before
-}
-
-void print_decoded(const Size& size, const std::vector<Picture>& film, const std::string& file) {
-  constexpr int kPasses = 5;
-  constexpr int kFrames = 88;  // as long as a decoder needs to get going
-  encode(film, kFrames, kRate_Hz, file);
-  const std::string filter = "spidarmotion device=none";
-  std::map<std::string, double> best_ms;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    for (const std::string& line : {std::string("identity"), filter}) {
-      // What disturbs makes it only longer.
-      const double ms = decoding_ms(file, kFrames, line);
-      best_ms[line] = pass == 0 ? ms : std::min(best_ms[line], ms);
-    }
-  }
-  const double decoding = best_ms["identity"];
-  const double over_ms = best_ms[filter] - decoding;
-  std::printf("| %dx%d | %.2f | %.2f | %.0f |\n", size.width, size.height, decoding, over_ms,
-              100 * over_ms / decoding);
-}
-
 }  // namespace
 
 int spidar::bench::cost(int, char**) {
-  const spidar::test::TemporaryFolder folder;
-  const std::vector<Size> sizes = {{1920, 1080}, {3840, 2160}};
-  std::vector<std::vector<Picture>> films;
-  for (const Size& size : sizes) {
-    films.push_back(film_of(size));
-    print_pushed(size, films.back());
-  }
-  std::printf("\n### Beside avdec_h264, one thread\n\n");
-  std::printf("| size | decoding, ms | element, ms | %% of decoding |\n|---|---|---|---|\n");
-  for (size_t i = 0; i < sizes.size(); ++i) {
-    print_decoded(sizes[i], films[i], folder.path / (std::to_string(i) + ".mp4"));
-  }
+  print(1920, 1080);
+  print(3840, 2160);
   return 0;
 }

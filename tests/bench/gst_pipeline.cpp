@@ -32,12 +32,6 @@ Pipeline::~Pipeline() {
   if (pipeline_) gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
 }
 
-void Pipeline::preroll() {
-  gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
-  const auto change = gst_element_get_state(pipeline_.get(), nullptr, nullptr, GST_CLOCK_TIME_NONE);
-  if (change == GST_STATE_CHANGE_FAILURE) throw std::runtime_error(problem());
-}
-
 void Pipeline::wait_for_end() {
   GstBus* bus = gst_element_get_bus(pipeline_.get());
   GstMessage* message = gst_bus_timed_pop_filtered(

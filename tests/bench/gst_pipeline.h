@@ -27,8 +27,6 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void play() { gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING); }
-  /// Returns when the first frame is there.
-  void preroll();
   /// Throws std::runtime_error with what went wrong.
   void wait_for_end();
   Element by_name(const char* name) const {

@@ -20,7 +20,7 @@ struct Benchmark {
 using namespace spidar::bench;
 
 const Benchmark kBenchmarks[] = {
-    {"cost", cost, "                the element in a pipeline, and beside a decoder"},
+    {"cost", cost, "                the element in a pipeline"},
     {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
     {"pose", pose, "                the pose solver beside others"},
 #ifdef HAS_REAL_FILM
@@ -30,9 +30,8 @@ const Benchmark kBenchmarks[] = {
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
     {"tension", tension,
-     "[COUNT]         the tension solver beside others, and on COUNT problems of each hard family"},
-    {"touch_strings", touch_strings,
-     "[TICKS [lag]]   energy that contacts give out, also with drives that lag"},
+     "[COUNT]         the tension solver, also on COUNT problems of each hard family"},
+    {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
     {"tracking", tracking, "[WIDTHxHEIGHT…] speed and error on films of known motion"},
 };
 

@@ -14,7 +14,7 @@
 namespace spidar::test::touch_strings_test {
 namespace {
 
-/// For each scene and hand; bench_touch_strings runs a million.
+/// For each scene and hand; spidar-bench touch_strings runs a million.
 constexpr long kTicks = 15'000;
 // As in test_touch_energy.cpp.
 constexpr double kBound_J = 5e-6;

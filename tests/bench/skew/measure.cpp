@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -12,97 +11,48 @@
 #include <string>
 #include <vector>
 
-#include "core/track/track_format.h"
 #include "spidar/realtime/monotonic.h"
-#include "tests/bench/skew/player.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::bench {
 namespace {
 
-struct FeltFrame {
-  int64_t running_ns;
-  int64_t monotonic_ns;  ///< at which the tick began
-};
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream rest(line);
+  for (std::string field; std::getline(rest, field, ',');) fields.push_back(field);
+  return fields;
+}
 
-/// The ticks at which the loop came to another frame.
-class FeltFrames {
- public:
-  /// At this rate samples of a track are so far apart in running time.
-  explicit FeltFrames(const Scenario& scenario)
-      : track_(scenario.track),
-        step_ns_(std::llround(static_cast<double>(kTrackPeriod_ns) / scenario.rate)) {}
-
-  /// Reads the trace of a playback that has ended. Throws std::runtime_error without its columns.
-  void read(const std::string& path) {
-    std::ifstream trace(path);
-    std::string line;
-    std::getline(trace, line);
-    const std::vector<std::string> names = split(line);
-    std::array<size_t, 4> columns{};
-    const std::array<std::string, 4> wanted{"playing", "frame_ns", "monotonic_ns", "running_ns"};
-    for (size_t i = 0; i < wanted.size(); ++i) {
-      const auto found = std::find(names.begin(), names.end(), wanted[i]);
-      if (found == names.end()) throw std::runtime_error(path + " has no column " + wanted[i]);
-      columns[i] = static_cast<size_t>(found - names.begin());
-    }
-    while (std::getline(trace, line)) {
-      const std::vector<std::string> fields = split(line);
-      if (fields.size() < names.size()) continue;
-      add(fields[columns[0]] == "1", std::stoll(fields[columns[1]]), std::stoll(fields[columns[2]]),
-          std::stoll(fields[columns[3]]));
-    }
+/// Of a playback that has ended, from `begin_ns` on: CLOCK_MONOTONIC of the first tick of each
+/// frame, by its running time.
+std::map<int64_t, int64_t> read_ticks(const std::string& path, int64_t begin_ns) {
+  std::ifstream trace(path);
+  std::string line;
+  std::getline(trace, line);
+  const std::vector<std::string> names = split(line);
+  std::array<size_t, 3> columns{};
+  const std::array<std::string, 3> wanted{"playing", "frame_ns", "monotonic_ns"};
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), wanted[i]);
+    if (found == names.end()) throw std::runtime_error(path + " has no column " + wanted[i]);
+    columns[i] = static_cast<size_t>(found - names.begin());
   }
-
-  const std::vector<FeltFrame>& frames() const { return frames_; }
-
-  /// Of a track, from `begin_ns` on: the first tick that had reached each of these frames.
-  std::vector<FeltFrame> reached(const std::vector<ShownFrame>& shown, int64_t begin_ns) const {
-    std::vector<FeltFrame> reached;
-    size_t tick = 0;
-    while (tick < frames_.size() && frames_[tick].monotonic_ns < begin_ns) ++tick;
-    for (const ShownFrame& frame : shown) {
-      while (tick < frames_.size() && frames_[tick].running_ns < frame.running_ns) ++tick;
-      if (tick < frames_.size()) reached.push_back({frame.running_ns, frames_[tick].monotonic_ns});
-    }
-    return reached;
+  std::map<int64_t, int64_t> ticks;
+  while (std::getline(trace, line)) {
+    const std::vector<std::string> fields = split(line);
+    if (fields.size() < names.size() || fields[columns[0]] != "1") continue;
+    const int64_t frame_ns = std::stoll(fields[columns[1]]);
+    const int64_t monotonic_ns = std::stoll(fields[columns[2]]);
+    // Before a seek, the same running time was another frame.
+    if (frame_ns >= 0 && monotonic_ns >= begin_ns) ticks.emplace(frame_ns, monotonic_ns);
   }
+  return ticks;
+}
 
- private:
-  static std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> fields;
-    std::istringstream rest(line);
-    for (std::string field; std::getline(rest, field, ',');) fields.push_back(field);
-    return fields;
-  }
-
-  void add(bool playing, int64_t frame_ns, int64_t monotonic_ns, int64_t running_ns) {
-    if (!playing) {
-      last_frame_ns_ = -1;  // after a seek the same running time is another frame
-      return;
-    }
-    if (track_) {
-      // Between samples the force is interpolated: it is that of the tick's own running time.
-      const bool has_sample = frame_ns >= 0 && running_ns - frame_ns < step_ns_;
-      if (has_sample) frames_.push_back({running_ns, monotonic_ns});
-      return;
-    }
-    if (frame_ns == last_frame_ns_) return;
-    last_frame_ns_ = frame_ns;
-    if (frame_ns >= 0) frames_.push_back({frame_ns, monotonic_ns});
-  }
-
-  const bool track_;
-  const int64_t step_ns_;
-  int64_t last_frame_ns_ = -1;
-  std::vector<FeltFrame> frames_;
-};
-
-/// How much faster than CLOCK_MONOTONIC the pipeline's clock ran. A sound card's takes a moment to
-/// get going.
 double drift_ppm(const std::vector<ShownFrame>& shown) {
   if (shown.size() < 8) return 0;
-  const ShownFrame& from = shown[shown.size() / 4];
+  const ShownFrame& from = shown.front();
   const ShownFrame& to = shown.back();
   const auto running_ns = static_cast<double>(to.running_ns - from.running_ns);
   return 1e6 * (running_ns / static_cast<double>(to.due_ns - from.due_ns) - 1);
@@ -126,28 +76,18 @@ Measurement measure(const Scenario& scenario, const std::string& clip, double se
   result.dropped = player.dropped();
   result.scheduling = player.scheduling();
   player.stop();
-  FeltFrames felt(scenario);
-  felt.read(trace);
 
   const auto is_outside = [&](const ShownFrame& frame) {
     return frame.monotonic_ns < begin_ns || frame.monotonic_ns > end_ns;
   };
   shown.erase(std::remove_if(shown.begin(), shown.end(), is_outside), shown.end());
+  result.shown = shown.size();
   result.clock_ppm = drift_ppm(shown);
-  std::map<int64_t, int64_t>
-      felt_ns;  // CLOCK_MONOTONIC of the first tick of a frame, by running time
-  for (const FeltFrame& frame : scenario.track ? felt.reached(shown, begin_ns) : felt.frames()) {
-    if (frame.monotonic_ns >= begin_ns) felt_ns.emplace(frame.running_ns, frame.monotonic_ns);
-  }
-  const auto ms = [](int64_t later_ns, int64_t earlier_ns) {
-    return 1e-6 * static_cast<double>(later_ns - earlier_ns);
-  };
+  const std::map<int64_t, int64_t> felt_ns = read_ticks(trace, begin_ns);
   for (const ShownFrame& frame : shown) {
-    result.picture_ms.push_back(ms(frame.monotonic_ns, frame.due_ns));
     const auto tick = felt_ns.find(frame.running_ns);
     if (tick == felt_ns.end()) continue;
-    result.skew_ms.push_back(ms(tick->second, frame.monotonic_ns));
-    result.force_ms.push_back(ms(tick->second, frame.due_ns));
+    result.skew_ms.push_back(1e-6 * static_cast<double>(tick->second - frame.monotonic_ns));
   }
   return result;
 }

@@ -7,21 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/skew/scenario.h"
+#include "tests/bench/skew/player.h"
 
 namespace spidar::bench {
 
 struct Measurement {
-  // Of each frame that was both shown and felt, ms.
-  std::vector<double> skew_ms;   ///< force − picture
-  std::vector<double> force_ms;  ///< force − when the picture was due, see ShownFrame
-  // Of each frame shown.
-  std::vector<double> picture_ms;  ///< picture − when it was due
-  uint64_t dropped = 0;            ///< frames that came to the sink too late
-  double clock_ppm = 0;            ///< drift of the pipeline's clock against CLOCK_MONOTONIC
+  /// Force − picture of each frame that was both shown and felt, ms.
+  std::vector<double> skew_ms;
+  uint64_t shown = 0;
+  uint64_t dropped = 0;  ///< frames that came to the sink too late
+  double clock_ppm = 0;  ///< drift of the pipeline's clock against CLOCK_MONOTONIC
   std::string scheduling;
-
-  uint64_t not_felt() const { return picture_ms.size() - skew_ms.size(); }
 };
 
 /// Plays for `seconds` and joins every frame shown with the first tick of the haptic loop that had

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline with a spidarmotion, or with a spidarsink beside the video sink, that plays a
-/// scenario.
+/// A pipeline with a spidarmotion that plays a scenario.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include <gst/gst.h>
 
-#include "tests/bench/skew/camera.h"
-#include "tests/bench/skew/scenario.h"
 #include "tests/bench/skew/screen.h"
 
 namespace spidar::bench {
+
+/// A way to play a video.
+struct Scenario {
+  const char* what;    ///< for the table
+  const char* player;  ///< that plays the clip, or nullptr for a live videotestsrc
+  double rate = 1;
+  int seeks = 0;        ///< before what is measured
+  bool drifts = false;  ///< the pipeline's clock runs kDrift_ppm too fast
+};
+
+constexpr int kDrift_ppm = 300;
 
 /// Every member throws std::runtime_error when the pipeline fails or ends too early.
 class Player {
@@ -44,19 +51,16 @@ class Player {
  private:
   GstElement* make_player(const std::string& clip);
   GstElement* make_live();
-  GstElement* make_track_player(const std::string& clip);
   void set_state(GstState state);
   void await_state();
   void seek(GstClockTime position);
   void take_messages(GstClockTime timeout);
-  void check_clock() const;
 
   const Scenario scenario_;
   GstElement* filter_;
   GstElement* screen_;
   GstElement* pipeline_;
   GstBus* bus_;
-  std::unique_ptr<Camera> camera_;
 };
 
 }  // namespace spidar::bench
