@@ -4,16 +4,12 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/adaptive_controller.h"
 #include "core/force/motion_filter.h"
-#include "core/force/motion_rendering.h"
-#include "tests/support/picture.h"
-#include "tests/support/texture.h"
 
 namespace spidar::test::motion_filter_test {
 namespace {
@@ -60,18 +56,6 @@ TEST(OneEuroFilter, FollowsThePaperStepByStep) {
   }
 }
 
-TEST(OneEuroFilter, ARampIsDelayedEquallyAtEveryFrameRate) {
-  for (const double interval_s : {1.0 / 60, 1.0 / 24, 0.1}) {
-    Filter1 filter;
-    const double slope = 50;
-    double y = 0;
-    double t_s = 0;
-    // After 3 s the start is forgotten: (1 − smoothing)^n < e^-20 at 2 Hz.
-    for (; t_s < 3; t_s += interval_s) y = filter.filter(Scalar(slope * t_s), interval_s, 2, 0)[0];
-    EXPECT_NEAR(t_s - interval_s - y / slope, 1 / (kTwoPi * 2), 1e-8) << interval_s;
-  }
-}
-
 TEST(OneEuroFilter, DoesNotDependOnTheDirectionOfTheAxes) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 30);
@@ -85,44 +69,6 @@ TEST(OneEuroFilter, DoesNotDependOnTheDirectionOfTheAxes) {
     const Eigen::Vector2d b = turned.filter(turn * v, kFrame_s, 2, 0.01);
     ASSERT_LT((turn * a - b).norm(), kRounding) << "seed 5, step " << n;
   }
-}
-
-TEST(OneEuroFilter, LessJitterAtRestLessDelayInMotion) {
-  const FilterSettings defaults;
-  std::mt19937 random(9);
-  std::normal_distribution<double> noise(0, 1);
-  Filter1 filter;
-  double in = 0, out = 0;
-  for (int n = 0; n < 4000; ++n) {
-    const double x = noise(random);
-    const double y =
-        filter.filter(Scalar(x), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
-    in += x * x;
-    out += y * y;
-  }
-  // White noise through y += s (x − y) keeps s / (2 − s) of its variance. The rate of that noise,
-  // at least 1 / Δt rms, keeps √(0.2 / 1.8) = 1/3 after its own low-pass of 1 Hz: β raises the
-  // cutoff, by no more than twice that in the mean. The variance of 4000 draws is known to
-  // 2 √(2 / 4000) = 4 %.
-  const auto kept = [](double cutoff_Hz) {
-    const double turns = kTwoPi * cutoff_Hz * kFrame_s;
-    const double s = turns / (1 + turns);
-    return s / (2 - s);
-  };
-  EXPECT_GT(out / in, 0.96 * kept(defaults.min_cutoff_Hz));
-  EXPECT_LT(out / in, 1.04 * kept(defaults.min_cutoff_Hz + defaults.beta_s_px * 2 / 3 / kFrame_s));
-
-  // 1000 px/s², as in a fall: late by the time of a cutoff that β has raised.
-  filter.reset();
-  double y = 0;
-  double t_s = 0;
-  for (; t_s < 3; t_s += kFrame_s) {
-    y = filter.filter(Scalar(1000 * t_s), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
-  }
-  const double cutoff_Hz = defaults.min_cutoff_Hz + 1000 * defaults.beta_s_px;
-  // The rate is taken from the value filtered: on a ramp it is the slope and what the rest of the
-  // delay makes of it, (x − ŷ) / Δt = slope (1 + delay / Δt), so the cutoff is higher still.
-  EXPECT_LT(t_s - kFrame_s - y / 1000, 1 / (kTwoPi * cutoff_Hz));
 }
 
 TEST(OneEuroFilter, TheDefaultDelayCannotBeFelt) {
@@ -224,45 +170,6 @@ TEST(MotionFilter, RefusesWhatIsNotASetting) {
     EXPECT_THROW(MotionAnalyzer{settings}, std::invalid_argument);
   }
   EXPECT_NO_THROW(validate(FilterSettings{0, 0}));
-}
-
-/// A still picture with new sensor noise in each frame.
-class NoisyPicture {
- public:
-  explicit NoisyPicture(double sigma) : picture_(480, 270), noise_(0, sigma) {}
-  ImageView next() {
-    picture_.fill([this](double x, double y) {
-      return std::clamp(texture_.at(x, y) + noise_(random_), 0.0, 255.0);
-    });
-    return picture_.view();
-  }
-
- private:
-  test::Picture picture_;
-  test::Texture texture_{8, 8};
-  std::mt19937 random_{17};
-  std::normal_distribution<double> noise_;
-};
-
-TEST(StillHand, FeelsNothingOnANoisyStillPicture) {
-  // Noise of 4 grey levels, as of a camera in a dim room.
-  NoisyPicture picture(4);
-  AnalyzerSettings mean = paper_settings();
-  mean.filter = {};
-  mean.controller.kind = ControllerKind::kAdaptive;
-  MotionAnalyzer by_default{AnalyzerSettings()};
-  MotionAnalyzer by_mean(mean);
-  for (int n = 0; n < 20; ++n) {
-    const ImageView view = picture.next();
-    const Wrench wrench = by_default.analyze(view, n * 40'000'000).wrench;
-    EXPECT_EQ(wrench.stacked(), (Eigen::Matrix<double, 6, 1>::Zero())) << n;
-    const Frame frame = by_mean.analyze(view, n * 40'000'000);
-    EXPECT_EQ(frame.wrench.force_N, Eigen::Vector3d(0, 0, 0)) << n;
-    // The mean itself is not at rest: that is what the dead zone is for.
-    if (n > 0) {
-      EXPECT_NE(frame.motion.velocity_px_s, Eigen::Vector2d(0, 0)) << n;
-    }
-  }
 }
 
 }  // namespace

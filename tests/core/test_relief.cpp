@@ -9,9 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
-#include "tests/support/allocation_count.h"
 #include "tests/support/picture.h"
 
 namespace spidar::test::relief_test {
@@ -22,35 +20,6 @@ constexpr int kRows = HeightField::kRows;
 
 HeightField empty_field() {
   return HeightField(0.06, 0.03375);  // square cells of 0.23 mm
-}
-
-/// Depth of 16 bits.
-struct DepthImage {
-  DepthImage(int w, int h) : width(w), height(h), bytes(static_cast<size_t>(2 * w * h)) {}
-
-  template <typename Depth>
-  void fill(Depth&& depth) {
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const int value = depth(x, y);
-        const auto at = static_cast<size_t>(2 * (y * width + x));
-        bytes[at] = static_cast<uint8_t>(value & 255);
-        bytes[at + 1] = static_cast<uint8_t>(value >> 8);
-      }
-    }
-  }
-  DepthView view() const { return {bytes.data(), width, height, 2 * width, 2, false}; }
-
-  int width;
-  int height;
-  std::vector<uint8_t> bytes;
-};
-
-/// A relief from depth with a fixed range.
-bool build(ReliefBuilder& builder, const DepthView& depth, const DepthSettings& range,
-           const ReliefSettings& settings, HeightField& field) {
-  DepthPicture picture;
-  return picture.read(depth, range, 0) && builder.from_levels(picture.levels(), settings, field);
 }
 
 float lowest(const HeightField& field) {
@@ -161,49 +130,18 @@ TEST(Relief, OfNoiseIsNotSteeperAlongAnAxis) {
   }
 }
 
-TEST(Relief, OfDepthIsHighWhereItIsNear) {
-  DepthImage depth(320, 180);
-  depth.fill([](int x, int) { return x < 160 ? 2000 : 1000; });
-  HeightField field = empty_field();
-  ReliefBuilder builder;
-  const ReliefSettings settings;
-  ASSERT_TRUE(build(builder, depth.view(), {false, 1000, 2000}, settings, field));
-  EXPECT_NEAR(field.at(-0.02, 0).z_m, 0, 1e-7);
-  EXPECT_NEAR(field.at(0.02, 0).z_m, 0.008, 1e-7);
-  // The same numbers as a disparity: near is the larger.
-  ASSERT_TRUE(build(builder, depth.view(), {true, 2000, 1000}, settings, field));
-  EXPECT_NEAR(field.at(-0.02, 0).z_m, 0.008, 1e-7);
-  EXPECT_NEAR(field.at(0.02, 0).z_m, 0, 1e-7);
-  // Out of the range: not higher and not lower than its ends.
-  ASSERT_TRUE(build(builder, depth.view(), {false, 1400, 1600}, settings, field));
-  EXPECT_NEAR(lowest(field), 0, 1e-7);
-  EXPECT_NEAR(highest(field), 0.008, 1e-7);
-}
-
-TEST(Relief, ReadsWordsInBothOrders) {
-  DepthImage depth(64, 36);
-  depth.fill([](int x, int y) { return 300 + 7 * x + 3 * y; });
-  HeightField little = empty_field();
-  HeightField big = empty_field();
-  ReliefBuilder builder;
-  ASSERT_TRUE(build(builder, depth.view(), {false, 300, 1000}, {}, little));
-  for (size_t i = 0; i < depth.bytes.size(); i += 2) std::swap(depth.bytes[i], depth.bytes[i + 1]);
-  DepthView swapped = depth.view();
-  swapped.big_endian = true;
-  ASSERT_TRUE(build(builder, swapped, {false, 300, 1000}, {}, big));
-  for (int i = 0; i < HeightField::kCells; ++i) ASSERT_EQ(little.row(0)[i], big.row(0)[i]);
-}
-
 TEST(Relief, FillsAHoleWithTheFartherNeighbour) {
-  DepthImage depth(256, 144);
   // Far on the left, near on the right, between them nothing; the top third is missing altogether.
-  depth.fill([](int x, int y) {
-    return y < 48 || (x > 100 && x < 150) ? 0 : x < 125 ? 2000 : 1000;
-  });
+  const float hole = std::nanf("");
+  std::vector<float> levels;
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 0; x < kColumns; ++x) {
+      levels.push_back(y < 48 || (x > 100 && x < 150) ? hole : x < 125 ? 0.0F : 1.0F);
+    }
+  }
   HeightField field = empty_field();
   ReliefBuilder builder;
-  const ReliefSettings unsmoothed{0, 0.008, 0};
-  ASSERT_TRUE(build(builder, depth.view(), {false, 1000, 2000}, unsmoothed, field));
+  ASSERT_TRUE(builder.from_levels(levels.data(), {0, 0.008, 0}, field));
   EXPECT_NEAR(field.row(100)[110], 0, 1e-7);
   EXPECT_NEAR(field.row(100)[150], 0.008, 1e-7);
   EXPECT_NEAR(field.row(0)[50], 0, 1e-7) << "the rows above are as the first one that is there";
@@ -214,9 +152,8 @@ TEST(Relief, LeavesTheFieldWhereThereIsNothing) {
   HeightField field = empty_field();
   field.row(3)[4] = 0.5F;
   ReliefBuilder builder;
-  DepthImage holes(32, 18);
-  EXPECT_FALSE(build(builder, holes.view(), {false, 1, 2}, {}, field));
-  EXPECT_FALSE(build(builder, {}, {false, 1, 2}, {}, field));
+  const std::vector<float> holes(HeightField::kCells, std::nanf(""));
+  EXPECT_FALSE(builder.from_levels(holes.data(), {}, field));
   EXPECT_FALSE(builder.from_brightness({}, {}, field));
   EXPECT_EQ(field.row(3)[4], 0.5F);
 }
@@ -246,27 +183,6 @@ TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
   // The mean over a cell of a third of the wave leaves sinc(1/3) = 0.83 of it; the picture is
   // rounded by half a level of 50, the Gaussian ends at three standard deviations (0.3 %).
   EXPECT_NEAR(detail, 0.83 * amplitude_m, 0.03 * amplitude_m);
-}
-
-TEST(Relief, TakesNothingFromTheHeapAfterTheFirst) {
-  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
-  Picture picture(427, 240);
-  picture.fill([](double x, double) { return x / 2; });
-  DepthImage depth(320, 240);
-  depth.fill([](int x, int y) { return x % 7 ? x + y : 0; });
-  HeightField field = empty_field();
-  ReliefBuilder from_picture;
-  ReliefBuilder from_depth;
-  DepthPicture depth_picture;
-  from_picture.from_brightness(picture.view(), {}, field);
-  depth_picture.read(depth.view(), {}, 0.04);
-  from_depth.from_levels(depth_picture.levels(), {}, field);
-  const long before = allocations;
-  from_picture.from_brightness(picture.view(), {}, field);
-  from_picture.fine_detail({}, field);
-  depth_picture.read(depth.view(), {}, 0.04);
-  from_depth.from_levels(depth_picture.levels(), {}, field);
-  EXPECT_EQ(allocations, before);
 }
 
 TEST(Relief, SaysWhichSettingIsWrong) {

@@ -102,16 +102,5 @@ TEST(TouchEnergy, ASurfaceThatSinksTakesNoMoreThanTheForceThatThereIs) {
   EXPECT_GT(after_N, 0.8 * before_N);
 }
 
-TEST(TouchEnergy, WithoutDampingItIsSeen) {
-  ContactSettings settings;
-  settings.stiffness_N_m = 700;
-  settings.damping = 0;  // validate() refuses it
-  settings.bounds_energy = false;
-  const HeightField plane = plane_field(-0.002);
-  const ContactEnergy energy = explore({&plane}, nullptr, settings, kLightHand, kTicks, 7);
-  EXPECT_GT(energy.worst_J, kStiffBound_J);
-  EXPECT_GT(energy.generating, energy.contacts / 2);
-}
-
 }  // namespace
 }  // namespace spidar::test::touch_energy_test
