@@ -190,24 +190,5 @@ TEST(Background, FewOrNoPointsAreStill) {
   }
 }
 
-TEST(Background, IsTheSameBitForBit) {
-  const auto run = [] {
-    TrackSource source(6);
-    BackgroundEstimator estimator;
-    std::vector<double> numbers;
-    for (const ModelKind kind : {ModelKind::kStill, ModelKind::kHomography, ModelKind::kSimilarity,
-                                 ModelKind::kTranslation}) {
-      for (int n = 0; n < 5; ++n) {
-        const Background found = settle(estimator, source, sample_model(kind), 1, kSigma_px, 40);
-        for (const double v : found.model.linear.reshaped()) numbers.push_back(v);
-        for (const double v : found.model.shift_px) numbers.push_back(v);
-        for (const double v : found.model.perspective_1_px) numbers.push_back(v);
-      }
-    }
-    return numbers;
-  };
-  EXPECT_EQ(run(), run());
-}
-
 }  // namespace
 }  // namespace spidar::test::background_test

@@ -66,47 +66,6 @@ TEST(FeatureSelection, RoundingNoiseHasNone) {
   EXPECT_EQ(tracker.track(picture.view()).features, 0) << "seed 23";
 }
 
-TEST(FeatureSelection, ARampHasNone) {
-  // A gradient in one direction only.
-  Picture picture(640, 360);
-  picture.fill([](double x, double y) { return x * 0.25 + y * 0.1; });
-  EXPECT_TRUE(selected(picture).empty());
-}
-
-TEST(FeatureSelection, AnEdgeIsNotACorner) {
-  for (const double slope : {0.0, 0.3, 1.0}) {
-    Picture picture(640, 360);
-    // A soft edge across the whole picture, at most 40 grey levels per pixel.
-    picture.fill([slope](double x, double y) {
-      return 128 + 80 * std::tanh((x - 320 - slope * (y - 180)) / 2);
-    });
-    EXPECT_TRUE(selected(picture).empty()) << "slope " << slope;
-  }
-}
-
-TEST(FeatureSelection, FindsTheCornersOfARectangleAndNothingElse) {
-  // Edges between the pixels, so that the corners are at the ends of the intervals.
-  const double left = 200.25;
-  const double right = 420.5;
-  const double top = 100.75;
-  const double bottom = 260.0;
-  Picture picture(640, 360);
-  picture.fill(
-      [&](double x, double y) { return 60 + 140 * cover(x, left, right) * cover(y, top, bottom); });
-  const std::vector<Track> found = selected(picture);
-  ASSERT_EQ(found.size(), 4u);
-  for (const double x : {left, right}) {
-    for (const double y : {top, bottom}) {
-      const ImagePoint corner{static_cast<float>(x), static_cast<float>(y)};
-      double nearest = 1e9;
-      for (const Track& track : found) nearest = std::min(nearest, distance(track.from, corner));
-      // The 3×3 sum of 3×3 Sobel sums is largest within half its reach of 2.5 px of the corner in
-      // each direction.
-      EXPECT_LE(nearest, 2.5 * std::sqrt(2.0)) << "corner " << x << " " << y;
-    }
-  }
-}
-
 TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
   struct Size {
     int width, height;
@@ -131,31 +90,9 @@ TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
   }
 }
 
-TEST(FeatureSelection, AnyMinimumDistanceLeavesOnePoint) {
-  const Picture picture = textured(640, 360);
-  for (const double min_distance_px : {1e3, 1e9, 1e300}) {
-    TrackerSettings settings;
-    settings.min_distance_px = min_distance_px;
-    EXPECT_EQ(selected(picture, settings).size(), 1u) << min_distance_px;
-  }
-}
-
 TEST(FeatureSelection, KeepsTheMaximumNumber) {
   OpenCvTracker tracker;
   EXPECT_EQ(tracker.track(textured(640, 360).view()).features, 200);
-}
-
-TEST(FeatureSelection, AHigherQualityLevelLeavesFewer) {
-  const Picture picture = textured(640, 360);
-  size_t last = 1'000'000;
-  for (const double quality_level : {0.4, 0.6, 0.8}) {
-    TrackerSettings settings;
-    settings.quality_level = quality_level;
-    const size_t count = selected(picture, settings).size();
-    EXPECT_LT(count, last) << "quality " << quality_level;
-    last = count;
-  }
-  EXPECT_GE(last, 1u);
 }
 
 TEST(FeatureSelection, AMirroredPictureHasMirroredPoints) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -14,39 +15,13 @@ Track moved(float dx, float dy, float x = 100, float y = 50) {
   return {0, {x, y}, {x + dx, y + dy}};
 }
 
-TEST(MeanMotion, OneTrackIsDisplacementOverTime) {
-  // 0.5 s and whole pixels: every step of eq. 9 is exact in binary but the 1e-9, which is not; two
-  // roundings of 2^-53 each are far below 1e-12.
-  const ImageMotion motion = mean_motion({moved(8, -4)}, 500'000'000);
-  EXPECT_NEAR(motion.velocity_px_s.x(), 16, 1e-12);
-  EXPECT_NEAR(motion.velocity_px_s.y(), -8, 1e-12);
-  EXPECT_EQ(motion.tracked, 1);
-}
-
 TEST(MeanMotion, IsTheMeanOverAllTracks) {
+  // Whole pixels in a quarter of a second: all is exact in binary but the 1e-9 of a nanosecond.
   const std::vector<Track> tracks{moved(8, 0), moved(0, 2), moved(-2, 4), moved(2, -2)};
   const ImageMotion motion = mean_motion(tracks, 250'000'000);
   EXPECT_NEAR(motion.velocity_px_s.x(), 8.0 / 4 / 0.25, 1e-12);
   EXPECT_NEAR(motion.velocity_px_s.y(), 4.0 / 4 / 0.25, 1e-12);
   EXPECT_EQ(motion.tracked, 4);
-}
-
-TEST(MeanMotion, StaticPointsCountInTheMean) {
-  // Eq. 10 divides by all N points: three that stand still leave a quarter of the speed.
-  const std::vector<Track> tracks{moved(8, 0), moved(0, 0), moved(0, 0), moved(0, 0)};
-  EXPECT_NEAR(mean_motion(tracks, 1'000'000'000).velocity_px_s.x(), 2, 1e-12);
-}
-
-TEST(MeanMotion, HalfTheIntervalIsTwiceTheVelocity) {
-  const ImageMotion slow = mean_motion({moved(3, 1)}, 40'000'000);
-  const ImageMotion fast = mean_motion({moved(3, 1)}, 20'000'000);
-  EXPECT_NEAR(fast.velocity_px_s.x(), 2 * slow.velocity_px_s.x(), 1e-10);
-  EXPECT_NEAR(fast.velocity_px_s.y(), 2 * slow.velocity_px_s.y(), 1e-10);
-}
-
-TEST(MeanMotion, OneNanosecondAndOneHourAreIntervals) {
-  EXPECT_NEAR(mean_motion({moved(1, 0)}, 1).velocity_px_s.x(), 1e9, 1e-3);
-  EXPECT_NEAR(mean_motion({moved(36, 0)}, 3'600'000'000'000).velocity_px_s.x(), 0.01, 1e-15);
 }
 
 TEST(MeanMotion, NoTracksAreNoMotion) {
@@ -58,6 +33,51 @@ TEST(MeanMotion, NoTracksAreNoMotion) {
 TEST(MeanMotion, RefusesAnIntervalThatIsNotPositive) {
   EXPECT_THROW(mean_motion({moved(1, 0)}, 0), std::invalid_argument);
   EXPECT_THROW(mean_motion({}, -1), std::invalid_argument);
+}
+
+constexpr int kWidth = 640;
+constexpr double kInterval_s = 0.04;
+constexpr double kFastest_px_s = kWidth / kInterval_s;
+
+ImageMotion motion_of(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
+  return {{x_px_s, y_px_s}, growth_1_s, roll_rad_s, 10, 1.5};
+}
+
+TEST(MotionBounds, VisibleMotionIsUnchanged) {
+  const ImageMotion motion = motion_of(-0.6 * kFastest_px_s, 0.79 * kFastest_px_s, -24, 78);
+  const ImageMotion bounded = bound_motion(motion, kWidth, kInterval_s);
+  EXPECT_EQ(bounded.velocity_px_s, motion.velocity_px_s);
+  EXPECT_EQ(bounded.growth_1_s, -24);
+  EXPECT_EQ(bounded.roll_rad_s, 78);
+  EXPECT_EQ(bounded.tracked, 10);
+  EXPECT_EQ(bounded.noise_px_s, 1.5);
+}
+
+TEST(MotionBounds, NothingIsFasterThanAFramesWidthAFrame) {
+  for (const double speed_px_s : {2 * kFastest_px_s, 2e10, 1e300}) {
+    const ImageMotion bounded =
+        bound_motion(motion_of(0.6 * speed_px_s, -0.8 * speed_px_s), kWidth, kInterval_s);
+    // A norm, a quotient, a product.
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * kFastest_px_s;
+    EXPECT_NEAR(bounded.velocity_px_s.x(), 0.6 * kFastest_px_s, rounding);
+    EXPECT_NEAR(bounded.velocity_px_s.y(), -0.8 * kFastest_px_s, rounding);
+  }
+}
+
+TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
+  const ImageMotion bounded = bound_motion(motion_of(0, 0, 1e9, -1e9), kWidth, kInterval_s);
+  EXPECT_EQ(bounded.growth_1_s, 1 / kInterval_s);
+  EXPECT_NEAR(bounded.roll_rad_s, -M_PI / kInterval_s, 1e-12);
+}
+
+TEST(MotionBounds, NanIsNoMotion) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const ImageMotion bounded = bound_motion(motion_of(bad, 1, bad, -bad), kWidth, kInterval_s);
+    EXPECT_EQ(bounded.velocity_px_s.norm(), 0);
+    EXPECT_EQ(bounded.growth_1_s, 0);
+    EXPECT_EQ(bounded.roll_rad_s, 0);
+  }
 }
 
 }  // namespace

@@ -12,30 +12,21 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/layers/margins.h"
-#include "tests/support/picture.h"
+#include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::margins_test {
 namespace {
 
 using Eigen::Vector2d;
-using test::Picture;
-using test::Texture;
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 360;
 constexpr int kFrames = 30;
-constexpr int64_t kFrame_ns = 40'000'000;
-constexpr double kFrame_s = 0.04;
 /// Margins are known after some pairs of pictures in which the film moves. What seemed to be an
 /// object is seen at rest then.
 constexpr size_t kKnown = Margins::kKnownAfterPairs + 3;
 
 const Texture kBackground(1, 10);
 const Texture kForeground(2, 10);
-
-/// Grey level of frame n at a place, px from the upper left corner.
-using Scene = std::function<double(int n, const Vector2d& at)>;
 
 bool in_box(const Vector2d& at, double left, double top, double width, double height) {
   return at.x() >= left && at.x() < left + width && at.y() >= top && at.y() < top + height;
@@ -44,12 +35,12 @@ bool in_box(const Vector2d& at, double left, double top, double width, double he
 /// Motion that is felt in each frame, px.
 std::vector<Vector2d> feel(const Scene& scene) {
   MotionAnalyzer analyzer;
-  Picture picture(kWidth, kHeight);
+  Picture picture(kSceneWidth, kSceneHeight);
   std::vector<Vector2d> felt_px;
   for (int n = 0; n < kFrames; ++n) {
     picture.fill([&](double x, double y) { return scene(n, {x, y}); });
-    const Frame found = analyzer.analyze(picture.view(), n * kFrame_ns);
-    felt_px.push_back(found.motion.velocity_px_s * kFrame_s);
+    const Frame found = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
+    felt_px.push_back(found.motion.velocity_px_s * kSceneFrame_s);
   }
   return felt_px;
 }
@@ -59,8 +50,8 @@ std::vector<Vector2d> feel(const Scene& scene) {
 Scene framed(const Scene& film) {
   return [film, random = std::mt19937(1), noise = std::normal_distribution<double>(0, 1.5)](
              int n, const Vector2d& at) mutable {
-    constexpr double kWide_px = kHeight / 8.0;
-    if (!in_box(at, kWide_px, kWide_px, kWidth - 2 * kWide_px, kHeight - 2 * kWide_px)) {
+    constexpr double kWide_px = kSceneHeight / 8.0;
+    if (!in_box(at, kWide_px, kWide_px, kSceneWidth - 2 * kWide_px, kSceneHeight - 2 * kWide_px)) {
       return kForeground.at(at.x(), at.y() + 700);
     }
     return std::clamp(film(n, at) + noise(random), 0.0, 255.0);
@@ -93,14 +84,15 @@ TEST(Margins, MakeAnewWhatWasAnObjectAndIsAtTheirBorder) {
   // A bush in front of a pan grows out of the lower bar. Until the sky shows something, the bars
   // are unknown, so that the bush does not touch the border of the picture and is taken for an
   // object.
-  constexpr double kBar_px = kHeight / 8.0;
+  constexpr double kBar_px = kSceneHeight / 8.0;
   constexpr int kClear = 10;
   const auto felt_px = feel([](int n, const Vector2d& at) {
-    if (!in_box(at, 0, kBar_px, kWidth, kHeight - 2 * kBar_px)) return 16.0;
+    if (!in_box(at, 0, kBar_px, kSceneWidth, kSceneHeight - 2 * kBar_px)) return 16.0;
     if (n < kClear && at.y() < 120) return 128.0;
     const double x = at.x() - 12.0 * n;
-    return in_box({x, at.y()}, 120, 235, 200, kHeight) ? kForeground.at(x, at.y())
-                                                       : kBackground.at(at.x() - 4.0 * n, at.y());
+    return in_box({x, at.y()}, 120, 235, 200, kSceneHeight)
+               ? kForeground.at(x, at.y())
+               : kBackground.at(at.x() - 4.0 * n, at.y());
   });
   EXPECT_GT(felt_px[kClear - 1].x(), 1);
   for (size_t n = kClear + kKnown; n < kFrames; ++n) EXPECT_EQ(felt_px[n], Vector2d(0, 0)) << n;

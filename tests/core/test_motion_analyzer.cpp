@@ -6,41 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "tests/support/picture.h"
-#include "tests/support/texture.h"
+#include "tests/core/moving_texture.h"
 
 namespace spidar::test::motion_analyzer_test {
 namespace {
 
-using test::Picture;
-using test::Texture;
-
 constexpr int64_t kFrame_ns = 40'000'000;
 constexpr double kFrame_s = 0.04;
-
-/// A mean displacement is right to 0.03 px of the reduced picture: see the tracker's test.
-constexpr double kMeanTolerance_px = 0.03;
-
-/// A texture that moves by a constant displacement each frame.
-class Scene {
- public:
-  Scene(int width, int height, double dx_px, double dy_px, uint32_t seed = 8)
-      : picture_(width, height), texture_(seed, 8 * reduction()), dx_px_(dx_px), dy_px_(dy_px) {}
-
-  /// Frame pixels to one of the picture that is looked at.
-  double reduction() const { return std::max(1.0, std::round(picture_.width / 480.0)); }
-
-  ImageView frame(int n) {
-    picture_.fill([&](double x, double y) { return texture_.at(x - n * dx_px_, y - n * dy_px_); });
-    return picture_.view();
-  }
-
- private:
-  Picture picture_;
-  Texture texture_;
-  double dx_px_;
-  double dy_px_;
-};
 
 AnalyzerSettings linear() {
   AnalyzerSettings settings = paper_settings();
@@ -61,7 +33,7 @@ void expect_restarted(const Frame& analysis) {
 }
 
 TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
-  Scene scene(640, 360, 3, 0);
+  MovingTexture scene(640, 360, 3, 0);
   MotionAnalyzer analyzer(paper_settings());
   const Frame first = analyzer.analyze(scene.frame(0), 0);
   expect_restarted(first);
@@ -69,7 +41,7 @@ TEST(MotionAnalyzer, TheFirstFrameShowsNoMotion) {
 }
 
 TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
-  Scene scene(640, 360, 3.5, -1.25);
+  MovingTexture scene(640, 360, 3.5, -1.25);
   for (const int64_t interval_ns : {kFrame_ns, 2 * kFrame_ns, kFrame_ns / 4}) {
     MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 7 * kFrame_ns);
@@ -84,31 +56,6 @@ TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
   }
 }
 
-TEST(MotionAnalyzer, ADroppedFrameIsNoJump) {
-  Scene scene(640, 360, 2, 1);
-  MotionAnalyzer analyzer(paper_settings());
-  analyzer.analyze(scene.frame(0), 0);
-  const double tolerance_px_s = kMeanTolerance_px / kFrame_s;
-  for (const int n : {1, 2, 4, 5, 8}) {
-    const Frame analysis = analyzer.analyze(scene.frame(n), n * kFrame_ns);
-    EXPECT_NEAR(analysis.motion.velocity_px_s.x(), 2 / kFrame_s, tolerance_px_s) << n;
-    EXPECT_NEAR(analysis.motion.velocity_px_s.y(), 1 / kFrame_s, tolerance_px_s) << n;
-  }
-}
-
-TEST(MotionAnalyzer, RightIsRightAndUpIsUp) {
-  Scene right(640, 360, 4, 0);
-  Scene up(640, 360, 0, -4);
-  MotionAnalyzer analyzer(paper_settings());
-  analyzer.analyze(right.frame(0), 0);
-  const Wrench to_the_right = analyzer.analyze(right.frame(1), kFrame_ns).wrench;
-  EXPECT_GT(to_the_right.force_N.x(), 0.5);
-  analyzer.restart();
-  analyzer.analyze(up.frame(0), 0);
-  const Wrench upwards = analyzer.analyze(up.frame(1), kFrame_ns).wrench;
-  EXPECT_GT(upwards.force_N.y(), 0.5);
-}
-
 TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
   // The same picture in three sizes: the velocity is that of the frame, the force is the same.
   struct Size {
@@ -116,17 +63,16 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
   };
   for (const Size size : {Size{320, 180}, Size{640, 360}, Size{1280, 720}, Size{1920, 1080}}) {
     const double dx_px = 0.01 * size.height;
-    Scene scene(size.width, size.height, dx_px, 0);
+    MovingTexture scene(size.width, size.height, dx_px, 0);
     MotionAnalyzer analyzer(paper_settings());
     analyzer.analyze(scene.frame(0), 0);
     const Frame analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
-    const double tolerance_px_s = kMeanTolerance_px * scene.reduction() / kFrame_s;
+    const double tolerance_px_s = kMeanTolerance_px * reduction(size.width, size.height) / kFrame_s;
     EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
 
     // Exactly eq. 15 of the velocity reported.
     NonlinearController controller(3.0, 0.0025);
-    const Wrench expected = render_motion(
-        controller, kReferenceHeight_px / size.height * analysis.motion.velocity_px_s);
+    const Wrench expected = render_motion(controller, analysis.motion, {}, size.height);
     EXPECT_EQ(analysis.wrench.stacked(), expected.stacked());
 
     // 0.01 · 480 px in 40 ms: 120 px/s of the reference frame. No slope of eq. 15 is above that at
@@ -139,7 +85,7 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
 }
 
 TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
-  Scene scene(640, 360, 3, 0);
+  MovingTexture scene(640, 360, 3, 0);
   for (const int64_t step_ns : {int64_t{0}, -kFrame_ns, -10'000 * kFrame_ns}) {
     MotionAnalyzer analyzer(linear());
     analyzer.analyze(scene.frame(0), 0);
@@ -154,8 +100,8 @@ TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
 }
 
 TEST(MotionAnalyzer, RestartForgetsTheFrameAndTheLargestSpeed) {
-  Scene fast(640, 360, 8, 0);
-  Scene slow(640, 360, 1, 0);
+  MovingTexture fast(640, 360, 8, 0);
+  MovingTexture slow(640, 360, 1, 0);
   MotionAnalyzer analyzer(linear());
   analyzer.analyze(fast.frame(0), 0);
   // Rounding only: the first speed is the largest, so the force is the maximum.
@@ -167,8 +113,8 @@ TEST(MotionAnalyzer, RestartForgetsTheFrameAndTheLargestSpeed) {
 
 TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
   // Vmax(T) of eq. 13 is the largest since the video began, whatever its scenes.
-  Scene fast(640, 360, 8, 0, 8);
-  Scene slow(640, 360, 2, 0, 77);
+  MovingTexture fast(640, 360, 8, 0, 8);
+  MovingTexture slow(640, 360, 2, 0, 77);
   MotionAnalyzer analyzer(linear());
   analyzer.analyze(fast.frame(0), 0);
   const double fastest_px_s =
@@ -188,12 +134,11 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
   int64_t time_ns = 0;
   // The wrenches of a scene are those of a controller that is told of the same motion.
   const auto expect_same = [&](uint32_t seed) {
-    Scene scene(640, 360, 6, 2, seed);
+    MovingTexture scene(640, 360, 6, 2, seed);
     expect_restarted(analyzer.analyze(scene.frame(0), time_ns += kFrame_ns));
     for (int n = 1; n < 6; ++n) {
       const Frame frame = analyzer.analyze(scene.frame(n), time_ns += kFrame_ns);
-      const Wrench expected = render_motion(
-          *controller, kReferenceHeight_px / 360 * frame.motion.velocity_px_s, kFrame_s);
+      const Wrench expected = render_motion(*controller, frame.motion, {}, 360, kFrame_s);
       EXPECT_EQ(frame.wrench.stacked(), expected.stacked()) << "seed " << seed << ", " << n;
     }
   };
@@ -211,7 +156,7 @@ TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {
   MotionAnalyzer unfiltered(paper_settings());
   int64_t time_ns = 0;
   for (const uint32_t seed : {8u, 77u}) {
-    Scene scene(640, 360, seed == 8 ? 6 : -6, 2, seed);
+    MovingTexture scene(640, 360, seed == 8 ? 6 : -6, 2, seed);
     for (int n = 0; n < 4; ++n) {
       time_ns += kFrame_ns * (1 + n % 2);  // uneven intervals, for velocities that differ
       const Frame frame = analyzer.analyze(scene.frame(n), time_ns);
@@ -230,8 +175,8 @@ TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {
 }
 
 TEST(MotionAnalyzer, AnotherFrameSizeShowsNoMotion) {
-  Scene large(640, 360, 3, 0);
-  Scene small(320, 180, 3, 0);
+  MovingTexture large(640, 360, 3, 0);
+  MovingTexture small(320, 180, 3, 0);
   MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(large.frame(0), 0);
   analyzer.analyze(large.frame(1), kFrame_ns);
@@ -239,30 +184,8 @@ TEST(MotionAnalyzer, AnotherFrameSizeShowsNoMotion) {
   EXPECT_TRUE(analyzer.analyze(small.frame(1), 3 * kFrame_ns).has_motion_before());
 }
 
-TEST(MotionAnalyzer, AFlatPictureIsNoMotionAndNoRestart) {
-  Picture grey(640, 360);
-  grey.fill([](double, double) { return 100.0; });
-  MotionAnalyzer analyzer(linear());
-  analyzer.analyze(grey.view(), 0);
-  const Frame analysis = analyzer.analyze(grey.view(), kFrame_ns);
-  EXPECT_TRUE(analysis.has_motion_before());
-  EXPECT_EQ(analysis.interval_ns, kFrame_ns);
-  EXPECT_EQ(analysis.features, 0);
-  expect_nothing(analysis);
-}
-
-TEST(MotionAnalyzer, AStillPictureIsFollowedAndHasNoForce) {
-  Scene scene(640, 360, 0, 0);
-  MotionAnalyzer analyzer(paper_settings());
-  analyzer.analyze(scene.frame(0), 0);
-  const Frame analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
-  EXPECT_GT(analysis.motion.tracked, 50);
-  EXPECT_EQ(analysis.motion.velocity_px_s, Eigen::Vector2d::Zero());
-  EXPECT_EQ(analysis.wrench.force_N, Eigen::Vector3d::Zero());
-}
-
 TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
-  Scene scene(640, 360, 4, 0);
+  MovingTexture scene(640, 360, 4, 0);
   AnalyzerSettings settings = linear();
   MotionAnalyzer analyzer(settings);
   analyzer.analyze(scene.frame(0), 0);
@@ -281,12 +204,11 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   const Frame nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
   NonlinearController controller(1.0, 0.0025);
   EXPECT_EQ(nonlinear.wrench.stacked(),
-            render_motion(controller, kReferenceHeight_px / 360 * nonlinear.motion.velocity_px_s)
-                .stacked());
+            render_motion(controller, nonlinear.motion, {}, 360).stacked());
 }
 
 TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
-  Scene scene(640, 360, 4, 0);
+  MovingTexture scene(640, 360, 4, 0);
   MotionAnalyzer analyzer(paper_settings());
   analyzer.analyze(scene.frame(0), 0);
   AnalyzerSettings bad;
@@ -295,11 +217,6 @@ TEST(MotionAnalyzer, BadSettingsAreRefusedAndChangeNothing) {
   EXPECT_THROW(analyzer.configure(bad), std::invalid_argument);
   EXPECT_THROW(MotionAnalyzer{bad}, std::invalid_argument);
   EXPECT_GT(analyzer.analyze(scene.frame(1), kFrame_ns).features, 50);
-}
-
-TEST(MotionAnalyzer, ABadFrameIsRefused) {
-  MotionAnalyzer analyzer(paper_settings());
-  EXPECT_THROW(analyzer.analyze({}, 0), std::invalid_argument);
 }
 
 }  // namespace

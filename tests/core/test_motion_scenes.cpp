@@ -184,26 +184,6 @@ TEST(ObjectMotion, IsExactlyNothingWhereOnlyTheCameraMoves) {
   }
 }
 
-TEST(ObjectMotion, TwoDiscsAreTwoObjectsAndTheHandStaysWithOne) {
-  MovingScene scene(kWidth, kHeight);
-  scene.plain_background();
-  scene.add_disc(30);
-  scene.add_disc(24);
-  MotionAnalyzer one(with(MotionKind::kObject));
-  MotionAnalyzer all(with(MotionKind::kObjects));
-  for (int n = 0; n < 12; ++n) {
-    const ImageView view = scene.draw({}, {{{-150.0 + 6 * n, -40}}, {{150.0 - 5 * n, 60}}});
-    const Frame dominant = one.analyze(view, n * kFrame_ns);
-    const Frame both = all.analyze(view, n * kFrame_ns);
-    if (n < 3) continue;
-    EXPECT_EQ(dominant.objects.size(), 2u) << n;
-    EXPECT_NEAR(dominant.motion.velocity_px_s.x() * kFrame_s, 6, tolerance_px(6)) << n;
-    // Between the two, nearer to the larger one.
-    EXPECT_GT(both.motion.velocity_px_s.x() * kFrame_s, 0) << n;
-    EXPECT_LT(both.motion.velocity_px_s.x() * kFrame_s, 4) << n;
-  }
-}
-
 TEST(ObjectMotion, TheForceOfADiscThatVanishesFades) {
   MovingScene scene(kWidth, kHeight);
   scene.add_disc(40);

@@ -1,62 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The solvers run in the haptic thread, which must not allocate, whether the input is good or bad.
-// The motion of a frame is found without allocating as well, whatever the scene.
+// The motion of a frame is found without allocating, whatever the scene. Ticks of the loop are in
+// tests/spidar/test_random_safety.cpp.
 #include <algorithm>
-#include <limits>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/grip/pose_solver.h"
-#include "core/grip/tension_solver.h"
 #include "core/motion/motion_estimator.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
-#include "tests/support/tension_cases.h"
-#include "track_samples.h"
 
 namespace spidar::test::no_allocation_test {
 namespace {
-
-TEST(NoAllocation, TheCounterCounts) {
-  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
-  // Volatile, because a compiler that knows the callee may leave out the call, or take the counter
-  // for constant.
-  void* (*volatile take)(size_t) = ::operator new;
-  const long before = allocations;
-  void* something = take(800);
-  EXPECT_GT(allocations, before);
-  ::operator delete(something);
-}
-
-TEST(NoAllocation, TensionSolver) {
-  Random random(1);
-  TensionSolver solver;
-  for (int n = 0; n < 12 * 200; ++n) {
-    TensionProblem p = random_problem(random, static_cast<TensionCase>(n % kTensionCases));
-    if (n % 100 == 0) p.W(0, 0) = std::numeric_limits<double>::quiet_NaN();
-    const long before = allocations;
-    solver.solve(p);
-    ASSERT_EQ(allocations, before) << "case " << n;
-  }
-}
-
-TEST(NoAllocation, PoseSolver) {
-  const StringGeometry geometry = g6x3_geometry();
-  Random random(2);
-  PoseSolver solver(geometry);
-  for (int n = 0; n < 500; ++n) {
-    StringVector lengths = string_lengths_m(geometry, random_pose(random, 0.05, 1.4));
-    if (n % 3 == 0) lengths[n % 8] += 0.01;     // one is wrong
-    if (n % 7 == 0) lengths.setConstant(0.01);  // all are
-    if (n % 50 == 0) lengths[0] = std::numeric_limits<double>::quiet_NaN();
-    const long before = allocations;
-    solver.solve(lengths);
-    ASSERT_EQ(allocations, before) << "case " << n;
-  }
-}
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;

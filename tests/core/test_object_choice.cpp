@@ -133,25 +133,6 @@ TEST(ObjectChoice, FollowsTheObjectOfEachRule) {
   EXPECT_GE(player.share_felt(1, 75), kMostFrames);
 }
 
-TEST(ObjectChoice, FollowsItsMotionAndNotThatOfTheCamera) {
-  Player player({large(), middle(), small()}, false);
-  player.pan_px << 3, 1;
-  player.set_rules(rule_at(0, 9, middle()));
-  player.play_to(kKnown);
-  EXPECT_GE(player.share_felt(1, 60), kMostFrames);
-}
-
-/// Two that meet, one in front of the other.
-TEST(ObjectChoice, FollowsAnObjectThatIsHiddenByAnother) {
-  const Disc walker = {24, [](double n) { return Vector2d(-180 + 3.5 * n, -20); }};
-  const Disc other = {36, [](double n) { return Vector2d(170 - 3 * n, 0); }};
-  Player player({walker, other});
-  player.set_rules(rule_at(0, 9, walker));
-  player.play_to(kKnown);
-  EXPECT_GE(player.share_felt(0, 100), 0.8) << "it is hidden for a sixth of this time";
-  EXPECT_EQ(player.felt(), 0);
-}
-
 /// An object that rests is none for the tracker after a second.
 TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   const Disc walker = {30, [](double n) {

@@ -166,35 +166,24 @@ void expect_kept_across(const Film& film, int frames) {
   EXPECT_EQ(only_id(seen, b, met.first_after + 1, frames - 1), id_b);
 }
 
-TEST(ObjectIdentity, IsKeptWhereTwoCrossHeadOn) {
-  Film film;
-  film.discs = {straight(3, {120, 190}, {8, 0}), straight(4, {520, 180}, {-8, 0})};
-  expect_kept_across(film, 45);
-}
-
-TEST(ObjectIdentity, IsKeptWhereTwoCrossAtARightAngle) {
-  Film film;
-  film.discs = {straight(3, {120, 180}, {8, 0}, 40), straight(4, {320, 20}, {0, 7}, 40)};
-  expect_kept_across(film, 45);
-}
-
-TEST(ObjectIdentity, IsKeptWhereOneOvertakesTheOther) {
-  Film film;
-  film.discs = {straight(3, {260, 180}, {3, 0}, 40), straight(4, {60, 175}, {12, 0}, 40)};
-  expect_kept_across(film, 44);
-}
-
-TEST(ObjectIdentity, IsKeptWhereTheyCrossWhileTheCameraPans) {
-  Film film;
-  film.pan_px = {-4, 1};
-  film.discs = {straight(3, {120, 190}, {8, 0}), straight(4, {520, 180}, {-8, 0})};
-  expect_kept_across(film, 45);
-}
-
-TEST(ObjectIdentity, IsKeptWhereALargeOneHidesASmallOne) {
-  Film film;
-  film.discs = {straight(3, {110, 180}, {9, 0}, 35), straight(4, {500, 180}, {-7, 0}, 75)};
-  expect_kept_across(film, 44);
+TEST(ObjectIdentity, IsKeptWhereTwoCross) {
+  const Disc right = straight(3, {120, 190}, {8, 0}), left = straight(4, {520, 180}, {-8, 0});
+  const struct {
+    const char* how;
+    Film film;
+  } crossings[] = {
+      {"head on", {{right, left}, {}}},
+      {"at a right angle",
+       {{straight(3, {120, 180}, {8, 0}, 40), straight(4, {320, 20}, {0, 7}, 40)}, {}}},
+      {"one overtakes the other",
+       {{straight(3, {260, 180}, {3, 0}, 40), straight(4, {60, 175}, {12, 0}, 40)}, {}}},
+      {"while the camera pans", {{right, left}, {}, {-4, 1}}},
+      {"a large one hides a small one",
+       {{straight(3, {110, 180}, {9, 0}, 35), straight(4, {500, 180}, {-7, 0}, 75)}, {}}}};
+  for (const auto& crossing : crossings) {
+    SCOPED_TRACE(crossing.how);
+    expect_kept_across(crossing.film, 44);
+  }
 }
 
 /// A post that hides discs of 80 px in whole for four frames of 10 px.

@@ -4,6 +4,7 @@
 // gives the same bits.
 #include <cstdint>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -95,6 +96,26 @@ TEST(PictureSteps, FactorsMakeTheLongerSideAbout480) {
                         Case{1920, 1080, 4}, Case{1080, 1920, 4}, Case{3840, 2160, 8},
                         Case{16, 16, 1}, Case{8192, 16, 1}, Case{8192, 64, 4}}) {
     EXPECT_EQ(halving_factor(c.width, c.height), c.factor) << c.width << "x" << c.height;
+  }
+}
+
+TEST(ImageView, WhatCannotBeLumaIsRefused) {
+  const Picture picture(64, 64);
+  EXPECT_NO_THROW(require_usable(picture.view()));
+  for (const LumaSample& sample : {LumaSample{3, 0, false}, LumaSample{0, 0, false},
+                                   LumaSample{2, 9, false}, LumaSample{2, -1, false}}) {
+    ImageView view = picture.view();
+    view.sample = sample;
+    EXPECT_THROW(require_usable(view), std::invalid_argument);
+  }
+  const uint8_t* const data = picture.pixels.data();
+  for (const ImageView& view :
+       {ImageView{nullptr, 64, 64, 64},
+        {data, 15, 64, 64},
+        {data, 64, 0, 64},
+        {data, 64, 64, 63},
+        {data, 64, 32, 64, {2, 8, false}}}) {  // rows with a byte for each pixel only
+    EXPECT_THROW(require_usable(view), std::invalid_argument);
   }
 }
 

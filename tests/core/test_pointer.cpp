@@ -59,19 +59,6 @@ TEST(Pointer, ALoneObjectIsFeltAsItIsHoweverFar) {
   EXPECT_NEAR(motion_at_pointer(objects, {300, 190}, kHeight).velocity_px_s.x(), 70, kRounding);
 }
 
-TEST(Pointer, MovesWithoutASteadyObjectJumping) {
-  const std::vector<MovingObject> objects = {object(-150, 0, 60, 80), object(150, 0, 60, -40)};
-  double last = motion_at_pointer(objects, {-200, 0}, kHeight).velocity_px_s.x();
-  for (double x = -199; x <= 200; ++x) {
-    const double now = motion_at_pointer(objects, {x, 0}, kHeight).velocity_px_s.x();
-    // Shares are a logistic function of the difference of two −d² / 2σ², whose slope is d / σ² at
-    // most for each: 2 · 320 / 100² a px. A share changes by a quarter of that, the mean by 120
-    // times it.
-    EXPECT_LT(std::fabs(now - last), 120 * 0.25 * 2 * 320 / 1e4) << x;
-    last = now;
-  }
-}
-
 TEST(Pointer, NothingInSightIsNothing) {
   std::vector<MovingObject> objects = {object(0, 0, 60, 80)};
   objects[0].tracks = 0;

@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "tests/support/moving_scene.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
 
 namespace spidar::test::sparse_scenes_test {
 namespace {
 
-using test::MovingScene;
 using test::Picture;
 using test::Texture;
 
@@ -24,36 +24,6 @@ constexpr int kHeight = 270;
 constexpr int64_t kFrame_ns = 40'000'000;
 constexpr double kFrame_s = 0.04;
 constexpr int kFrames = 8;
-
-/// Two discs that part in front of a plain wall.
-void expect_two_objects(double radius_px) {
-  MovingScene scene(kWidth, kHeight);
-  scene.plain_background();
-  scene.add_disc(radius_px);
-  scene.add_disc(radius_px);
-  MotionAnalyzer analyzer;
-  for (int n = 0; n < kFrames; ++n) {
-    const double x_px = 110 + 3 * n;
-    const Frame frame =
-        analyzer.analyze(scene.draw({}, {{{-x_px, 0}}, {{x_px, 0}}}), n * kFrame_ns);
-    if (n == 0) continue;
-    ASSERT_STREQ(to_string(frame.background->model.kind), "still") << n;
-    if (n < 3) continue;  // an object needs two pairs of frames
-    ASSERT_EQ(frame.objects.size(), 2u) << n;
-    const MovingObject& one = frame.objects.front();
-    const MovingObject& other = frame.objects.back();
-    EXPECT_LT(one.relative_px_s.x() * other.relative_px_s.x(), 0) << n;
-    // To the half: the disc's rim is shared with the plain wall.
-    EXPECT_GT(std::min(one.relative_px_s.norm(), other.relative_px_s.norm()) * kFrame_s, 1.5) << n;
-  }
-}
-
-TEST(SparseScenes, TwoDiscsThatPartAreNoZoom) {
-  for (const double radius_px : {24, 32, 40, 48, 64}) {
-    SCOPED_TRACE(radius_px);
-    expect_two_objects(radius_px);
-  }
-}
 
 /// Each frame shows a sky that the camera pans over by 4 px, and nothing else moves. `clouds`: the
 /// sky has texture in small clouds only.

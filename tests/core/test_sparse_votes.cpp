@@ -13,19 +13,6 @@ namespace {
 
 using namespace background_votes;
 
-TEST(SparseVotes, OfAnObjectOnAPlainBackgroundAreNotTheBackgrounds) {
-  for (uint32_t seed = 1; seed <= 10; ++seed) {
-    TrackSource source(seed);
-    BackgroundEstimator estimator;
-    for (int n = 0; n < 10; ++n) {
-      std::vector<Displacement> points;
-      add_object(source, points, 100, {60.0 - 10 * n, 20}, {-10, 2}, kSigma_px);
-      const Background& found = estimator.estimate(votes(points, 900));
-      EXPECT_EQ(found.model.kind, ModelKind::kStill) << "seed " << seed << ", frame " << n;
-    }
-  }
-}
-
 TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
   // Up to 100 of 900 each, far apart: some similarity explains any two of them.
   const std::vector<Eigen::Vector2d> places_px{{-250, 100}, {250, 100}};
