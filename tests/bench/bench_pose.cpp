@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Compares the pose solver with ceres::TinySolver, in nanoseconds and error, while tracking encoder
-// counts and from a cold start. Geometry and encoder step are those of the SPIDAR-G6X3. Compare times
-// within one run only; absolute times depend on the machine.
+// counts and from a cold start. Geometry and encoder step are those of the SPIDAR-G6X3. Compare
+// times within one run only; absolute times depend on the machine.
 #include <cmath>
 #include <cstdio>
 #include <memory>
