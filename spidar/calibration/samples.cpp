@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/grip/tension_command.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
 #include "spidar/profiles/toml_field.h"
@@ -95,38 +95,6 @@ void check(const RecordingSettings& settings) {
                                 " s and at most the whole time");
 }
 
-/// Keeps the strings of a device at rest tension, multiplied by a share.
-class Strings {
- public:
-  Strings(Device& device, const Profile& profile)
-      : device_(device), profile_(profile), rest_N_(profile.min_tension_N()) {
-    device_.open();
-  }
-  ~Strings() { device_.close(); }
-  Strings(const Strings&) = delete;
-  Strings& operator=(const Strings&) = delete;
-
-  /// One exchange. Returns false when it failed. Throws DeviceError when the device is lost.
-  bool pull(double change_of_share, DeviceReading& reading) {
-    share_ = std::clamp(share_ + change_of_share, 0.0, 1.0);
-    const MotorVolts volts = to_volts(share_ * rest_N_, profile_);
-    const ExchangeStatus status = device_.exchange(volts, reading);
-    errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
-    if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
-      throw DeviceError(device_.name() + ": lost while recording; check cable and power");
-    return status == ExchangeStatus::kOk;
-  }
-
-  bool released() const { return share_ <= 0; }
-
- private:
-  Device& device_;
-  const Profile& profile_;
-  const StringVector rest_N_;
-  double share_ = 0;
-  int errors_in_a_row_ = 0;
-};
-
 CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings) {
   CountSamples samples(static_cast<Eigen::Index>(readings.size()), strings);
   for (Eigen::Index k = 0; k < samples.rows(); ++k)
@@ -140,22 +108,18 @@ CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings)
 CountSamples record_counts(Device& device, const Profile& profile,
                            const RecordingSettings& settings, const NextTick& next_tick) {
   check(settings);
-  Strings strings(device, profile);
-  std::vector<DeviceReading> kept;
-  DeviceReading reading;
-  const auto rise = static_cast<int64_t>(std::lround(HapticLoop::kEnergise_s / kTick_s));
+  constexpr auto kRise = static_cast<int64_t>(HapticLoop::kEnergise_s / kTick_s + 0.5);
   const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));
-  const auto end = rise + static_cast<int64_t>(std::lround(settings.seconds / kTick_s));
-  const auto time_s = [&](int64_t tick) { return static_cast<double>(tick - rise) * kTick_s; };
-  int64_t tick = 0;
-  for (; tick < end && next_tick(time_s(tick)); ++tick)
-    if (strings.pull(kTick_s / HapticLoop::kEnergise_s, reading) && tick >= rise &&
-        (tick - rise) % period == 0)
-      kept.push_back(reading);
-  for (; !strings.released(); ++tick) {
-    next_tick(time_s(tick));
-    strings.pull(-kTick_s / HapticLoop::kRelease_s, reading);
-  }
+  std::vector<DeviceReading> kept;
+  int64_t tick = -kRise;  // the next one
+  StringHold hold(device, profile,
+                  [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
+  if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s))
+    hold.stay(settings.seconds, [&](const DeviceReading& reading) {
+      if ((tick - 1) % period == 0) kept.push_back(reading);
+      return true;
+    });
+  hold.release();
   return to_samples(kept, profile.geometry.count);
 }
 

@@ -75,7 +75,8 @@ class DelayRun {
  public:
   DelayRun(Device& device, const Profile& profile, const Pace& pace, const MonotonicClock& now_ns,
            const DelayTestSettings& settings)
-      : loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
+      : device_(device),
+        loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
                                            limits(settings))),
         pace_(pace),
         now_ns_(now_ns),
@@ -103,13 +104,13 @@ class DelayRun {
       result_.complete = false;
       return false;
     }
-    const int64_t now_ns = now_ns_();
+    const int64_t now_ns = now_ns_(), late_ns = now_ns - record_.monotonic_ns;
     loop_->tick(now_ns, now_ns);
     while (loop_->pop_record(record_)) {
     }
     result_.largest_N = std::max(result_.largest_N, record_.commanded.force_N.norm());
     if (!loop_->lost()) return true;
-    return fault("the device does not answer any more; check cable and power");
+    return fault(loss_text(device_.name(), device_.health().last_fault, late_ns));
   }
 
   bool fail(const std::string& trouble) {
@@ -240,6 +241,7 @@ class DelayRun {
     result_.trouble = sentence_of(result_.fit->missing, *result_.fit);
   }
 
+  const Device& device_;
   const std::unique_ptr<HapticLoop> loop_;
   const Pace& pace_;
   const MonotonicClock& now_ns_;

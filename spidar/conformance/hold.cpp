@@ -9,8 +9,32 @@
 #include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar {
+
+std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns) {
+  if (fault == LinkFault::kStoodStill)
+    return name + ": this program stood still for " + std::to_string(late_ns / 1'000'000) +
+           " ms, because it was stopped or the machine was busy, so its guardian set the motors to "
+           "zero; start it again";
+  if (fault == LinkFault::kUnguarded)
+    return name +
+           ": the guardian (spidar-guardian), without which no motor pulls, has ended or does not "
+           "answer, and the motors were set to zero; start again";
+  return name + ": does not answer any more" +
+         (fault == LinkFault::kNone ? "" : std::string(" (") + to_string(fault) + ")") +
+         "; check cable and power";
+}
+
+void LossWatch::see(ExchangeStatus status, const std::string& name, const LinkHealth& health) {
+  const int64_t now_ns = monotonic_now_ns();
+  const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
+  last_ns_ = now_ns;
+  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
+  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+    throw DeviceError(loss_text(name, health.last_fault, late_ns));
+}
 
 StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
     : device_(device), profile_(profile), pace_(std::move(pace)) {
@@ -24,9 +48,7 @@ StringHold::~StringHold() {
 /// Returns false when there is no new reading.
 bool StringHold::exchange() {
   const ExchangeStatus status = device_.exchange(to_volts(tension_N_, profile_), reading_);
-  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
-  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
-    throw DeviceError(device_.name() + ": does not answer any more; check cable and power");
+  watch_.see(status, device_.name(), device_.health());
   return status == ExchangeStatus::kOk;
 }
 
@@ -80,9 +102,7 @@ ForceHold::~ForceHold() {
 bool ForceHold::exchange() {
   command_.now_ns += kTick_ns;
   const ExchangeStatus status = grip_.exchange(command_);
-  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
-  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
-    throw DeviceError(grip_.name() + ": does not answer any more; check cable and power");
+  watch_.see(status, grip_.name(), grip_.health());
   return status == ExchangeStatus::kOk;
 }
 

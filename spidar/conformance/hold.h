@@ -3,7 +3,9 @@
 /// Sets string tensions, or the force of a grip, directly, millisecond by millisecond.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -16,6 +18,22 @@ namespace spidar {
 
 /// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
+
+/// Finds out from the results of exchanges that a device is lost, and why.
+class LossWatch {
+ public:
+  /// To be called after every exchange. Throws DeviceError, which says what happened, when the
+  /// device is lost, or has not answered for too long.
+  void see(ExchangeStatus status, const std::string& name, const LinkHealth& health);
+
+ private:
+  int errors_in_a_row_ = 0;
+  int64_t last_ns_ = 0;  // when the latest exchange ended
+};
+
+/// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
+/// or its guardian ended, that is what the text names. `late_ns`: since the exchange before.
+std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
 
 /// Keeps a device open during its lifetime. Tensions change linearly. Every function throws
 /// DeviceError when the device is lost.
@@ -52,7 +70,7 @@ class StringHold {
   const Pace pace_;
   StringVector tension_N_ = StringVector::Zero();
   DeviceReading reading_;
-  int errors_in_a_row_ = 0;
+  LossWatch watch_;
 };
 
 /// Keeps a grip open during its lifetime. What StringHold is for strings. Every function throws
@@ -80,7 +98,7 @@ class ForceHold {
   Grip& grip_;
   const Pace pace_;
   GripCommand command_;
-  int errors_in_a_row_ = 0;
+  LossWatch watch_;
 };
 
 }  // namespace spidar

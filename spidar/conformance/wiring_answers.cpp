@@ -136,7 +136,7 @@ class Asking {
       return true;
     });
     if (readings == 0 && whole)
-      throw DeviceError(device_.name() + ": does not answer; check cable and power");
+      throw DeviceError(loss_text(device_.name(), device_.health().last_fault, 0));
     if (readings > 0) counts /= readings;
     return whole;
   }
