@@ -89,8 +89,8 @@ inline void require_positive_motors(const std::string& device, const Profile& pr
     if (profile.drives[static_cast<size_t>(i)].motor_sign < 0)
       throw DeviceError(device + ": profile \"" + profile.name +
                         "\" wants negative volts for string " + std::to_string(i) +
-                        " (motor_sign), the board puts out positive ones; take a profile for a "
-                        "usb-sh4 or usb-simple board, such as spidar-g6x3-v2-r");
+                        " (motor_sign), and the board puts out positive ones only: take a profile "
+                        "for this board, or correct motor_sign");
   }
 }
 

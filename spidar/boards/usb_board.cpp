@@ -94,9 +94,6 @@ const char* device_of(UsbFamily family) noexcept {
   return "";
 }
 
-namespace {
-
-/// Position of the rotary switch in `id`; −1 when it contains none.
 int rotary_of(const std::string& id) {
   const bool digits =
       !id.empty() && id.size() <= 2 &&
@@ -104,8 +101,6 @@ int rotary_of(const std::string& id) {
   const int number = digits ? std::stoi(id) : -1;
   return number <= 15 ? number : -1;
 }
-
-}  // namespace
 
 UsbSearch::UsbSearch(UsbFamily family, std::string name, std::string id)
     : family_(family), name_(std::move(name)), id_(std::move(id)) {}
@@ -167,7 +162,10 @@ void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& o
 }
 
 UsbBoard::UsbBoard(std::string name, std::string id, const Profile& profile)
-    : name_(std::move(name)), search_(UsbFamily::kCyverse, name_, std::move(id)) {
+    : name_(std::move(name)),
+      profile_name_(profile.name),
+      profile_board_(profile.board),
+      search_(UsbFamily::kCyverse, name_, std::move(id)) {
   for (const UsbBoardKind& known : usb_kinds()) {
     if (known.make == nullptr) continue;
     auto transport = std::make_unique<UsbTransport>(name_, known.pipes);
@@ -179,6 +177,11 @@ UsbBoard::UsbBoard(std::string name, std::string id, const Profile& profile)
 void UsbBoard::open_one(const UsbSearch::Candidate& candidate) {
   for (Kind& kind : kinds_) {
     if (kind.known != candidate.kind) continue;
+    if (profile_board_ != "unknown" && profile_board_ != kind.known->profile_board)
+      throw DeviceError(
+          name_ + ": the board at " + candidate.device.path + " is a " + kind.known->name +
+          ", and profile \"" + profile_name_ + "\" is for boards of the kind " + profile_board_ +
+          "; spidarctl info usb:" + candidate.device.path + " lists the profiles that fit");
     kind.transport->select(candidate.device);
     kind.board->open();
     used_ = &kind;

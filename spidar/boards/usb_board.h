@@ -48,6 +48,9 @@ const std::vector<UsbBoardKind>& usb_kinds();
 /// "usb", "mouse" or "falcon", for make_grip().
 const char* device_of(UsbFamily family) noexcept;
 
+/// Position of the rotary switch that `id` of usb:ID means; −1 when it is none.
+int rotary_of(const std::string& id);
+
 /// To be used for every opening, because the address changes when a device is plugged in again.
 class UsbSearch {
  public:
@@ -80,7 +83,8 @@ class UsbSearch {
 class UsbBoard final : public Board {
  public:
   /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
-  /// be only one board. Throws DeviceError when the boards cannot drive the profile.
+  /// be only one board. Throws DeviceError when the boards cannot drive the profile; so does open()
+  /// when the profile is for the other kind of board than the one that is found.
   UsbBoard(std::string name, std::string id, const Profile& profile);
 
   void open() override;
@@ -107,6 +111,7 @@ class UsbBoard final : public Board {
   void open_one(const UsbSearch::Candidate& candidate);
 
   const std::string name_;
+  const std::string profile_name_, profile_board_;
   const UsbSearch search_;
   std::vector<Kind> kinds_;
   Kind* used_ = nullptr;

@@ -141,13 +141,6 @@ void print_answers(std::ostream& out, const Conformance& found) {
   print_counters(out, found);
 }
 
-int moved_counters(const Conformance& found) {
-  int moved = 0;
-  for (size_t i = 0; i < static_cast<size_t>(found.profile.geometry.count); ++i)
-    moved += found.seen.largest[i] != found.seen.smallest[i] ? 1 : 0;
-  return moved;
-}
-
 }  // namespace
 
 bool Conformance::link_conforms() const noexcept {
@@ -156,12 +149,27 @@ bool Conformance::link_conforms() const noexcept {
          1000 * unanswered <= seen.exchanges;
 }
 
+int Conformance::moved_counters() const noexcept {
+  int moved = 0;
+  for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i)
+    moved += seen.largest[i] != seen.smallest[i] ? 1 : 0;
+  return moved;
+}
+
+const char* Conformance::verdict() const noexcept {
+  if (conforms()) return "conforms";
+  return link_conforms() && board.has_strings && moved_counters() == 0
+             ? "no counter moved, so nothing was shown but that the board answers"
+             : "does not conform";
+}
+
 bool Conformance::conforms() const noexcept {
   if (delay && delay->fault) return false;
   const bool lag_is_stated =
       !delay || !delay->measured() ||
       judge_lag(profile, *delay->fit, late_ticks()).stated != StatedLag::kTooSmall;
-  return link_conforms() && (!wiring || wiring->as_profile()) && lag_is_stated;
+  const bool moved = !board.has_strings || moved_counters() == profile.geometry.count;
+  return link_conforms() && moved && (!wiring || wiring->as_profile()) && lag_is_stated;
 }
 
 int Conformance::late_ticks() const noexcept {
@@ -191,14 +199,18 @@ void print_conformance(std::ostream& out, const Conformance& found, const std::s
   line(out, "link", found.link_conforms() ? "conforms" : "does not conform");
   if (found.board.has_strings)
     line(out, "counters",
-         std::to_string(moved_counters(found)) + " of " +
-             std::to_string(found.profile.geometry.count) + " moved");
+         std::to_string(found.moved_counters()) + " of " +
+             std::to_string(found.profile.geometry.count) + " moved" +
+             (found.moved_counters() < found.profile.geometry.count
+                  ? "; nothing was shown of the rest"
+                  : ""));
   line(out, "motors",
        !found.wiring                ? "not tried"
        : found.wiring->as_profile() ? "conform"
                                     : "do not conform");
   line(out, "lag",
        found.delay ? delay_summary(found.profile, *found.delay, found.late_ticks()) : "not tried");
+  line(out, "verdict", found.verdict());
 }
 
 }  // namespace spidar

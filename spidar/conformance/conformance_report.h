@@ -29,8 +29,13 @@ struct Conformance {
   bool link_conforms() const noexcept;
   /// By which the slowest hundredth of the answers would be late while playing, see judge_lag().
   int late_ticks() const noexcept;
-  /// All is as it should be, as far as it was tried.
+  /// How many counters had more than one value.
+  int moved_counters() const noexcept;
+  /// All is as it should be, as far as it was tried, and every counter of a board with strings has
+  /// moved: one that did not shows nothing.
   bool conforms() const noexcept;
+  /// "conforms", "does not conform", or that nothing was shown.
+  const char* verdict() const noexcept;
 };
 
 /// `version`: of the program that writes it.

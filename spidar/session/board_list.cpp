@@ -119,10 +119,16 @@ BoardInfo usb_board(const UsbBoardKind& kind, const UsbDeviceInfo& device) {
   board.serial = device.serial;
   board.usb_id = kind.id();
   board.profile_board = kind.profile_board;
-  if (board.has_strings) board.profile = remembered_profile(board.usb_id, board.serial);
   board.trial = kind.trial;
   board.note = device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules";
   board.accessible = device.accessible;
+  if (!board.has_strings) return board;
+  try {
+    board.profile = remembered_profile(board.usb_id, board.serial);
+  } catch (const ProfileError& error) {
+    board.memory_trouble = error.what();
+    board.note += (board.note.empty() ? "" : "; ") + board.memory_trouble;
+  }
   return board;
 }
 
@@ -174,6 +180,12 @@ BoardInfo board_info(const std::string& device) {
     ++of_kind;
   }
   if (id.empty() && of_kind == 1) return *only;
+  if (kind == "usb" && of_kind == 1 && rotary_of(id) >= 0) {
+    // Whether its switch is so is seen when it is opened.
+    BoardInfo board = *only;
+    board.device = device;
+    return board;
+  }
   if (kind == "uart" && !id.empty()) return uart_board(device, id.substr(0, id.find(',')));
   BoardInfo absent = of_name(device);
   if (kind == "uart") absent.name.clear();  // make_device() requires the path of a line

@@ -21,19 +21,13 @@ std::string key_of(const std::string& usb_id, const std::string& serial) {
   return usb_id + " " + serial;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string without_profile(const BoardInfo& board) {
-  const std::string why =
-      board.path.empty() ? "no board is plugged in whose profile is remembered, and none is named"
-                         : "no profile is named for this board, and the board does not say which "
-                           "frame, motors and encoders it has";
-  return board.device + ": the motors get no force: " + why +
-         ". Profiles that fit it: " + listed(fitting_profiles(board)) +
+  std::string why = board.path.empty()
+                        ? "no board is plugged in whose profile is remembered, and none is named"
+                        : "no profile is named for this board, and the board does not say which "
+                          "frame, motors and encoders it has";
+  if (!board.memory_trouble.empty()) why += " (" + board.memory_trouble + ")";
+  return board.device + ": the motors get no force: " + why + ". " + fitting_text(board) +
          ". Name yours (profile=NAME, spidarctl --profile NAME), or confirm it once: spidarctl "
          "choose " +
          board.device + " --profile NAME";
@@ -47,6 +41,20 @@ bool is_for(const std::string& profile_board, const BoardInfo& board) {
   return profile_board == "usb-sh4" || profile_board == "usb-simple";
 }
 
+/// Why the board cannot be driven with the profile; empty if it can.
+std::string misfit(const BoardInfo& board, const Profile& profile) {
+  if (!is_for(profile.board, board))
+    return board.device + ": profile \"" + profile.name + "\" is for boards of the kind " +
+           profile.board + ", and this is " +
+           (board.profile_board.empty() ? "usb-sh4 or usb-simple" : board.profile_board);
+  try {
+    make_device(board.device, profile);
+    return {};
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
 NoProfile::NoProfile(const BoardInfo& board) : DeviceError(without_profile(board)) {}
@@ -55,13 +63,19 @@ std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   std::vector<std::string> fitting;
   for (const std::string& name : list_profiles()) {
     try {
-      const Profile profile = load_profile(name);
-      if (is_for(profile.board, board) && can_drive(board.device, profile)) fitting.push_back(name);
+      if (misfit(board, load_profile(name)).empty()) fitting.push_back(name);
     } catch (const ProfileError&) {
       continue;
     }
   }
   return fitting;
+}
+
+std::string fitting_text(const BoardInfo& board) {
+  std::string names;
+  for (const std::string& name : fitting_profiles(board))
+    names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "No profile that is known here fits it" : "Profiles that fit it: " + names;
 }
 
 bool can_drive(const std::string& device, const Profile& profile) {
@@ -74,13 +88,18 @@ bool can_drive(const std::string& device, const Profile& profile) {
 }
 
 Profile profile_for(const std::string& device, const std::string& named) {
-  std::string name = named.empty() ? default_profile(device) : named;
-  if (name.empty()) {
-    const BoardInfo board = board_info(device);
-    if (board.profile.empty()) throw NoProfile(board);
-    name = board.profile;
-  }
-  return load_profile(name);
+  const std::string usual = default_profile(device);
+  if (!usual.empty()) return load_profile(named.empty() ? usual : named);
+  const BoardInfo board = board_info(device);
+  // Its error says how such a board is named.
+  if (board.name.empty()) make_device(device, load_profile(kDefaultProfile));
+  if (named.empty() && board.profile.empty()) throw NoProfile(board);
+  Profile profile = load_profile(named.empty() ? board.profile : named);
+  const std::string why = misfit(board, profile);
+  // None fits a board whose name is not right.
+  if (!why.empty())
+    throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board));
+  return profile;
 }
 
 fs::path remembered_profiles_file() {
@@ -98,42 +117,57 @@ fs::path remembered_profiles_file() {
   return folder / "gst-spidar" / "boards.toml";
 }
 
-std::string remembered_profile(const std::string& usb_id, const std::string& serial) {
-  const fs::path file = remembered_profiles_file();
+namespace {
+
+/// Empty when there is no file. Throws ProfileError when it cannot be read.
+toml::table remembered_boards(const fs::path& file) {
   std::error_code error;
-  if (serial.empty() || file.empty() || !fs::is_regular_file(file, error)) return {};
+  if (file.empty() || !fs::exists(file, error)) return {};
   try {
-    const toml::table boards = toml::parse_file(file.string());
-    const toml::node* profile = boards.get(key_of(usb_id, serial));
-    return profile ? profile->value_or(std::string()) : std::string();
-  } catch (const toml::parse_error&) {
-    return {};
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& fault) {
+    throw ProfileError(file.string() + ": " + std::string(fault.description()) +
+                       "; correct or remove the file");
   }
 }
 
-void remember_profile(const BoardInfo& board, const std::string& profile) {
+}  // namespace
+
+std::string remembered_profile(const std::string& usb_id, const std::string& serial) {
+  if (serial.empty()) return {};
+  const fs::path file = remembered_profiles_file();
+  const toml::table boards = remembered_boards(file);
+  const toml::node* const profile = boards.get(key_of(usb_id, serial));
+  if (!profile) return {};
+  if (!profile->is_string())
+    throw ProfileError(file.string() + ": \"" + key_of(usb_id, serial) +
+                       "\" must be the name of a profile, in quotes");
+  return profile->as_string()->get();
+}
+
+void require_serial(const BoardInfo& board, const std::string& profile) {
+  if (board.path.empty())
+    throw DeviceError(board.device +
+                      ": no such board is plugged in, or it is one of several; name it by its bus "
+                      "path or serial number, which spidarctl list prints");
   if (board.serial.empty())
     throw DeviceError(
         board.device +
         ": has no serial number by which its profile could be remembered; name it each "
         "time: profile=" +
         profile);
+}
+
+void remember_profile(const BoardInfo& board, const std::string& profile) {
+  require_serial(board, profile);
   const fs::path file = remembered_profiles_file();
   if (file.empty()) throw ProfileError("no profile can be remembered: HOME is not set");
-  toml::table boards;
-  std::error_code error;
-  if (fs::exists(file, error)) {
-    try {
-      boards = toml::parse_file(file.string());
-    } catch (const toml::parse_error& fault) {
-      throw ProfileError(file.string() + ": " + std::string(fault.description()) +
-                         "; correct or remove the file");
-    }
-  }
+  toml::table boards = remembered_boards(file);
   const bool is_path =
       profile.find('/') != std::string::npos || fs::path(profile).extension() == ".toml";
   boards.insert_or_assign(key_of(board.usb_id, board.serial),
                           is_path ? fs::absolute(profile).string() : profile);
+  std::error_code error;
   fs::create_directories(file.parent_path(), error);
   std::ostringstream text;
   text << "# Profiles that were confirmed with spidarctl choose: \"USB-ID SERIAL\" = \"PROFILE\".\n"

@@ -28,11 +28,15 @@ class NoProfile : public DeviceError {
 /// its kind or none. Profiles that cannot be read are left out. Opens nothing.
 std::vector<std::string> fitting_profiles(const BoardInfo& board);
 
+/// A sentence, without its full stop, that lists them.
+std::string fitting_text(const BoardInfo& board);
+
 /// Whether make_device() accepts the profile for this device. Opens nothing.
 bool can_drive(const std::string& device, const Profile& profile);
 
 /// Loads the profile `named`, which is a name or a path as for load_profile(). If it is empty,
-/// loads that of BoardInfo::profile. Throws NoProfile if that is empty, too, and ProfileError.
+/// loads that of BoardInfo::profile. Throws NoProfile if that is empty, too, DeviceError when the
+/// profile does not fit the board or there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
 /// The file with the profiles that were confirmed for boards:
@@ -41,11 +45,15 @@ Profile profile_for(const std::string& device, const std::string& named);
 std::filesystem::path remembered_profiles_file();
 
 /// What remember_profile() was last told for the board with this USB ID and serial number; empty if
-/// nothing, or if the file cannot be read.
+/// nothing. Throws ProfileError when the file cannot be read.
 std::string remembered_profile(const std::string& usb_id, const std::string& serial);
 
+/// Throws DeviceError, which says what to do instead, if the board has no serial number by which
+/// its `profile` could be remembered.
+void require_serial(const BoardInfo& board, const std::string& profile);
+
 /// `profile` is a name or a path as for load_profile(); a path is kept as an absolute one. Throws
-/// DeviceError if the board has no serial number, and ProfileError if the file cannot be written.
+/// as require_serial(), and ProfileError if the file cannot be read or written.
 void remember_profile(const BoardInfo& board, const std::string& profile);
 
 }  // namespace spidar

@@ -32,11 +32,12 @@ constexpr double kSamplePeriod_s = 0.002;
 
 struct CalibrateOptions : DeviceOptions {
   bool centre = false;
-  std::optional<double> seconds;         ///< of moving; none: not named
-  std::string free;                      ///< empty, exits, scale or exits,scale
-  std::string output;                    ///< empty: none
+  std::optional<double> seconds;  ///< of moving; none: not named
+  std::string free;               ///< empty, exits, scale or exits,scale
+  OutputFile output;
   std::vector<double> sim_start_mm_deg;  ///< empty, or six numbers
   bool untested = false;
+  bool yes = false;
   bool json = false;
 
   double move_s() const { return seconds.value_or(20); }
@@ -161,6 +162,19 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
   return record_counts(bench.device(), profile, settings, next_tick);
 }
 
+/// Throws DeviceError when an encoder has not counted. Without the test of the wiring, a board
+/// whose encoders are dead could not be told from a grip that is held still.
+void require_counts(const std::string& device, const CountSamples& counts) {
+  std::string still;
+  for (Eigen::Index i = 0; i < counts.cols(); ++i)
+    if (counts.rows() == 0 || counts.col(i).maxCoeff() == counts.col(i).minCoeff())
+      still += (still.empty() ? "" : ", ") + std::to_string(i);
+  if (!still.empty())
+    throw DeviceError(device + ": these encoders did not count: " + still +
+                      ". Nothing was measured with them; calibrate without --untested, which tests "
+                      "whether they are alive");
+}
+
 std::string how(const CalibrateOptions& options) {
   return options.centre ? "spidarctl calibrate: grip held at the centre"
                         : "spidarctl calibrate: grip moved for " + shown(options.move_s()) + " s";
@@ -171,9 +185,16 @@ int calibrate_command(const CalibrateOptions& options) {
   const BoardInfo board = board_info(options.device);
   require_strings(board, "calibrate");
   const Profile profile = profile_for(options.device, options.profile);
-  if (!options.output.empty()) check_folder_of(options.output);
-  catch_signals();
+  options.output.check();
   Bench bench(options, profile);
+  if (!may_move(options.device, options.yes,
+                options.untested
+                    ? "Pull all strings of " + options.device + " taut? The grip may move."
+                    : "Pull the strings of " + options.device +
+                          " one after the other, then all of them taut? The grip will move; hold "
+                          "it loosely at the centre."))
+    return kFailed;
+  catch_signals();
   const bool wired_right = options.untested || is_wired_right(options, profile, bench);
   if (!wired_right && !interrupted()) return kNotCalibrated;
   const CountSamples counts = wired_right ? record(options, profile, bench) : CountSamples();
@@ -181,6 +202,8 @@ int calibrate_command(const CalibrateOptions& options) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
+
+  if (options.untested) require_counts(options.device, counts);
 
   CalibrationSettings settings;
   settings.free_exits = options.frees("exits");
@@ -192,9 +215,9 @@ int calibrate_command(const CalibrateOptions& options) {
   else
     print_result(std::cout, profile, result, how(options));
   if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
-  if (!options.output.empty()) {
-    save_profile(calibrated_profile(profile, result, how(options)), options.output);
-    std::cerr << "written: " << options.output << '\n';
+  if (options.output) {
+    save_profile(calibrated_profile(profile, result, how(options)), options.output.path);
+    std::cerr << "written: " << options.output.path << '\n';
   }
   return kDone;
 }
@@ -218,6 +241,7 @@ void add_calibrate(Program& program) {
   app.add_flag("--untested", options.untested, "do not test the wiring before");
   add_profile_file(app, "--output", options.output, "write the calibrated profile");
   add_json(app, options.json);
+  add_yes(app, options.yes);
   app.add_option("--sim-start", options.sim_start_mm_deg,
                  "device sim: its counters were cleared X,Y,Z millimetres from the centre, turned "
                  "by RX,RY,RZ degrees (a rotation vector)")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <poll.h>
@@ -77,7 +78,10 @@ int choose(const DeviceOptions& options) {
     throw UsageError(options.device + ": a simulated device has its own profile");
   const BoardInfo board = board_info(options.device);
   require_strings(board, "choose");
-  if (options.profile.empty()) throw NoProfile(board);
+  if (options.profile.empty())
+    throw UsageError("choose needs --profile NAME. " + fitting_text(board));
+  if (!board.memory_trouble.empty()) throw ProfileError(board.memory_trouble);
+  require_serial(board, options.profile);
   ChosenDevice chosen = choose_device(options, Motors::kOff);
   catch_signals();
   HandMoves moves;
@@ -86,6 +90,13 @@ int choose(const DeviceOptions& options) {
   std::cout << "  string  encoder\n";
   for (int i = 0; i < chosen.profile.geometry.count; ++i)
     std::cout << "  " << i << "       " << text_of(signs[static_cast<size_t>(i)]) << '\n';
+  const bool counted = std::any_of(signs.begin(), signs.end(),
+                                   [](EncoderSign sign) { return sign != EncoderSign::kStill; });
+  if (!counted) {
+    std::cout << "no encoder counted: check that they are connected to the board and that the "
+                 "strings run over them, and move the grip as far as is asked for\n";
+    return kFailed;
+  }
   if (!encoders_agree(chosen.profile, moves)) {
     print_others(chosen, moves);
     return kFailed;

@@ -28,7 +28,7 @@ namespace {
 struct ConformanceOptions : DeviceOptions {
   double seconds = 10;
   double newton = 0.5;
-  std::string report;
+  OutputFile report;
   std::optional<double> sim_lag_ms;
   DelayTestSettings shaking;
   bool no_pull = false, no_shake = false;
@@ -115,8 +115,7 @@ void write(const std::string& file, const Conformance& found) {
     return;
   }
   replace_file(file, report.str());
-  std::cerr << (found.conforms() ? "conforms" : "does not conform") << "; written: " << file
-            << '\n';
+  std::cerr << found.verdict() << "; written: " << file << '\n';
 }
 
 /// `test` is false when interrupted.
@@ -133,7 +132,7 @@ int report(const ConformanceOptions& options, Conformance& found, const std::fun
     std::cerr << found.trouble << '\n';
   }
   found.health = health();
-  write(options.report, found);
+  write(options.report.path, found);
   return found.conforms() ? kDone : kFailed;
 }
 
@@ -166,7 +165,7 @@ int test_force(const ConformanceOptions& options, ChosenDevice& chosen) {
 
 int conformance(const ConformanceOptions& options) {
   ChosenDevice chosen = choose_device(options, options.no_pull ? Motors::kOff : Motors::kPulled);
-  if (!options.report.empty()) check_folder_of(options.report);
+  options.report.check();
   return chosen.grip ? test_force(options, chosen) : test_strings(options, chosen);
 }
 
@@ -176,7 +175,7 @@ void add_conformance(Program& program) {
   const auto [app, options] = add_command(
       program, "conformance", "test a board and write a report to send in", conformance);
   add_device(app, options);
-  app.add_option("--report", options.report, "a file for the report, instead of standard output");
+  add_output(app, "--report", options.report, "a file for the report, instead of standard output");
   app.add_option("--seconds", options.seconds, "for which you move the grip (default 10)")
       ->check(number(0.1, 600, " s"));
   app.add_option("--newton", options.newton,
@@ -203,9 +202,10 @@ void add_conformance(Program& program) {
       "and from how late it answers the report says by how much the drives lag and how stiff a\n"
       "surface may be. It contains the board's serial number and the kernel version of this\n"
       "system, but nothing else about you.\n\n"
-      "Exit status: 0 the board conforms in everything that was tested, 1 it does not, or\n"
-      "drive_lag_s of the profile is too small, or there is no device, 2 wrong usage, 130\n"
-      "interrupted.");
+      "Exit status: 0 the board conforms in everything that was tested, and every counter moved, "
+      "1\n"
+      "it does not, or drive_lag_s of the profile is too small, or there is no device, 2 wrong\n"
+      "usage, 130 interrupted.");
 }
 
 }  // namespace spidar

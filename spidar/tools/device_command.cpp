@@ -28,7 +28,7 @@ std::atomic<bool> signalled{false};
 /// One with which the board can be read, and no motor can be pulled.
 Profile to_read_only(const BoardInfo& board) {
   const std::vector<std::string> fitting = fitting_profiles(board);
-  if (fitting.empty()) throw NoProfile(board);
+  if (fitting.empty()) return profile_for(board.device, "");  // throws what is wrong
   Profile profile = load_profile(fitting.front());
   profile.name.clear();
   for (StringDrive& drive : profile.drives) drive.min_tension_N = drive.max_tension_N = 0;
@@ -62,13 +62,19 @@ void add_seconds(CLI::App& app, double& seconds) {
       ->check(number(0.001, 86400, " s"));
 }
 
-void add_profile_file(CLI::App& app, const std::string& name, std::string& file,
+CLI::Option* add_output(CLI::App& app, const std::string& name, OutputFile& file,
+                        const std::string& description) {
+  app.add_flag("--force", file.force, "replace the file of " + name + " if it exists");
+  return app.add_option(name, file.path, description);
+}
+
+void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
                       const std::string& description) {
   const auto check = [](const std::string& text) {
     const bool good = std::filesystem::path(text).extension() == ".toml";
     return good ? std::string() : "\"" + text + "\" must end in .toml, as profile files do";
   };
-  app.add_option(name, file, description)->check(CLI::Validator(check, "FILE.toml"));
+  add_output(app, name, file, description)->check(CLI::Validator(check, "FILE.toml"));
 }
 
 ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZero count_zero) {
@@ -141,11 +147,21 @@ bool confirm(const std::string& question) {
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }
 
-void check_folder_of(const std::string& file) {
-  const std::filesystem::path parent = std::filesystem::absolute(file).parent_path();
+bool may_move(const std::string& device, bool yes, const std::string& question) {
+  if (yes || is_simulated(device) || confirm(question)) return true;
+  std::cerr << "nothing was moved\n";
+  return false;
+}
+
+void OutputFile::check() const {
+  if (path.empty()) return;
+  const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
   if (access(parent.c_str(), W_OK) != 0)
-    throw ProfileError(file + ": cannot be written: " + parent.string() + ": " +
+    throw ProfileError(path + ": cannot be written: " + parent.string() + ": " +
                        std::strerror(errno));
+  std::error_code error;
+  if (!force && std::filesystem::exists(path, error))
+    throw ProfileError(path + ": exists; name another file, or replace it with --force");
 }
 
 }  // namespace spidar

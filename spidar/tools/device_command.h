@@ -62,11 +62,25 @@ struct DeviceOptions {
 void add_device(CLI::App& app, DeviceOptions& options);
 void add_sim_wiring(CLI::App& app, DeviceOptions& options);
 void add_json(CLI::App& app, bool& json);
+/// --yes, for commands that pull or push.
 void add_yes(CLI::App& app, bool& yes);
 /// --seconds, for commands that otherwise run until they are interrupted.
 void add_seconds(CLI::App& app, double& seconds);
-/// An option whose value is the name of a profile to be written.
-void add_profile_file(CLI::App& app, const std::string& name, std::string& file,
+/// A file that a command writes.
+struct OutputFile {
+  std::string path;  ///< empty: none
+  bool force = false;
+
+  explicit operator bool() const noexcept { return !path.empty(); }
+  /// Throws ProfileError when it cannot be written, or exists and may not be replaced. To be called
+  /// before the device moves in vain.
+  void check() const;
+};
+/// An option whose value is its name, and --force.
+CLI::Option* add_output(CLI::App& app, const std::string& name, OutputFile& file,
+                        const std::string& description);
+/// The same for a profile.
+void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
                       const std::string& description);
 
 /// What a command does with the motors.
@@ -115,7 +129,8 @@ Pace every_millisecond();
 /// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
 bool confirm(const std::string& question);
 
-/// Checks that the file can be written, before the device moves in vain. Throws ProfileError.
-void check_folder_of(const std::string& file);
+/// Whether the device may be moved: it is simulated, `yes` was given, or the answer is yes. Says
+/// that nothing moved if not.
+bool may_move(const std::string& device, bool yes, const std::string& question);
 
 }  // namespace spidar

@@ -15,7 +15,7 @@ namespace spidar {
 namespace {
 
 struct MonitorOptions : DeviceOptions {
-  bool json = false, taut = false;
+  bool json = false, taut = false, yes = false;
   double seconds = std::numeric_limits<double>::infinity();
 };
 
@@ -110,6 +110,10 @@ class Monitor {
 int monitor(const MonitorOptions& options) {
   require_strings(board_info(options.device), "monitor");
   ChosenDevice chosen = choose_device(options, options.taut ? Motors::kPulled : Motors::kOff);
+  if (options.taut &&
+      !may_move(options.device, options.yes,
+                "Pull all strings of " + chosen.name() + " taut? The grip may move."))
+    return kFailed;
   catch_signals();
   Monitor monitor(chosen.profile, options.json);
   StringHold hold(*chosen.device, chosen.profile, every_millisecond());
@@ -131,6 +135,7 @@ void add_monitor(Program& program) {
   add_json(app, options.json);
   add_seconds(app, options.seconds);
   app.add_flag("--taut", options.taut, "keep the strings at their minimum tension");
+  add_yes(app, options.yes);
   app.footer(
       "Prints the pose of the grip ten times a second: position (millimetres), rotation vector\n"
       "(degrees), inputs, string lengths (millimetres). The motors stay at zero, so strings may "

@@ -16,6 +16,7 @@ namespace {
 
 struct RestOptions : DeviceOptions {
   double seconds = std::numeric_limits<double>::infinity();
+  bool yes = false;
 };
 
 struct PullOptions : DeviceOptions {
@@ -28,6 +29,9 @@ struct PullOptions : DeviceOptions {
 int rest(const RestOptions& options) {
   require_strings(board_info(options.device), "rest");
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
+  if (!may_move(options.device, options.yes,
+                "Pull all strings of " + chosen.name() + " taut? The grip may move."))
+    return kFailed;
   catch_signals();
   StringHold hold(*chosen.device, chosen.profile, every_millisecond());
   if (hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s)) {
@@ -171,6 +175,7 @@ void add_rest(Program& program) {
       add_command(program, "rest", "hold the strings at their minimum tension", rest);
   add_device(app, options);
   add_seconds(app, options.seconds);
+  add_yes(app, options.yes);
   app.footer("Holds the strings at their minimum tension, and then releases them by a ramp.");
 }
 

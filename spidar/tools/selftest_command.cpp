@@ -16,18 +16,18 @@ namespace {
 
 struct SelftestOptions : DeviceOptions {
   double newton = 0.5;
-  std::string output;
+  OutputFile output;
   bool yes = false, json = false;
 };
 
 void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
   if (!report.fixable()) {
-    std::cerr << options.output << " is not written: a profile cannot express this wiring\n";
+    std::cerr << options.output.path << " is not written: a profile cannot express this wiring\n";
     return;
   }
   const Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
-  save_profile(rewired, options.output);
-  std::cerr << "written: " << options.output << '\n';
+  save_profile(rewired, options.output.path);
+  std::cerr << "written: " << options.output.path << '\n';
   if (profile.calibration && !rewired.calibration)
     std::cerr << "the counts must be calibrated again: spidarctl calibrate\n";
 }
@@ -57,12 +57,10 @@ constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
 /// Directions of a device that takes a force.
 int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const bool stick = is_stick(options.device);
-  if (!options.yes && !is_simulated(options.device) &&
-      !confirm("Push " + chosen.name() + " to all sides with a part of its strength? " +
-               (stick ? "Take the hand away." : "Hold its grip loosely at the centre."))) {
-    std::cerr << "nothing was pushed\n";
+  if (!may_move(options.device, options.yes,
+                "Push " + chosen.name() + " to all sides with a part of its strength? " +
+                    (stick ? "Take the hand away." : "Hold its grip loosely at the centre.")))
     return kFailed;
-  }
   catch_signals();
   const double push_N = stick ? chosen.grip->abilities().largest_force_N / 2 : options.newton;
   const StickTest test = test_stick(*chosen.grip, every_millisecond(), push_N);
@@ -93,13 +91,11 @@ int selftest(const SelftestOptions& options) {
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
   miswire(options, chosen.profile, chosen.device);
-  if (!options.output.empty()) check_folder_of(options.output);
-  if (!options.yes && !is_simulated(options.device) &&
-      !confirm("Pull the strings of " + chosen.device->name() +
-               " one after the other? The grip will move; hold it loosely at the centre.")) {
-    std::cerr << "nothing was pulled\n";
+  options.output.check();
+  if (!may_move(options.device, options.yes,
+                "Pull the strings of " + chosen.name() +
+                    " one after the other? The grip will move; hold it loosely at the centre."))
     return kFailed;
-  }
   catch_signals();
   WiringTestSettings settings;
   settings.pull_N = options.newton;
@@ -114,7 +110,7 @@ int selftest(const SelftestOptions& options) {
     std::cout << json_text(wiring_json(chosen.profile, answers, report));
   else
     print_wiring(std::cout, chosen.profile, answers, report);
-  if (!options.output.empty()) write(options, chosen.profile, report);
+  if (options.output) write(options, chosen.profile, report);
   return report.as_profile() ? kDone : kFailed;
 }
 

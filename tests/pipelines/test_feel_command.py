@@ -48,8 +48,7 @@ class Command(track_case.TrackCase):
                 ("profile=nope.toml", "nope.toml: cannot be read: No such file or directory"),
                 ("device=none profile=nope", 'unknown profile "nope"'),
                 ("device=usb", "usb: the motors get no force: no board is plugged in whose profile is"),
-                # The board puts out positive volts only.
-                ("device=usb profile=spidar-gcc", 'usb: profile "spidar-gcc" wants negative volts')):
+                ("device=usb profile=spidar-gcc", 'usb: profile "spidar-gcc" is for boards of the kind ahs')):
             text = self.feel(properties + " -- echo plays", 2)
             self.assertTrue(text.startswith("spidar-feel: "), text)
             self.assertIn(said, text)

@@ -41,7 +41,7 @@ class Pipelines(bus_case.BusCase):
 
 
 class Boards(Pipelines):
-    LINE = f"{BALL}usb {PROFILE} ! fakesink sync=true"
+    LINE = f"{BALL}usb profile=spidar-g645 ! fakesink sync=true"  # its source names no board: it is for each of both
 
     def play(self, kind=Usb.SH4):
         bus.bus_plug(0, kind)

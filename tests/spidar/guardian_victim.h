@@ -15,7 +15,8 @@
 
 namespace spidar::test {
 
-constexpr const char* kUsbProfile = "spidar-g6x3-v2-r";
+/// Its source names no board: it is for each of both.
+constexpr const char* kUsbProfile = "spidar-g645";
 constexpr const char* kUartProfile = "spidar-g6x5-r";
 
 /// For every string.

@@ -8,14 +8,18 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "spidar/conformance/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/guardian_victim.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+
+namespace fs = std::filesystem;
 
 namespace spidar::test {
 namespace {
@@ -82,20 +86,24 @@ class ProfileChoice : public testing::Test {
 TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
   const UsbPort& port = plug(0, UsbKind::kSimple, "S1");
   for (const std::string command :
-       {"rest usb --seconds 0.01", "pull usb 0 2 0.1 --yes", "selftest usb --yes",
-        "conformance usb --yes", "calibrate usb --centre", "monitor usb --taut --seconds 0.1",
-        "choose usb"}) {
+       {"rest usb --seconds 0.01 --yes", "pull usb 0 2 0.1 --yes", "selftest usb --yes",
+        "conformance usb --yes", "calibrate usb --centre", "monitor usb --taut --seconds 0.1"}) {
     const CommandResult outcome = run(spidarctl(command));
     EXPECT_EQ(outcome.status, 1) << command;
     EXPECT_NE(outcome.text.find("the motors get no force: no profile is named"), std::string::npos)
         << command << ": " << outcome.text;
     EXPECT_NE(outcome.text.find(" spidar-g6c, "), std::string::npos) << outcome.text;
   }
+  const CommandResult chosen = run(spidarctl("choose usb"));
+  EXPECT_EQ(chosen.status, 2);
+  EXPECT_NE(chosen.text.find("choose needs --profile NAME. Profiles that fit it: "),
+            std::string::npos)
+      << chosen.text;
   EXPECT_EQ(port.updates, 0u);
   for (const std::string command : {"info usb", "info usb --json", "monitor usb --seconds 0.11",
                                     "zero usb", "conformance usb --no-pull --seconds 0.1"}) {
     const CommandResult outcome = run(spidarctl(command));
-    // On a busy machine an exchange of the conformance test may be late.
+    // Nobody moves the grip: the conformance test shows nothing.
     const bool may_be_late = command.find("conformance") == 0;
     EXPECT_TRUE(outcome.status == 0 || may_be_late) << outcome.text;
     EXPECT_TRUE(port.at_rest()) << command;
@@ -108,15 +116,27 @@ TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
 
 TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
   UsbPort& port = plug(0, UsbKind::kSh4, "S1");
-  const Profile real = load_profile("spidar-g6c");
+  const Profile real = load_profile("spidar-g645");
   std::string text;
-  // Its source names the other board; who names it, gets it.
-  EXPECT_EQ(choose(port, "usb", real, "spidar-g6c", text), 0) << text;
-  EXPECT_NE(text.find("spidar-g6c is remembered for the serial number S1\n"), std::string::npos)
+  // The position of its rotary switch.
+  EXPECT_EQ(choose(port, "usb:0", real, "spidar-g645", text), 0) << text;
+  EXPECT_NE(text.find("spidar-g645 is remembered for the serial number S1\n"), std::string::npos)
       << text;
   EXPECT_TRUE(port.at_rest());
-  EXPECT_EQ(board_info("usb").profile, "spidar-g6c");
-  EXPECT_NE(run(spidarctl("info usb")).text.find("profile   spidar-g6c: "), std::string::npos);
+  EXPECT_EQ(board_info("usb").profile, "spidar-g645");
+  EXPECT_EQ(board_info("usb:0").profile, "spidar-g645");
+  EXPECT_NE(run(spidarctl("info usb")).text.find("profile   spidar-g645: "), std::string::npos);
+  // What cannot be kept is said before the grip is moved.
+  for (const auto& [file, device, said] :
+       {std::tuple("A1 =", "usb", "boards.toml: "), std::tuple("", "usb:3", "one of several")}) {
+    std::ofstream(remembered_profiles_file()) << file;
+    plug(1, UsbKind::kSh4, "S3");
+    const std::string name = *file ? "usb:S1" : device;
+    const CommandResult refused = run(spidarctl("choose " + name + " --profile spidar-g645"));
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.text.find(said), std::string::npos) << refused.text;
+  }
+  unplug(1);
   // Another board is another one.
   plug(0, UsbKind::kSh4, "S2");
   EXPECT_EQ(board_info("usb").profile, "");
@@ -125,7 +145,7 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
 TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
   UsbPort& port = plug(0, UsbKind::kSimple, "S1");
   std::string text;
-  EXPECT_EQ(choose(port, "usb", load_profile("spidar-g6c"), "spidar-g6x3-v2-r", text), 1) << text;
+  EXPECT_EQ(choose(port, "usb", load_profile("spidar-g6c"), "spidar-g6x3-v1-r", text), 1) << text;
   // Strings 6 and 7, which count the other way as well, leave this frame elsewhere.
   for (const int string : {0, 1})
     EXPECT_NE(text.find("  " + std::to_string(string) + "       counts the other way\n"),
@@ -134,6 +154,52 @@ TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
   EXPECT_NE(text.find("profiles whose encoders count so: "), std::string::npos) << text;
   EXPECT_NE(text.find("spidar-g6c"), std::string::npos) << text;
   EXPECT_EQ(board_info("usb").profile, "");
+}
+
+TEST_F(ProfileChoice, ABoardWhoseEncodersAreDeadIsNotTakenForAGoodOne) {
+  UsbPort& port = plug(0, UsbKind::kSh4, "S1");
+  Profile dead = load_profile("spidar-g645");
+  for (StringDrive& drive : dead.drives) drive.metres_per_count = 0;
+  std::string text;
+  EXPECT_EQ(choose(port, "usb", dead, "spidar-g645", text), 1) << text;
+  EXPECT_NE(text.find("\nno encoder counted: "), std::string::npos) << text;
+  const fs::path file = settings_folder().path / "calibrated.toml";
+  const CommandResult calibrated = run(spidarctl(
+      "calibrate usb --profile spidar-g645 --untested --centre --yes --output " + file.string()));
+  EXPECT_EQ(calibrated.status, 1) << calibrated.text;
+  EXPECT_NE(calibrated.text.find("these encoders did not count: 0, 1, 2, 3, 4, 5, 6, 7"),
+            std::string::npos)
+      << calibrated.text;
+  EXPECT_FALSE(fs::exists(file));
+}
+
+/// The cable is not to blame.
+TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
+  for (const bool stopped : {true, false}) {
+    const UsbPort& port = plug(0, UsbKind::kSh4);
+    const fs::path log = settings_folder().path / "loss";
+    ChildProcess rest(
+        {"sh", "-c", "exec " SPIDARCTL " rest usb --yes --profile spidar-g645 2>" + log.string()},
+        {"LD_PRELOAD=" EMULATED_BUS_LIBRARY});
+    wait_for([&] { return !port.at_rest() || !rest.lives(); });
+    ASSERT_TRUE(rest.lives());
+    if (stopped) {
+      rest.send(SIGSTOP);
+      wait_for([&] { return port.at_rest(); });
+      rest.send(SIGCONT);
+    } else {
+      kill(guardian_process(rest.id()), SIGKILL);
+    }
+    wait_for([&] { return !rest.lives(); });
+    std::ifstream file(log);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_NE(text.find(stopped ? "usb: this program stood still for "
+                                : "usb: the guardian (spidar-guardian), without which no motor"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("cable"), std::string::npos) << text;
+    clear_bus();
+  }
 }
 
 TEST_F(ProfileChoice, WithoutSupplyAPullFails) {

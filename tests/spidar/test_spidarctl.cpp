@@ -50,6 +50,9 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "not a number from 0 to 5 N"},
       {"pull sim 1 0.5 0.1 --yes --profile spidar-g6x", "NEWTON: 0.5 N, must be from 1 to 5 N"},
       {"pull sim 1 1 1 </dev/null", "no terminal to ask for confirmation"},
+      {"rest usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
+      {"monitor usb --taut --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
+      {"calibrate usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"selftest sim --newton 5", "not a number from 0.1 to 2 N"},
       {"selftest sim --write-profile mine", "must end in .toml"},
       {"selftest sim --sim-wiring swap:1", "is not a wiring fault"},
@@ -82,13 +85,14 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   const std::pair<const char*, const char*> cases[] = {
       {"calibrate nothing", "unknown device \"nothing\""},
       {"info nothing", "unknown device \"nothing\""},
+      {"info uart", "unknown device \"uart\""},
       {"rest sim:mouse", "is for devices with strings"},
       {"rest sim:ff", "is for devices with strings"},
       {"calibrate sim:ff", "sim:ff: calibrate is for devices with strings"},
       {"calibrate ff", "ff: calibrate is for devices with strings"},
       {"calibrate mouse", "mouse: calibrate is for devices with strings"},
-      {"calibrate uart:/no/such/line --profile spidar-g6x4", "/no/such/line"},
-      {"calibrate uart:/no/such/line --centre --profile spidar-g6x4", "/no/such/line"},
+      {"calibrate uart:/no/such/line --yes --profile spidar-g6x4", "/no/such/line"},
+      {"calibrate uart:/no/such/line --centre --yes --profile spidar-g6x4", "/no/such/line"},
       {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
       {"zero uart:/no/such/line", "/no/such/line"},
       {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
@@ -109,8 +113,9 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
 // The counters of the simulated device are cleared 20, -30, 10 mm off and turned by 40 degrees.
 TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   const OutputFile file;
-  const CommandResult outcome =
-      run_spidarctl("calibrate sim --move 4 --sim-start 20,-30,10,0,40,0 --output " + file.path());
+  std::ofstream(file.path()) << "old\n";
+  const CommandResult outcome = run_spidarctl(
+      "calibrate sim --move 4 --sim-start 20,-30,10,0,40,0 --force --output " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "solved");
   const spidar::Profile profile = spidar::load_profile(file.path());
@@ -122,6 +127,18 @@ TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   ASSERT_TRUE(profile.calibration);
   // What makes a result usable at all; see kMaxCalibrationSd_m.
   EXPECT_LT(error_m.cwiseAbs().maxCoeff(), 3 * 50e-6);
+}
+
+TEST(Spidarctl, WhatExistsIsNotReplacedUnlessForced) {
+  const OutputFile file;
+  std::ofstream(file.path()) << "mine";
+  for (const char* command :
+       {"selftest sim --write-profile ", "calibrate sim --output ", "conformance sim --report "}) {
+    const CommandResult outcome = run_spidarctl(command + file.path());
+    EXPECT_EQ(outcome.status, 1) << command;
+    expect_contains(outcome.text, ": exists; name another file, or replace it with --force");
+  }
+  EXPECT_EQ(fs::file_size(file.path()), 4u);
 }
 
 TEST(Spidarctl, SelftestOfADeviceThatIsRightSucceeds) {
@@ -151,7 +168,7 @@ TEST(Spidarctl, CalibrateRefusesADeviceThatIsWiredDifferently) {
 
 TEST(Spidarctl, JsonIsOneObject) {
   const CommandResult outcome =
-      run_shell(std::string(SPIDARCTL) + " calibrate sim --untested --centre --json 2>/dev/null");
+      run_shell(std::string(SPIDARCTL) + " calibrate sim --centre --json 2>/dev/null");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text.find("Hold"), std::string::npos);
   EXPECT_EQ(outcome.text.front(), '{');
@@ -247,7 +264,7 @@ TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
 
 TEST(Spidarctl, CalibrateTakesTheProfileOfTheBoard) {
   // The general default profile, spidar-gcc, wants negative volts, which this board does not have.
-  const CommandResult outcome = run_spidarctl("calibrate sim:sh4 --untested --centre");
+  const CommandResult outcome = run_spidarctl("calibrate sim:sh4 --centre");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_contains(outcome.text, "spidar-g6x3-v2-r");
 }

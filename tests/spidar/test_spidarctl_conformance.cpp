@@ -62,11 +62,12 @@ TEST(Spidarctl, ConformanceReportsWhatIsNotRight) {
   expect_contains(gone.text, "link        does not conform\n");
 }
 
-// The motors stay at zero: nothing moves, which is no fault.
-TEST(Spidarctl, ConformanceWithoutPullsLeavesTheMotorsAtZero) {
+// The motors stay at zero, and nobody moves the grip.
+TEST(Spidarctl, ConformanceThatMovesNothingShowsNothing) {
   const CommandResult outcome = run_spidarctl("conformance sim:simple --no-pull --seconds 0.1");
-  EXPECT_EQ(outcome.status, 0) << outcome.text;
-  expect_contains(outcome.text, "counters    0 of 8 moved\nmotors      not tried\n");
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  expect_contains(outcome.text, "counters    0 of 8 moved; nothing was shown of the rest\n");
+  expect_contains(outcome.text, "verdict     no counter moved, so nothing was shown but that ");
   EXPECT_EQ(run_spidarctl("conformance sim:mouse --seconds 0.1").status, 0);
   EXPECT_EQ(run_spidarctl("conformance sim:falcon --no-pull --seconds 0.1").status, 0);
 }
