@@ -68,19 +68,13 @@ std::string lost_in_funscript(const TrackSummary& summary, const SaveOptions& op
   return line_of(lost);
 }
 
-std::string lost_on_a_shaker(const TrackSummary& summary, size_t axis) {
-  return line_of(other_channels(summary, axis)) +
-         rounded(100 * summary.channels[axis].above_30_Hz) + " % of the power of " +
-         channel_name(axis) + " is above 30 Hz; a shaker plays little of what is below\n";
-}
-
 /// What save_track() with the same options has lost of a track, in whole lines: "lost: fx up to 1.2
 /// N, steps of fy below 0.2 N". Empty for formats that hold all six channels.
 std::string lost_in(const std::string& path, const TrackSummary& summary,
                     const SaveOptions& options) {
   if (ends_with(path, ".ahap")) return lost_in_ahap(summary, options.gain);
   if (ends_with(path, ".funscript")) return lost_in_funscript(summary, options);
-  return options.rate_Hz > 0 ? lost_on_a_shaker(summary, options.axis) : "";
+  return "";
 }
 
 size_t channel_of(const std::string& axis) {
@@ -91,19 +85,15 @@ size_t channel_of(const std::string& axis) {
 }
 
 /// What TO is for is not a grip, and has a range of its own instead of newtons.
-bool has_own_range(const std::string& to, const SaveOptions& options) {
-  return options.rate_Hz > 0 || ends_with(to, ".ahap") || ends_with(to, ".funscript");
+bool has_own_range(const std::string& to) {
+  return ends_with(to, ".ahap") || ends_with(to, ".funscript");
 }
 
 /// The gain with which the largest value fills the range of TO; 1 when there is none.
-double filling_gain(const std::string& to, const TrackSummary& summary,
-                    const SaveOptions& options) {
-  // Of sound, a resampled peak may lie between two samples, and be higher than both.
-  constexpr double kSoundPeak = 0.9;
+double filling_gain(const std::string& to, const TrackSummary& summary, size_t axis) {
   const double peak = ends_with(to, ".ahap") ? summary.largest_force_N / kTrackForceScale_N
-                                             : summary.channels[options.axis].peak;
-  const double range = options.rate_Hz > 0 ? kSoundPeak : 1;
-  return peak > 0 ? range / peak : 1;
+                                             : summary.channels[axis].peak;
+  return peak > 0 ? 1 / peak : 1;
 }
 
 std::vector<TrackSample> amplified(std::vector<TrackSample> samples, double gain) {
@@ -116,20 +106,16 @@ std::vector<TrackSample> amplified(std::vector<TrackSample> samples, double gain
 /// Throws UsageError when an option changes nothing.
 void check_use(const ConvertOptions& options) {
   const std::string& to = options.to;
-  const bool is_script = ends_with(to, ".funscript");
-  if (options.save.rate_Hz > 0 && encoder_of(to).empty()) {
-    throw UsageError("--rate is for sound (.flac, .mka, .wav), not for " + to);
-  }
-  if (options.save.tolerance && !is_script && !ends_with(to, ".hjif") && !ends_with(to, ".ahap")) {
+  if (options.save.tolerance && !has_own_range(to) && !ends_with(to, ".hjif")) {
     throw UsageError("--tolerance is for .hjif, .ahap and .funscript, not for " + to);
   }
-  if (options.gain && !has_own_range(to, options.save)) {
-    throw UsageError("--gain is for .funscript, .ahap and sound with --rate, not for " + to +
+  if (options.gain && !has_own_range(to)) {
+    throw UsageError("--gain is for .funscript and .ahap, not for " + to +
                      ", whose samples are newtons");
   }
-  if (!options.axis.empty() && options.save.rate_Hz == 0 && !is_script &&
+  if (!options.axis.empty() && !ends_with(to, ".funscript") &&
       !ends_with(options.from, ".funscript")) {
-    throw UsageError("--axis is for .funscript, and for sound with --rate, not for " + to);
+    throw UsageError("--axis is for .funscript, not for " + to);
   }
 }
 
@@ -149,8 +135,8 @@ int convert_track(const ConvertOptions& options) {
   expect_own_track(condition);
   save.notes = condition.notes;
   const TrackSummary summary = summarise(samples);
-  if (has_own_range(to, save)) {
-    save.gain = options.gain.value_or(filling_gain(to, summary, save));
+  if (has_own_range(to)) {
+    save.gain = options.gain.value_or(filling_gain(to, summary, save.axis));
     std::cout << "gain " << rounded(save.gain)
               << (options.gain ? ""
                                : ": the largest value fills the range; --gain 1 keeps it as it is")

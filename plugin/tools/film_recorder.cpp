@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <sys/stat.h>
@@ -12,6 +11,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_pipeline.h"
@@ -21,21 +21,18 @@
 namespace spidar {
 namespace {
 
-/// A film that could not be read is hardly worth waiting for: decodebin may lose the error.
-constexpr GstClockTime kUnreadStart = 10 * GST_SECOND;
+/// Nothing comes for so long from a share that is slow.
+constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
 
 /// Reports `percent` of the film as done.
 class Progress {
  public:
   explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
 
-  /// Counts the frames that come out of `motion` in `pipeline`.
-  void watch(GstElement* pipeline) {
-    GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
-    GstPad* frames = gst_element_get_static_pad(motion, "src");
-    gst_pad_add_probe(frames, GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
-    gst_object_unref(frames);
-    gst_object_unref(motion);
+  /// Counts the frames that come out of `motion`.
+  void watch(GstElement* motion) {
+    const Ref<GstPad> frames(gst_element_get_static_pad(motion, "src"));
+    gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
   }
 
  private:
@@ -96,15 +93,11 @@ void follow_stream_time(GstPad* pad) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
 }
 
-void tag(GstElement* pipeline, const TrackNotes& notes) {
-  GstElement* extract = gst_bin_get_by_name(GST_BIN(pipeline), "extract");
-  GstPad* frames = gst_element_get_static_pad(extract, "sink");
-  GstPad* wrench = gst_element_get_static_pad(extract, "wrench");
-  follow_stream_time(frames);
-  tag_track(wrench, notes);
-  gst_object_unref(wrench);
-  gst_object_unref(frames);
-  gst_object_unref(extract);
+void tag(GstElement* extract, const TrackNotes& notes) {
+  const Ref<GstPad> frames(gst_element_get_static_pad(extract, "sink"));
+  const Ref<GstPad> wrench(gst_element_get_static_pad(extract, "wrench"));
+  follow_stream_time(frames.get());
+  tag_track(wrench.get(), notes);
 }
 
 }  // namespace
@@ -112,7 +105,6 @@ void tag(GstElement* pipeline, const TrackNotes& notes) {
 FilmOutcome record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell) {
-  if (!std::filesystem::exists(film)) throw std::runtime_error("there is no such file");
   struct stat at_first {
   }, at_last{};
   stat(film.c_str(), &at_first);
@@ -129,30 +121,26 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   }
   FilmWatch watch;
   StoredSound stored;
+  const FilePipeline file(
+      "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
+      "spidarmotion name=motion device=none attach-meta=true ! "
+      "spidarextract name=extract extract.wrench ! " +
+          encoder_of(track.target()) +
+          " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
+      film, nullptr, unread.empty() ? kSlowShare : FilePipeline::kLongestSilence);
+  set_properties(file.find("motion"), properties);
+  watch.begin(file.pipeline());
+  progress.watch(file.find("motion"));
+  stored.watch(file.find("stored"));
+  tag(file.find("extract"), {fingerprint, properties.settings});
   std::string error;
   try {
-    run_pipeline(
-        "filesrc name=film ! decodebin name=decode videoconvert name=convert ! "
-        "spidarmotion name=motion device=none attach-meta=true ! "
-        "spidarextract name=extract extract.wrench ! " +
-            encoder_of(track.target()) +
-            " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
-        [&](GstElement* pipeline) {
-          set_location(pipeline, "film", film);
-          GstElement* motion = gst_bin_get_by_name(GST_BIN(pipeline), "motion");
-          set_properties(motion, properties);
-          gst_object_unref(motion);
-          watch.begin(pipeline);
-          progress.watch(pipeline);
-          stored.watch(pipeline, "stored");
-          tag(pipeline, {fingerprint, properties.settings});
-        },
-        unread.empty() ? kLongestStart : kUnreadStart);
-  } catch (const SilentFailure& ended) {
-    error = unread.empty() ? ended.what() : unread;
+    file.play_until(GST_MESSAGE_EOS);
   } catch (const std::runtime_error& ended) {
-    error = ended.what();
+    // decodebin may lose the error of a demuxer, and then waits for ever.
+    error = unread.empty() ? ended.what() : unread;
   }
+  file.stop();
   if (stat(film.c_str(), &at_last) != 0) {
     throw std::runtime_error("it was removed while it was read, or its share has gone");
   }

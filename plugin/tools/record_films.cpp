@@ -41,23 +41,6 @@ struct RecordedFilm {
   double seconds = 0;  ///< of work
 };
 
-/// Appends lines to a file, also from several threads and processes.
-class ManifestFile {
- public:
-  /// Empty: nothing is written. Throws std::runtime_error when the file cannot be opened.
-  explicit ManifestFile(const std::string& path);
-  ~ManifestFile();
-  ManifestFile(const ManifestFile&) = delete;
-  ManifestFile& operator=(const ManifestFile&) = delete;
-
-  /// Throws std::runtime_error when the line cannot be written.
-  void add(const RecordedFilm& film);
-
- private:
-  const std::string path_;
-  int descriptor_ = -1;
-};
-
 [[noreturn]] void fail(const std::string& path) {
   throw std::runtime_error("the manifest " + path + " cannot be written: " + output_reason(errno));
 }
@@ -87,24 +70,35 @@ std::string manifest_line(const RecordedFilm& film) {
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-ManifestFile::ManifestFile(const std::string& path) : path_(path) {
-  if (path.empty()) return;
-  descriptor_ = open_output(path.c_str(), O_APPEND);
-  if (descriptor_ < 0) fail(path);
-}
+/// Appends lines to a file, also from several threads and processes.
+class ManifestFile {
+ public:
+  /// Empty: nothing is written. Throws std::runtime_error when the file cannot be opened.
+  explicit ManifestFile(const std::string& path) : path_(path) {
+    if (path.empty()) return;
+    descriptor_ = open_output(path.c_str(), O_APPEND);
+    if (descriptor_ < 0) fail(path);
+  }
+  ~ManifestFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  ManifestFile(const ManifestFile&) = delete;
+  ManifestFile& operator=(const ManifestFile&) = delete;
 
-ManifestFile::~ManifestFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
+  /// Throws std::runtime_error when the line cannot be written.
+  void add(const RecordedFilm& film) const {
+    if (descriptor_ < 0) return;
+    const std::string line = manifest_line(film) + "\n";
+    // In one call, so that lines of several writers do not mix.
+    const ssize_t written = write(descriptor_, line.data(), line.size());
+    if (written >= 0 && static_cast<size_t>(written) < line.size()) errno = ENOSPC;
+    if (written < 0 || static_cast<size_t>(written) < line.size()) fail(path_);
+  }
 
-void ManifestFile::add(const RecordedFilm& film) {
-  if (descriptor_ < 0) return;
-  const std::string line = manifest_line(film) + "\n";
-  // In one call, so that lines of several writers do not mix.
-  const ssize_t written = write(descriptor_, line.data(), line.size());
-  if (written >= 0 && static_cast<size_t>(written) < line.size()) errno = ENOSPC;
-  if (written < 0 || static_cast<size_t>(written) < line.size()) fail(path_);
-}
+ private:
+  const std::string path_;
+  int descriptor_ = -1;
+};
 
 namespace fs = std::filesystem;
 
@@ -124,7 +118,7 @@ void check_file(const std::string& film, const fs::path& file, const RecordOptio
                              ", and not with " + shown(settings) + again);
   }
   if (notes.film.empty()) return;
-  if (!find_pictures(notes.film, read_film(film).packets)) {
+  if (!find_picture(notes.film, read_film(film).packets)) {
     throw std::runtime_error(file.string() + " is the track of another film: " + kOtherPictures +
                              again);
   }
@@ -153,6 +147,7 @@ class FilmBatch {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Result = RecordReport::Result;
 
   struct Film {
     size_t index;
@@ -177,7 +172,7 @@ class FilmBatch {
       if (is_new) {
         waiting_.push_back({i});
       } else if (fs::equivalent(film.path, other, none)) {
-        report_.given_twice(i);
+        report_.done(i, Result::kTwice, "is given twice");
       } else {
         fail(i, options_.file_of(film).string() + " is for " + other +
                     "; give films of the same name different folders");
@@ -226,8 +221,8 @@ class FilmBatch {
     const std::string remark = with_warning(outcome.remark, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count()});
-    report_.recorded(index,
-                     track.string() + "; " + outcome.felt + (remark.empty() ? "" : "; " + remark));
+    report_.done(index, Result::kRecorded,
+                 track.string() + "; " + outcome.felt + (remark.empty() ? "" : "; " + remark));
     return true;
   }
 
@@ -251,7 +246,7 @@ class FilmBatch {
     } catch (const std::exception& error) {
       cause += std::string("; ") + error.what();
     }
-    report_.failed(index, cause);
+    report_.done(index, Result::kError, cause);
   }
 
   bool is_done(size_t index, const fs::path& track) {
@@ -259,7 +254,7 @@ class FilmBatch {
     const std::string& film = options_.films[index].path;
     check_file(film, track, options_);
     manifest_.add({film, track, "there", ""});
-    report_.there(index, with_warning(track.string() + " is there", film, track));
+    report_.done(index, Result::kThere, with_warning(track.string() + " is there", film, track));
     return true;
   }
 

@@ -50,11 +50,6 @@ RecordReport::RecordReport(std::vector<std::string> films)
   }
 }
 
-/// Of a film that has been worked at, or was there.
-void RecordReport::end(size_t film) {
-  (in_work_.erase(film) > 0 ? work_ : skipped_) += sizes_[film];
-}
-
 void RecordReport::progress(size_t film, int percent) {
   const std::lock_guard<std::mutex> lock(mutex_);
   in_work_[film] = percent;
@@ -66,32 +61,13 @@ void RecordReport::progress(size_t film, int percent) {
   std::cout << in_work() << std::endl;
 }
 
-void RecordReport::recorded(size_t film, const std::string& track) {
+void RecordReport::done(size_t film, Result result, const std::string& text) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++recorded_;
-  end(film);
-  print(std::cout, film, track);
-}
-
-void RecordReport::there(size_t film, const std::string& what) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  ++there_;
-  end(film);
-  print(std::cout, film, what);
-}
-
-void RecordReport::given_twice(size_t film) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  ++twice_;
-  end(film);
-  print(std::cout, film, "is given twice");
-}
-
-void RecordReport::failed(size_t film, const std::string& cause) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  failures_.emplace_back(film, cause);
-  end(film);
-  print(std::cerr, film, "failed: " + cause);
+  ++count_[static_cast<size_t>(result)];
+  (in_work_.erase(film) > 0 ? work_ : skipped_) += sizes_[film];
+  const bool failed = result == Result::kError;
+  if (failed) failures_.emplace_back(film, text);
+  print(failed ? std::cerr : std::cout, film, failed ? "failed: " + text : text);
 }
 
 void RecordReport::note(size_t film, const std::string& text) {
@@ -102,9 +78,10 @@ void RecordReport::note(size_t film, const std::string& text) {
 bool RecordReport::finish() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (films_.size() > 1) {
-    std::cout << recorded_ << " recorded, " << there_ << " there, "
-              << (twice_ > 0 ? std::to_string(twice_) + " given twice, " : "") << failures_.size()
-              << " failed" << (failures_.empty() ? "" : ":") << '\n';
+    const auto [recorded, there, twice, failed] = count_;
+    std::cout << recorded << " recorded, " << there << " there, "
+              << (twice > 0 ? std::to_string(twice) + " given twice, " : "") << failed << " failed"
+              << (failed == 0 ? "" : ":") << '\n';
     for (const auto& [film, cause] : failures_) {
       std::cout << "  " << one_line(films_[film]) << ": " << one_line(cause) << '\n';
     }
@@ -121,8 +98,8 @@ void RecordReport::print(std::ostream& out, size_t film, const std::string& text
 }
 
 std::string RecordReport::in_work() const {
-  std::string line = std::to_string(recorded_ + there_ + twice_ + failures_.size()) + " of " +
-                     std::to_string(films_.size()) + " done";
+  const size_t done = std::accumulate(count_.begin(), count_.end(), size_t{0});
+  std::string line = std::to_string(done) + " of " + std::to_string(films_.size()) + " done";
   for (const auto& [film, percent] : in_work_) {
     const std::string& name = films_[film];
     line +=

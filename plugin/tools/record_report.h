@@ -3,6 +3,7 @@
 /// What `spidartrack record` prints about a batch of films.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -21,13 +22,10 @@ class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
 
+  enum class Result { kRecorded, kThere, kTwice, kError };
+
   void progress(size_t film, int percent);
-  /// `track` is its file.
-  void recorded(size_t film, const std::string& track);
-  /// There is nothing to do for it: `what` says so.
-  void there(size_t film, const std::string& what);
-  void given_twice(size_t film);
-  void failed(size_t film, const std::string& cause);
+  void done(size_t film, Result result, const std::string& text);
   /// Something else about a film that is not done.
   void note(size_t film, const std::string& text);
 
@@ -36,7 +34,6 @@ class RecordReport {
 
  private:
   void print(std::ostream& out, size_t film, const std::string& text);
-  void end(size_t film);
   std::string in_work() const;
   std::string time_left() const;
   void draw() const;
@@ -50,7 +47,7 @@ class RecordReport {
   std::vector<double> sizes_;      // of the films, in bytes, at least 1
   double work_ = 0, skipped_ = 0;  // bytes of those that are done, and of which were there
   std::map<size_t, int> in_work_;  // film and percent
-  size_t recorded_ = 0, there_ = 0, twice_ = 0;
+  std::array<size_t, 4> count_{};  // of each result
   std::vector<std::pair<size_t, std::string>> failures_;
 };
 

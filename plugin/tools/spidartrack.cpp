@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <iostream>
 #include <pthread.h>
+#include <sched.h>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <gst/gst.h>
 
-#include "plugin/tools/processors.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
@@ -20,6 +20,15 @@
 namespace {
 
 using namespace spidar;
+
+/// Those that the program may run on; g_get_num_processors() counts all.
+unsigned usable_processors() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  // A machine with more processors than the set holds has enough.
+  const bool is_known = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
+  return static_cast<unsigned>(is_known ? CPU_COUNT(&allowed) : CPU_SETSIZE);
+}
 
 /// The command line. Of each command, run() is called when it is parsed.
 class CommandLine {
@@ -145,20 +154,15 @@ in any case. Also prints how much of the track is felt.)");
   .hjif            MPEG's format for haptics
   .funscript       one channel as the positions of a linear device
   .ahap            a vibration as strong as the force, for telephones; not read
-With --rate, .flac, .mka and .wav are sound of one channel, for bass shakers. An existing TO
-is replaced when the new file is complete. Prints what TO cannot hold.)");
+An existing TO is replaced when the new file is complete. Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
     app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
     app->add_option("--axis", convert_.axis,
-                    "the channel of a funscript or with --rate: fx, fy (default), fz, tx, ty or tz")
+                    "the channel of a funscript: fx, fy (default), fz, tx, ty or tz")
         ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}))
         ->type_name("CHANNEL");
-    app->add_option("--rate", convert_.save.rate_Hz,
-                    "write sound of one channel, with so many samples a second, such as 48000")
-        ->check(number(1000, 192000, " Hz"))
-        ->type_name("HZ");
     app->add_option("--gain", convert_.gain,
-                    "factor for a funscript, AHAP or --rate; default: the largest value of the "
+                    "factor for a funscript or AHAP; default: the largest value of the "
                     "track fills the range")
         ->check(number(1e-3, 1e6))
         ->type_name("FACTOR");
@@ -175,9 +179,6 @@ is replaced when the new file is complete. Prints what TO cannot hold.)");
     app->footer("Needs gnuplot.");
     add_track(app, "TRACK", plot_.track);
     app->add_option("PNG", plot_.png, "the picture to write")->required()->type_name("");
-    app->add_option("--film", plot_.film,
-                    "draws stills of the film above, each over the moment it shows, which a dotted "
-                    "line marks");
   }
   int plot() { return plot_track(plot_); }
 

@@ -32,7 +32,6 @@ struct ConvertOptions {
 
 struct PlotOptions {
   std::string track, png;
-  std::string film;  ///< whose stills are drawn; empty: none
 };
 
 int record_films(const RecordOptions& options);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <exception>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -15,6 +14,8 @@
 #include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
+#include "plugin/gobject/ref.h"
+#include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
@@ -76,54 +77,24 @@ TrackCondition find_track(const std::string& path, Film& film) {
   return found;
 }
 
-/// Samples in memory, 1000 a second, as a file that `elements` make of them.
-void write_sound(const PartFile& part, const std::string& bytes, size_t channels,
-                 const std::string& elements,
-                 const std::function<void(GstElement* pipeline)>& prepare = {}) {
+/// Sound that `encoder` makes of samples in memory.
+void write_sound(const PartFile& part, const std::string& encoder,
+                 const std::vector<TrackSample>& samples, const TrackNotes& notes) {
   const PartFile raw(part.target() + ".raw");
-  raw.write(bytes);
+  raw.write({reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(TrackSample)});
   StoredSound stored;
-  run_pipeline(
-      "filesrc name=raw_file ! "
-      "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=" +
-          std::to_string(channels) + " ! " + elements +
-          " ! fdsink sync=false fd=" + std::to_string(part.descriptor()),
-      [&](GstElement* pipeline) {
-        set_location(pipeline, "raw_file", raw.path());
-        stored.watch(pipeline, "stored");
-        if (prepare) prepare(pipeline);
-      });
+  const FilePipeline file(
+      "filesrc name=source ! "
+      "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
+      "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
+          encoder + " ! fdsink sync=false fd=" + std::to_string(part.descriptor()),
+      raw.path());
+  stored.watch(file.find("stored"));
+  const Ref<GstPad> pad(gst_element_get_static_pad(file.find("samples"), "src"));
+  tag_track(pad.get(), notes);
+  file.play_until(GST_MESSAGE_EOS);
+  file.stop();
   stored.check(part);
-}
-
-template <typename Value>
-std::string bytes_of(const std::vector<Value>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
-}
-
-/// One channel, in which nothing is above half the rate of a track.
-void write_channel(const PartFile& part, const std::string& encoder,
-                   const std::vector<TrackSample>& samples, const SaveOptions& options) {
-  std::vector<float> values;
-  values.reserve(samples.size());
-  for (const TrackSample& sample : samples) values.push_back(sample[options.axis]);
-  write_sound(part, bytes_of(values), 1,
-              "audioresample quality=10 ! audio/x-raw,rate=" + std::to_string(options.rate_Hz) +
-                  " ! " + encoder);
-}
-
-void write_channels(const PartFile& part, const std::string& encoder,
-                    const std::vector<TrackSample>& samples, const TrackNotes& notes) {
-  write_sound(
-      part, bytes_of(samples), kTrackChannels,
-      "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " + encoder,
-      [&](GstElement* pipeline) {
-        GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "samples");
-        GstPad* pad = gst_element_get_static_pad(element, "src");
-        tag_track(pad, notes);
-        gst_object_unref(pad);
-        gst_object_unref(element);
-      });
 }
 
 }  // namespace
@@ -131,12 +102,6 @@ void write_channels(const PartFile& part, const std::string& encoder,
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() &&
          g_ascii_strcasecmp(text.c_str() + text.size() - end.size(), end.c_str()) == 0;
-}
-
-void set_location(GstElement* pipeline, const char* name, const std::string& path) {
-  GstElement* const element = gst_bin_get_by_name(GST_BIN(pipeline), name);
-  g_object_set(element, "location", path.c_str(), nullptr);
-  gst_object_unref(element);
 }
 
 std::string encoder_of(const std::string& path) {
@@ -147,58 +112,6 @@ std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".mka")) return "identity name=stored ! matroskamux";
   if (ends_with(path, ".wav")) return "identity name=stored ! wavenc";
   return {};
-}
-
-void run_pipeline(const std::string& line, const std::function<void(GstElement* pipeline)>& prepare,
-                  GstClockTime start_limit) {
-  GError* error = nullptr;
-  GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
-  if (error) {
-    const std::string text = error->message;
-    g_error_free(error);
-    if (pipeline) gst_object_unref(pipeline);
-    throw std::runtime_error(text);
-  }
-  if (prepare) prepare(pipeline);
-  gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  std::exception_ptr problem;
-  try {
-    await_message(pipeline, GST_MESSAGE_EOS, GST_CLOCK_TIME_NONE, start_limit);
-  } catch (const std::runtime_error&) {
-    problem = std::current_exception();
-  }
-  gst_element_set_state(pipeline, GST_STATE_NULL);
-  gst_object_unref(pipeline);
-  if (problem) std::rethrow_exception(problem);
-}
-
-void await_message(GstElement* pipeline, GstMessageType awaited, GstClockTime limit,
-                   GstClockTime start_limit) {
-  constexpr GstClockTime kLook = 100 * GST_MSECOND;  // for a state change that failed in silence
-  const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_ERROR);
-  GstBus* bus = gst_element_get_bus(pipeline);
-  GstMessage* message = nullptr;
-  GstClockTime waited = 0;
-  for (bool failed = false; !message && !failed && waited < limit; waited += kLook) {
-    const GstStateChangeReturn change = gst_element_get_state(pipeline, nullptr, nullptr, 0);
-    failed = change == GST_STATE_CHANGE_FAILURE ||
-             (change == GST_STATE_CHANGE_ASYNC && waited >= start_limit);
-    message = gst_bus_timed_pop_filtered(bus, kLook, types);
-  }
-  gst_object_unref(bus);
-  if (!message) {
-    throw SilentFailure(
-        "it cannot be played, and GStreamer does not say why: it may be damaged or cut off");
-  }
-  std::string problem;
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
-    GError* error = nullptr;
-    gst_message_parse_error(message, &error, nullptr);
-    problem = error->message;
-    g_error_free(error);
-  }
-  gst_message_unref(message);
-  if (!problem.empty()) throw std::runtime_error(problem);
 }
 
 std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition,
@@ -239,10 +152,8 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
     throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
   }
   PartFile part(path);
-  if (!encoder.empty() && options.rate_Hz > 0) {
-    write_channel(part, encoder, samples, options);
-  } else if (!encoder.empty()) {
-    write_channels(part, encoder, samples, options.notes);
+  if (!encoder.empty()) {
+    write_sound(part, encoder, samples, options.notes);
   } else if (is_hjif) {
     part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
   } else if (is_ahap) {
@@ -254,15 +165,12 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   part.publish();
 }
 
-void StoredSound::watch(GstElement* pipeline, const char* name) {
-  GstElement* const element = gst_bin_get_by_name(GST_BIN(pipeline), name);
-  GstPad* const pad = gst_element_get_static_pad(element, "sink");
+void StoredSound::watch(GstElement* element) {
+  const Ref<GstPad> pad(gst_element_get_static_pad(element, "sink"));
   gst_pad_add_probe(
-      pad,
+      pad.get(),
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM),
       flows, this, nullptr);
-  gst_object_unref(pad);
-  gst_object_unref(element);
 }
 
 GstPadProbeReturn StoredSound::flows(GstPad*, GstPadProbeInfo* info, gpointer user) {
@@ -278,7 +186,7 @@ GstPadProbeReturn StoredSound::flows(GstPad*, GstPadProbeInfo* info, gpointer us
   }
   GstMapInfo map;
   if (!gst_buffer_map(GST_PAD_PROBE_INFO_BUFFER(info), &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
-  for (size_t i = 0; i < map.size; ++i) self.sum_ = (self.sum_ ^ map.data[i]) * 0x100000001b3;
+  g_checksum_update(self.sum_.get(), map.data, static_cast<gssize>(map.size));
   self.bytes_ += map.size;
   gst_buffer_unmap(GST_PAD_PROBE_INFO_BUFFER(info), &map);
   return GST_PAD_PROBE_OK;
@@ -289,18 +197,20 @@ void StoredSound::check(const PartFile& part) const {
   StoredSound read;
   std::string why;
   try {
-    run_pipeline(
-        "filesrc name=file ! decodebin ! audioconvert dithering=none noise-shaping=none ! "
+    const FilePipeline file(
+        "filesrc name=source ! decodebin ! audioconvert dithering=none noise-shaping=none ! "
         "audio/x-raw,layout=interleaved,format=" +
             format_ + " ! fakesink name=read sync=false",
-        [&](GstElement* pipeline) {
-          set_location(pipeline, "file", part.path());
-          read.watch(pipeline, "read");
-        });
+        part.path());
+    read.watch(file.find("read"));
+    file.play_until(GST_MESSAGE_EOS);
+    file.stop();
   } catch (const std::runtime_error& error) {
     why = std::string(": ") + error.what();
   }
-  if (why.empty() && read.bytes_ == bytes_ && read.sum_ == sum_) return;
+  const bool is_same = read.bytes_ == bytes_ && g_str_equal(g_checksum_get_string(read.sum_.get()),
+                                                            g_checksum_get_string(sum_.get()));
+  if (why.empty() && is_same) return;
   throw std::runtime_error(part.target() + ": what is read back is not what was written" + why);
 }
 

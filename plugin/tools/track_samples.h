@@ -4,9 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,8 +44,7 @@ void expect_own_track(const TrackCondition& condition);
 struct SaveOptions {
   std::optional<double>
       tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
-  size_t axis = kUsualAxis;  ///< the channel of a funscript, and of sound with a rate
-  int rate_Hz = 0;           ///< of sound with one channel; 0: all six, 1000 samples a second
+  size_t axis = kUsualAxis;  ///< the channel of a funscript
   double gain = 1;           ///< that the samples have been multiplied by
   TrackNotes notes;          ///< for sound
 };
@@ -61,32 +59,6 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// Much longer than a pipeline needs for its first buffers, also on a slow share.
-constexpr GstClockTime kLongestStart = 60 * GST_SECOND;
-
-/// A pipeline failed without an error message.
-class SilentFailure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Runs a pipeline to its end. `prepare` is called with it before it starts. Throws as
-/// await_message().
-void run_pipeline(const std::string& line,
-                  const std::function<void(GstElement* pipeline)>& prepare = {},
-                  GstClockTime start_limit = kLongestStart);
-
-/// Returns when `awaited` was posted. Throws std::runtime_error with an error that was posted, and
-/// SilentFailure after a change of state that failed or took longer than `start_limit`, or nothing
-/// for as long as `limit`. decodebin keeps an error of a demuxer to itself when it comes at the
-/// wrong moment, and then waits for ever.
-void await_message(GstElement* pipeline, GstMessageType awaited,
-                   GstClockTime limit = GST_CLOCK_TIME_NONE,
-                   GstClockTime start_limit = kLongestStart);
-
-/// Of the source or sink `name` in a pipeline. Unlike a launch line, it takes every file name.
-void set_location(GstElement* pipeline, const char* name, const std::string& path);
-
 /// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);
 
@@ -97,8 +69,8 @@ class StoredSound {
   StoredSound(const StoredSound&) = delete;
   StoredSound& operator=(const StoredSound&) = delete;
 
-  /// Of the element `name` in a pipeline that has not started.
-  void watch(GstElement* pipeline, const char* name);
+  /// What flows into an element of a pipeline that has not started.
+  void watch(GstElement* element);
   /// Decodes the file `part`, which a pipeline with an element "stored" (encoder_of()) has written.
   /// Throws std::runtime_error when that is not what has flowed.
   void check(const PartFile& part) const;
@@ -108,7 +80,8 @@ class StoredSound {
 
   std::string format_;  // of the samples, as caps name it
   uint64_t bytes_ = 0;
-  uint64_t sum_ = 0xcbf29ce484222325;  // FNV-1a
+  std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
+                                                        g_checksum_free};
 };
 
 }  // namespace spidar

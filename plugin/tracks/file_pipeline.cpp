@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/track/track_format.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/tracks/track_input.h"
 
 namespace spidar {
@@ -30,8 +31,8 @@ std::string text_of(GstMessage* message) {
 }  // namespace
 
 FilePipeline::FilePipeline(const std::string& line, const std::string& path,
-                           const std::atomic<bool>* stopped)
-    : stopped_(stopped), pipeline_(nullptr, stop_and_unref) {
+                           const std::atomic<bool>* stopped, GstClockTime longest_silence)
+    : stopped_(stopped), longest_silence_(longest_silence), pipeline_(nullptr, stop_and_unref) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) throw std::runtime_error("there is no such file");
@@ -44,7 +45,14 @@ FilePipeline::FilePipeline(const std::string& line, const std::string& path,
     g_error_free(error);
     throw std::runtime_error(reason);
   }
-  g_object_set(find("source"), "location", path.c_str(), nullptr);
+  GstElement* const source = find("source");
+  g_object_set(source, "location", path.c_str(), nullptr);
+  const Ref<GstPad> pad(gst_element_get_static_pad(source, "src"));
+  const auto count = [](GstPad*, GstPadProbeInfo*, gpointer read) {
+    ++*static_cast<std::atomic<uint64_t>*>(read);
+    return GST_PAD_PROBE_OK;
+  };
+  gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, count, &read_, nullptr);
 }
 
 GstElement* FilePipeline::find(const char* name) const {
@@ -87,7 +95,7 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
     if (failed) throw std::runtime_error("GStreamer cannot read it, and does not say why");
     silent = read == read_ ? silent + kLook : 0;
     read = read_;
-    if (silent >= kLongestSilence) {
+    if (silent >= longest_silence_) {
       throw std::runtime_error("there is nothing more to read, but no end: it may be damaged");
     }
     if (stopped_ && *stopped_) throw std::runtime_error("reading was stopped");

@@ -14,9 +14,13 @@ namespace spidar {
 
 class FilePipeline {
  public:
+  static constexpr GstClockTime kLongestSilence = 10 * GST_SECOND;
+
   /// `line` contains a filesrc named "source". Throws std::runtime_error when `path` is not a
   /// regular file, because reading anything else may wait for ever, or when an element is missing.
-  FilePipeline(const std::string& line, const std::string& path, const std::atomic<bool>* stopped);
+  FilePipeline(const std::string& line, const std::string& path,
+               const std::atomic<bool>* stopped = nullptr,
+               GstClockTime longest_silence = kLongestSilence);
   FilePipeline(const FilePipeline&) = delete;
   FilePipeline& operator=(const FilePipeline&) = delete;
 
@@ -26,11 +30,9 @@ class FilePipeline {
   /// Adds a sink that discards what it gets as fast as it comes. Owned by the pipeline.
   GstElement* add_fakesink() const;
 
-  /// To be called whenever something has been read.
-  void advance() const { ++read_; }
   /// Plays until a message of `awaited` or EOS comes, and returns which; GST_MESSAGE_UNKNOWN when
   /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was
-  /// read for kLongestSilence, because some demuxers stop at damage without an error, or when
+  /// read for `longest_silence`, because some demuxers stop at damage without an error, or when
   /// `*stopped` has become true.
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
   /// Holds the streams where they are, until play_until(), and forgets messages that have come: an
@@ -40,13 +42,12 @@ class FilePipeline {
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
  private:
-  static constexpr GstClockTime kLongestSilence = 10 * GST_SECOND;
-
   using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
   Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
 
   const std::atomic<bool>* const stopped_;
-  mutable std::atomic<uint64_t> read_{0};
+  const GstClockTime longest_silence_;
+  std::atomic<uint64_t> read_{0};
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
 

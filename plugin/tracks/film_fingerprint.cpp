@@ -3,8 +3,6 @@
 #include "plugin/tracks/film_fingerprint.h"
 
 #include <algorithm>
-#include <cinttypes>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -42,7 +40,7 @@ size_t floor_to_power(size_t size) {
   return power;
 }
 
-constexpr size_t kDigits = 8;  // of a hash
+constexpr size_t kDigits = 16;  // of a hash: two films share one of 256 pictures once in 10^14
 
 }  // namespace
 
@@ -68,7 +66,7 @@ PacketFraming framing_of(const GstCaps* caps) {
   return framing;
 }
 
-uint32_t hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing) {
+std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing) {
   Bytes unit{data, size};
   while (unit.second > 0 && unit.first[unit.second - 1] == 0 &&
          framing.kind != PacketFraming::Kind::kLengths) {
@@ -80,74 +78,46 @@ uint32_t hash_packet(const uint8_t* data, size_t size, const PacketFraming& fram
     unit = after_last_length(unit.first, unit.second, framing.length_bytes);
     while (unit.second > 0 && unit.first[unit.second - 1] == 0) --unit.second;
   }
-  if (unit.second == 0) return 0;
-  // FNV-1a of 64 bits, folded.
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (size_t i = unit.second - floor_to_power(unit.second); i < unit.second; ++i) {
-    hash = (hash ^ unit.first[i]) * 0x100000001b3u;
-  }
-  return static_cast<uint32_t>(hash ^ hash >> 32);
+  const size_t hashed = unit.second == 0 ? 0 : floor_to_power(unit.second);
+  gchar* const digits =
+      g_compute_checksum_for_data(G_CHECKSUM_SHA1, unit.first + unit.second - hashed, hashed);
+  std::string hash(digits, kDigits);
+  g_free(digits);
+  return hash;
 }
 
-FilmFingerprint fingerprint_of(std::vector<FilmPacket> packets) {
-  std::stable_sort(packets.begin(), packets.end(),
-                   [](const FilmPacket& a, const FilmPacket& b) { return a.size > b.size; });
-  FilmFingerprint fingerprint;
-  std::vector<uint32_t>& hashes = fingerprint.hashes;
-  for (const FilmPacket& packet : packets) {
-    if (hashes.size() == FilmFingerprint::kPackets) break;
-    const bool is_new = std::find(hashes.begin(), hashes.end(), packet.hash) == hashes.end();
-    if (is_new) hashes.push_back(packet.hash);
-  }
-  if (!packets.empty()) fingerprint.time_ns = packets.front().time_ns;
-  return fingerprint;
+FilmFingerprint fingerprint_of(const std::vector<FilmPacket>& packets) {
+  const auto largest =
+      std::max_element(packets.begin(), packets.end(),
+                       [](const FilmPacket& a, const FilmPacket& b) { return a.size < b.size; });
+  if (largest == packets.end()) return {};
+  return {largest->hash, largest->time_ns};
 }
 
 std::string to_text(const FilmFingerprint& fingerprint) {
-  std::string text = std::to_string(fingerprint.time_ns) + ":";
-  for (const uint32_t hash : fingerprint.hashes) {
-    char digits[kDigits + 1];
-    std::snprintf(digits, sizeof digits, "%08" PRIx32, hash);
-    text += digits;
-  }
-  return text;
+  return std::to_string(fingerprint.time_ns) + ":" + fingerprint.hash;
 }
 
 FilmFingerprint parse_fingerprint(const std::string& text) {
-  const size_t colon = text.find(':');
-  if (colon == std::string::npos || colon == 0) return {};
-  const std::string time = text.substr(0, colon), digits = text.substr(colon + 1);
-  const bool has_digits = !digits.empty() && digits.size() % kDigits == 0 &&
-                          digits.size() <= FilmFingerprint::kPackets * kDigits &&
-                          digits.find_first_not_of("0123456789abcdef") == std::string::npos;
   FilmFingerprint fingerprint;
   char* end = nullptr;
-  fingerprint.time_ns = std::strtoll(time.c_str(), &end, 10);
-  if (*end != '\0' || !has_digits) return {};
-  for (size_t i = 0; i < digits.size(); i += kDigits) {
-    fingerprint.hashes.push_back(
-        static_cast<uint32_t>(std::strtoul(digits.substr(i, kDigits).c_str(), nullptr, 16)));
-  }
-  return fingerprint;
+  fingerprint.time_ns = std::strtoll(text.c_str(), &end, 10);
+  if (end == text.c_str() || *end != ':') return {};
+  fingerprint.hash = end + 1;
+  const bool is_hash = fingerprint.hash.size() == kDigits &&
+                       fingerprint.hash.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return is_hash ? fingerprint : FilmFingerprint();
 }
 
-std::optional<int64_t> find_pictures(const FilmFingerprint& fingerprint,
-                                     const std::vector<FilmPacket>& packets) {
+std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
+                                    const std::vector<FilmPacket>& packets) {
   std::optional<int64_t> later_ns;
-  size_t found = 0;
-  for (const uint32_t hash : fingerprint.hashes) {
-    bool is_there = false;
-    for (const FilmPacket& packet : packets) {
-      if (packet.hash != hash) continue;
-      is_there = true;
-      if (hash != fingerprint.hashes.front()) break;
-      // The nearest one, if a picture is repeated.
-      const int64_t this_ns = packet.time_ns - fingerprint.time_ns;
-      if (!later_ns || std::llabs(this_ns) < std::llabs(*later_ns)) later_ns = this_ns;
-    }
-    if (is_there) ++found;
+  for (const FilmPacket& packet : packets) {
+    if (packet.hash != fingerprint.hash) continue;
+    // The nearest one, if a picture is repeated.
+    const int64_t this_ns = packet.time_ns - fingerprint.time_ns;
+    if (!later_ns || std::llabs(this_ns) < std::llabs(*later_ns)) later_ns = this_ns;
   }
-  if (2 * found < fingerprint.hashes.size()) return std::nullopt;
   return later_ns;
 }
 

@@ -105,7 +105,6 @@ class FilmReader {
   /// its parser leaves the pictures as they are in the file.
   static GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
     auto& self = *static_cast<FilmReader*>(user);
-    self.file_.advance();
     if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
     if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
       const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));

@@ -4,19 +4,19 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <mutex>
 #include <pthread.h>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
+
+#include <glib.h>
 
 namespace spidar {
 namespace {
@@ -91,14 +91,13 @@ int make_locked(const std::string& path, const fs::path& target) {
   }
 }
 
-/// The same in every process and on every machine: FNV-1a of 64 bits.
+/// The same in every process and on every machine.
 std::string part_name(const fs::path& target) {
   const std::string name = target.filename().string();
-  uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 0x100000001b3;
-  std::ostringstream text;
-  text << ".part-" << std::hex << hash << target.extension().string();
-  return text.str();
+  gchar* const hash = g_compute_checksum_for_string(G_CHECKSUM_SHA1, name.c_str(), -1);
+  const std::string part = ".part-" + std::string(hash, 16) + target.extension().string();
+  g_free(hash);
+  return part;
 }
 
 /// Waits for one of the signals, removes the part files, and ends the program as the signal does.

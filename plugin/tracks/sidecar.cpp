@@ -110,7 +110,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
   // Plus a millisecond, because many containers round durations to milliseconds.
   int64_t tolerance_ns = film.frame_ns + static_cast<int64_t>(GST_MSECOND);
   if (!fingerprint.empty()) {
-    const std::optional<int64_t> later_ns = find_pictures(fingerprint, film.packets);
+    const std::optional<int64_t> later_ns = find_picture(fingerprint, film.packets);
     if (!later_ns) {
       match.problem = kOtherPictures;
       return match;

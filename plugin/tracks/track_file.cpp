@@ -68,7 +68,6 @@ GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user)
     const bool all = type == GST_EVENT_EOS && ++reading.ended == parser->numsrcpads;
     if (all && !reading.is_chosen) give_up(parser);
   }
-  reading.file.advance();
   if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
   GstCaps* caps = caps_of(pad);
   const StreamKind kind = kind_of(caps);
@@ -100,7 +99,6 @@ void add_stream(GstElement*, GstPad* pad, gpointer user) {
 /// Runs in the streaming thread of the pipeline that reads the file.
 void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
   auto& reading = *static_cast<Reading*>(user);
-  reading.file.advance();
   const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
   if (caps.get() != reading.caps.get()) {  // also in the middle of a stream
     reading.problem = reading.input.set_caps(caps.get());

@@ -135,9 +135,9 @@ def convert(trial):
 
 
 def plot(trial):
-    """`plot --film` draws the film's own track."""
+    """`plot` draws the track of the film."""
     png = trial.folder / "plot.png"
-    outcome = trial.spidartrack("plot", trial.track, png, "--film", trial.path)
+    outcome = trial.spidartrack("plot", trial.path, png)
     expect(outcome and png.exists() and png.stat().st_size > 5000, outcome.text[-250:])
 
 
@@ -157,7 +157,7 @@ def other_film(trial):
     expect(played["warnings"], "track=auto refuses the track of another film without a word")
     if trial.film.kind["tool"] != "plot":
         return
-    outcome = trial.spidartrack("plot", trial.track, path.with_name("out.png"), "--film", path)
+    outcome = trial.spidartrack("plot", path, path.with_name("out.png"))
     expect(outcome.status == 1, f"plot takes the track of another film, {trial.other}")
     expect_sentence(outcome.text, "plot")
     expect(not any(path.parent.glob("out.*")), "plot leaves a file")

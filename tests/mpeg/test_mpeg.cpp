@@ -100,11 +100,15 @@ class Mpeg : public testing::Test {
 
   /// Ten seconds of a film, as it is recorded.
   std::vector<TrackSample> film() const {
-    run_pipeline(
-        "videotestsrc num-buffers=300 pattern=ball motion=sweep animation-mode=frames ! "
-        "video/x-raw,format=GRAY8,width=320,height=240,framerate=30/1 ! spidarmotion device=none "
-        "attach-meta=true ! spidarextract name=x x.wrench ! wavenc ! filesink location=" +
-        quoted(path("film.wav")));
+    EXPECT_EQ(
+        system(("gst-launch-1.0 -q videotestsrc num-buffers=300 pattern=ball motion=sweep "
+                "animation-mode=frames ! "
+                "video/x-raw,format=GRAY8,width=320,height=240,framerate=30/1 ! spidarmotion "
+                "device=none attach-meta=true ! spidarextract name=x x.wrench ! wavenc ! filesink "
+                "location=" +
+                quoted(path("film.wav")))
+                   .c_str()),
+        0);
     return load_track(path("film.wav"));
   }
   /// Up to the full scale, on six channels at different rates.
