@@ -144,7 +144,11 @@ class BadTracks(TrackPlayedCase):
             sample[1] = 1e30
         track = self.path("bad.wav")
         track_case.write_wav(track, samples)
-        film, sink = self.film(track), self.play(f"filesrc location={track} ! wavparse ! spidarsink")
+        pipeline = self.parse(f"filesrc location={track} ! wavparse ! spidarsink name=sink")
+        film, sink = self.film(track), self.play(pipeline)
+        stats = pipeline.get_by_name("sink").get_property("stats")
+        self.assertEqual([stats.get_value(name) for name in ("samples", "samples-not-finite", "samples-beyond-full-scale")],
+                         [MS, 2, 50])
         for outcome, first, second in ((film, "2 samples", "50 samples"), (sink, "samples", "samples")):
             self.assertTrue(outcome.eos, outcome.error)
             self.assertEqual(len(outcome.warnings), 2)

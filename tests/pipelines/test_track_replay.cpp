@@ -36,28 +36,29 @@ class TrackReplay : public testing::Test {
     write_track(path, samples);
     return path;
   }
+  template <typename Value, typename Get>
+  Value stat_of(Get get, const char* name) const {
+    GstStructure* stats = nullptr;
+    Value value{};
+    g_object_get(pipeline->element(), "stats", &stats, nullptr);
+    EXPECT_TRUE(get(stats, name, &value)) << name;
+    gst_structure_free(stats);
+    return value;
+  }
+  double number(const char* name) const { return stat_of<double>(gst_structure_get_double, name); }
+  uint64_t stat(const char* name) const { return stat_of<guint64>(gst_structure_get_uint64, name); }
   std::string limit(const char* field = "limit") const {
-    GstStructure* stats = nullptr;
-    g_object_get(pipeline->element(), "stats", &stats, nullptr);
-    const std::string limit = gst_structure_get_string(stats, field);
-    gst_structure_free(stats);
-    return limit;
+    const auto copy = [](const GstStructure* stats, const char* name, std::string* text) {
+      *text = gst_structure_get_string(stats, name);
+      return true;
+    };
+    return stat_of<std::string>(copy, field);
   }
-  double number(const char* name) const {
-    GstStructure* stats = nullptr;
-    double value = 0;
-    g_object_get(pipeline->element(), "stats", &stats, nullptr);
-    EXPECT_TRUE(gst_structure_get_double(stats, name, &value)) << name;
-    gst_structure_free(stats);
-    return value;
-  }
-  uint64_t stat(const char* name) const {
-    GstStructure* stats = nullptr;
-    guint64 value = 0;
-    g_object_get(pipeline->element(), "stats", &stats, nullptr);
-    EXPECT_TRUE(gst_structure_get_uint64(stats, name, &value)) << name;
-    gst_structure_free(stats);
-    return value;
+  void play(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      pipeline->step();
+      pipeline->idle((kFrame_ms - 1) * GST_MSECOND);
+    }
   }
   /// Plays frames, and feels in each of their milliseconds what the track has there; stream time is
   /// `stream_ms` at running time 0.
@@ -101,17 +102,6 @@ TEST_F(TrackReplay, ASeekLeadsToTheSampleOfThatTime) {
   expect_track(10, 2000);
 }
 
-TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStays) {
-  for (const double rate : {0.5, 2.0}) {
-    SCOPED_TRACE(rate);
-    open(track_of(kFrames * kFrame_ms));
-    pipeline->set_state(GST_STATE_PAUSED);
-    pipeline->seek(rate, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE, 0, GST_CLOCK_TIME_NONE);
-    pipeline->set_state(GST_STATE_PLAYING);
-    expect_track(10, 0, rate);
-  }
-}
-
 /// As videorate does with frames that it shows again: two of three have no picture.
 GstPadProbeReturn flag_gap(GstPad*, GstPadProbeInfo* info, void* count) {
   if ((*static_cast<int*>(count))++ % 3 == 0) return GST_PAD_PROBE_OK;
@@ -133,7 +123,7 @@ TEST_F(TrackReplay, FramesWithoutAPicturePlayTheTrackToo) {
   pipeline.reset();  // before `count`
 }
 
-TEST_F(TrackReplay, TheForceOfATrackHasNoLimitAtAnyRate) {
+TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStaysAndNothingLimitsIt) {
   for (const double rate : {0.5, 1.0, 2.0, -1.0}) {
     SCOPED_TRACE(rate);
     open(track_of(kFrames * kFrame_ms));
@@ -141,9 +131,10 @@ TEST_F(TrackReplay, TheForceOfATrackHasNoLimitAtAnyRate) {
     pipeline->seek(rate, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE, 0,
                    rate < 0 ? 2 * GST_SECOND : GST_CLOCK_TIME_NONE);
     pipeline->set_state(GST_STATE_PLAYING);
-    for (int i = 0; i < 20; ++i) {
-      pipeline->step();
-      pipeline->idle(static_cast<GstClockTime>((kFrame_ms - 1) / std::fabs(rate)) * GST_MSECOND);
+    if (rate > 0) {
+      expect_track(20, 0, rate);
+    } else {
+      play(20);
     }
     EXPECT_EQ(limit(), "none");
   }
@@ -155,12 +146,6 @@ TEST_F(TrackReplay, WhereATrackIsSilentTheReasonSaysSo) {
               [](double ms) { return ms < 400 ? sample_at(ms) : TrackSample{}; });
   open(path + " trace=" + (folder.path / "trace.csv").string());
   pipeline->set_state(GST_STATE_PLAYING);
-  const auto play = [&](int frames) {
-    for (int i = 0; i < frames; ++i) {
-      pipeline->step();
-      pipeline->idle((kFrame_ms - 1) * GST_MSECOND);
-    }
-  };
   const auto play_again = [&](int frames) {
     pipeline->set_state(GST_STATE_PAUSED);
     pipeline->idle(GST_MSECOND);
@@ -185,25 +170,6 @@ TEST_F(TrackReplay, WhereATrackIsSilentTheReasonSaysSo) {
   std::getline(trace, row);
   EXPECT_EQ(row.rfind("40000000,40000000,0,0,0,0,", 0), 0u) << row;
   EXPECT_EQ(row.find(",0,0,0,0,0,0,"), std::string::npos) << "the wrench of the track: " << row;
-}
-
-TEST_F(TrackReplay, PausedNothingIsFelt) {
-  open(track_of(kFrames * kFrame_ms));
-  pipeline->set_state(GST_STATE_PLAYING);
-  expect_track(10);
-  pipeline->set_state(GST_STATE_PAUSED);
-  EXPECT_EQ(pipeline->idle(50 * GST_MSECOND).commanded.stacked().norm(), 0);
-  pipeline->set_state(GST_STATE_PLAYING);
-  expect_track(10);
-}
-
-TEST_F(TrackReplay, TheTrackOfAnotherFilmIsNamedAndTheFilmAnalysed) {
-  open(track_of(kFrames * kFrame_ms - 200));
-  pipeline->set_state(GST_STATE_PLAYING);
-  for (int i = 0; i < 5; ++i) pipeline->step();
-  EXPECT_GE(stat("frames"), 5u);
-  EXPECT_EQ(stat("track-frames"), 0u);
-  pipeline->await_message(GST_MESSAGE_WARNING);
 }
 
 TEST_F(TrackReplay, WhatIsMissingOrNoTrackIsNamedAndTheFilmAnalysed) {
@@ -235,12 +201,6 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
   });
   open(path);
   pipeline->set_state(GST_STATE_PLAYING);
-  const auto play = [&](int frames) {
-    for (int i = 0; i < frames; ++i) {
-      pipeline->step();
-      pipeline->idle(39 * GST_MSECOND);
-    }
-  };
   play(10);
   EXPECT_LT(number("vibration-left"), 1);
   EXPECT_EQ(number("vibration-share"), 1);
