@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/tracks/file_pipeline.h"
 
@@ -200,9 +201,7 @@ void FilmWatch::decoder_has(GstBin*, GstBin*, GstElement* element, gpointer self
 void FilmWatch::demuxer_has(GstElement* demuxer, GstPad* pad, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   if (!has_header(demuxer)) return;
-  constexpr auto kData =
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
-  gst_pad_add_probe(pad, kData, flows, user, nullptr);
+  gst_pad_add_probe(pad, kFlow, flows, user, nullptr);
   const std::lock_guard<std::mutex> lock(self.lock_);
   self.tells_duration_ = true;
 }
@@ -249,28 +248,23 @@ GstPadProbeReturn FilmWatch::decoded(GstPad* pad, GstPadProbeInfo* info, gpointe
 /// as default.
 void FilmWatch::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
-  GstPad* into = gst_element_get_static_pad(self.convert_, "sink");
-  if (!gst_pad_is_linked(into)) {
-    GstPad* chosen = nullptr;
-    for (GList* i = decoder->srcpads; i; i = i->next) {
-      auto* const pad = static_cast<GstPad*>(i->data);
-      GstCaps* caps = caps_of(pad);
-      const bool is_video = kind_of(caps) == StreamKind::kVideo;
-      gst_caps_unref(caps);
-      if (is_video && !chosen) chosen = pad;
-    }
-    if (chosen) gst_pad_add_probe(chosen, kFlow, decoded, user, nullptr);
-    if (!chosen || gst_pad_link(chosen, into) != GST_PAD_LINK_OK) {
-      {
-        const std::string why = why_missing(decoder);
-        const std::lock_guard<std::mutex> lock(self.lock_);
-        self.has_video_ = false;
-        self.why_no_video_ = why;
-      }
-      GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
-    }
+  const Ref<GstPad> into(gst_element_get_static_pad(self.convert_, "sink"));
+  if (gst_pad_is_linked(into.get())) return;
+  GstPad* chosen = nullptr;
+  for (GList* i = decoder->srcpads; i && !chosen; i = i->next) {
+    auto* const pad = static_cast<GstPad*>(i->data);
+    const Ref<GstCaps> caps(caps_of(pad));
+    if (kind_of(caps.get()) == StreamKind::kVideo) chosen = pad;
   }
-  gst_object_unref(into);
+  if (chosen) gst_pad_add_probe(chosen, kFlow, decoded, user, nullptr);
+  if (chosen && gst_pad_link(chosen, into.get()) == GST_PAD_LINK_OK) return;
+  {
+    const std::string why = why_missing(decoder);
+    const std::lock_guard<std::mutex> lock(self.lock_);
+    self.has_video_ = false;
+    self.why_no_video_ = why;
+  }
+  GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
 }
 
 std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns) const {
@@ -288,12 +282,8 @@ std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> 
   if (frames_ == 0) return "no picture of it can be decoded: it is damaged or cut off";
   const int64_t until_ns = tells_duration_ ? end_ns.value_or(duration_ns_) : 0;
   if (until_ns - end_ns_ > kTolerance_ns) {
-    gchar* const text =
-        g_strdup_printf("it ends at %.3f s of %.3f s: it is damaged or cut off",
-                        1e-9 * static_cast<double>(end_ns_), 1e-9 * static_cast<double>(until_ns));
-    const std::string result = text;
-    g_free(text);
-    return result;
+    return "it ends at " + seconds_text(end_ns_) + " of " + seconds_text(until_ns) +
+           ": it is damaged or cut off";
   }
   return frames_ < 2 ? "it is a single picture, in which nothing moves" : "";
 }

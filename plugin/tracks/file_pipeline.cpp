@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "core/track/track_format.h"
 #include "plugin/gobject/ref.h"
@@ -69,6 +70,30 @@ GstElement* FilePipeline::add_fakesink() const {
   return sink;
 }
 
+void FilePipeline::link_streams(Take take) {
+  take_ = std::move(take);
+  const auto add = +[](GstElement*, GstPad* pad, gpointer self) {
+    constexpr auto kFlow =
+        static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
+                                     GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
+    gst_pad_add_probe(pad, kFlow, link, self, nullptr);
+  };
+  g_signal_connect(find("parse"), "pad-added", G_CALLBACK(add), this);
+}
+
+GstPadProbeReturn FilePipeline::link(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  const auto& self = *static_cast<FilePipeline*>(user);
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
+    if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
+  }
+  if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
+  GstElement* const taker = self.take_(pad);
+  const Ref<GstPad> into(gst_element_get_static_pad(taker ? taker : self.add_fakesink(), "sink"));
+  gst_pad_link(pad, into.get());
+  return GST_PAD_PROBE_OK;
+}
+
 void FilePipeline::pause() const {
   gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
   const Bus messages = bus();
@@ -101,6 +126,13 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
     if (stopped_ && *stopped_) throw std::runtime_error("reading was stopped");
   }
   return GST_MESSAGE_UNKNOWN;
+}
+
+std::string seconds_text(int64_t ns) {
+  gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
+  std::string result = text;
+  g_free(text);
+  return result;
 }
 
 StreamKind kind_of(const GstCaps* caps) {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,11 @@ class FilePipeline {
   /// Adds a sink that discards what it gets as fast as it comes. Owned by the pipeline.
   GstElement* add_fakesink() const;
 
+  /// Of a parsebin "parse": links each stream when it begins to flow, to the element that `take`
+  /// returns, or to a sink that discards it if that is null. A stream may be found while others
+  /// flow; linked only now, its parser leaves the data as they are in the file. Streaming threads.
+  using Take = std::function<GstElement*(GstPad*)>;
+  void link_streams(Take take);
   /// Plays until a message of `awaited` or EOS comes, and returns which; GST_MESSAGE_UNKNOWN when
   /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was
   /// read for `longest_silence`, because some demuxers stop at damage without an error, or when
@@ -45,11 +51,17 @@ class FilePipeline {
   using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
   Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
 
+  static GstPadProbeReturn link(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+
   const std::atomic<bool>* const stopped_;
   const GstClockTime longest_silence_;
   std::atomic<uint64_t> read_{0};
+  Take take_;
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
+
+/// "1.250 s".
+std::string seconds_text(int64_t ns);
 
 enum class StreamKind {
   kVideo,

@@ -10,6 +10,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_fingerprint.h"
 
@@ -31,7 +32,8 @@ class FilmReader {
   FilmReader(const std::string& path, const std::atomic<bool>* stopped)
       : file_("filesrc name=source ! parsebin name=parse", path, stopped),
         parser_(file_.find("parse")) {
-    g_signal_connect(parser_, "pad-added", G_CALLBACK(add_stream), this);
+    g_signal_connect(parser_, "pad-added", G_CALLBACK(look), this);
+    file_.link_streams([this](GstPad* pad) { return take_stream(pad); });
   }
   ~FilmReader() { file_.stop(); }
   FilmReader(const FilmReader&) = delete;
@@ -87,48 +89,29 @@ class FilmReader {
     return std::move(film_);
   }
 
-  static void add_stream(GstElement*, GstPad* pad, gpointer user) {
-    auto& self = *static_cast<FilmReader*>(user);
-    GstCaps* caps = caps_of(pad);
-    {
-      const std::lock_guard<std::mutex> lock(self.mutex_);
-      self.film_.has_track = self.film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
-    }
-    gst_caps_unref(caps);
-    constexpr auto kFlow =
-        static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
-                                     GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
-    gst_pad_add_probe(pad, kFlow, link_stream, user, nullptr);
+  static void look(GstElement*, GstPad* pad, gpointer user) {
+    static_cast<FilmReader*>(user)->kind_of_stream(pad);
   }
 
-  /// A stream may begin, and be found, while the others flow. It is linked when it flows, so that
-  /// its parser leaves the pictures as they are in the file.
-  static GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
-    auto& self = *static_cast<FilmReader*>(user);
-    if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
-    if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-      const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
-      if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
-    }
-    GstPad* into = gst_element_get_static_pad(self.add_sink(pad), "sink");
-    gst_pad_link(pad, into);
-    gst_object_unref(into);
-    return GST_PAD_PROBE_OK;
-  }
-
-  GstElement* add_sink(GstPad* pad) {
-    GstElement* const sink = file_.add_fakesink();
-    GstCaps* caps = caps_of(pad);
+  /// Whether it is a track is known before it flows, or not earlier.
+  StreamKind kind_of_stream(GstPad* pad) {
+    const Ref<GstCaps> caps(caps_of(pad));
+    const StreamKind kind = kind_of(caps.get());
     const std::lock_guard<std::mutex> lock(mutex_);
-    film_.has_track = film_.has_track || kind_of(caps) == StreamKind::kHapticTrack;
-    if (kind_of(caps) == StreamKind::kVideo && !sink_) {
-      sink_ = sink;
-      framing_ = framing_of(caps);
-      g_object_set(sink, "signal-handoffs", TRUE, nullptr);
-      g_signal_connect(sink, "handoff", G_CALLBACK(take_packet), this);
-    }
-    gst_caps_unref(caps);
-    return sink;
+    film_.has_track = film_.has_track || kind == StreamKind::kHapticTrack;
+    return kind;
+  }
+
+  GstElement* take_stream(GstPad* pad) {
+    if (kind_of_stream(pad) != StreamKind::kVideo) return nullptr;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (sink_) return nullptr;
+    sink_ = file_.add_fakesink();
+    const Ref<GstCaps> caps(caps_of(pad));
+    framing_ = framing_of(caps.get());
+    g_object_set(sink_, "signal-handoffs", TRUE, nullptr);
+    g_signal_connect(sink_, "handoff", G_CALLBACK(take_packet), this);
+    return sink_;
   }
 
   static void take_packet(GstElement*, GstBuffer* packet, GstPad* pad, gpointer user) {
@@ -167,7 +150,7 @@ class FilmReader {
     last_length_ns_ = has_length ? static_cast<int64_t>(GST_BUFFER_DURATION(packet)) : 0;
   }
 
-  const FilePipeline file_;
+  FilePipeline file_;
   GstElement* const parser_;
   GstElement* sink_ = nullptr;  // of the pictures
   PacketFraming framing_;

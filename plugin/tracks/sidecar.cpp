@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "plugin/tracks/file_pipeline.h"
+
 namespace spidar {
 namespace {
 
@@ -19,18 +21,7 @@ constexpr int64_t kMostMissing_ns = 500'000'000;
 constexpr std::initializer_list<const char*> kTrackEnds = {".haptic.flac", ".haptic.mka",
                                                            ".haptic.wav"};
 
-std::string seconds(int64_t ns) {
-  gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
-  std::string result = text;
-  g_free(text);
-  return result;
-}
-
-}  // namespace
-
 namespace fs = std::filesystem;
-
-namespace {
 
 /// What is there, in the order in which it is looked for.
 std::vector<std::string> list_beside(const std::string& film,
@@ -125,7 +116,8 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
   // Sound may be longer than the pictures.
   const bool is_short = film.end_ns && missing_ns > tolerance_ns;
   if (end_ns != 0 && (is_short || -missing_ns > tolerance_ns)) {
-    match.problem = "the track lasts " + seconds(track_ns) + ", the film " + seconds(end_ns);
+    match.problem =
+        "the track lasts " + seconds_text(track_ns) + ", the film " + seconds_text(end_ns);
   }
   return match;
 }
@@ -135,7 +127,7 @@ std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
   if (!gst_pad_peer_query_duration(pad, GST_FORMAT_TIME, &film_ns) || film_ns <= 0) return {};
   // Plus a millisecond, because many containers round durations to milliseconds.
   if (std::llabs(film_ns - track_ns) <= frame_ns + GST_MSECOND) return {};
-  return "the track lasts " + seconds(track_ns) + ", the film " + seconds(film_ns);
+  return "the track lasts " + seconds_text(track_ns) + ", the film " + seconds_text(film_ns);
 }
 
 }  // namespace spidar

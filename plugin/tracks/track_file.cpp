@@ -57,43 +57,32 @@ std::string unparsed_type(GstPad* pad) {
   return gst_structure_get_name(gst_caps_get_structure(caps.get(), 0));
 }
 
-/// Links a stream when it begins to flow: it may be found while others flow already. The first
-/// that is wanted is decoded, and all others are ignored.
-GstPadProbeReturn link_stream(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
-  auto& reading = *static_cast<Reading*>(user);
-  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-    const GstEventType type = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info));
-    if (type != GST_EVENT_EOS && type != GST_EVENT_GAP) return GST_PAD_PROBE_OK;
-    GstElement* const parser = GST_PAD_PARENT(pad);
-    const bool all = type == GST_EVENT_EOS && ++reading.ended == parser->numsrcpads;
-    if (all && !reading.is_chosen) give_up(parser);
-  }
-  if (gst_pad_is_linked(pad)) return GST_PAD_PROBE_OK;
-  GstCaps* caps = caps_of(pad);
-  const StreamKind kind = kind_of(caps);
-  gst_caps_unref(caps);
+/// The first stream that is wanted is decoded, and all others are ignored.
+GstElement* take_stream(Reading& reading, GstPad* pad) {
+  const Ref<GstCaps> caps(caps_of(pad));
+  const StreamKind kind = kind_of(caps.get());
   if (kind == StreamKind::kSound) reading.has_sound = true;
-  const bool chosen = is_wanted(reading, kind);
-  if (chosen) reading.is_chosen = true;
-  const std::string unparsed = chosen ? unparsed_type(pad) : "";
-  if (!unparsed.empty()) {
-    reading.problem = "GStreamer cannot take " + unparsed +
-                      " apart; make WAV, FLAC or Matroska of it, with ffmpeg for example.";
-    give_up(GST_PAD_PARENT(pad));
-  }
-  GstElement* taker =
-      chosen && unparsed.empty() ? reading.file.find("decode") : reading.file.add_fakesink();
-  GstPad* sink = gst_element_get_static_pad(taker, "sink");
-  gst_pad_link(pad, sink);
-  gst_object_unref(sink);
+  if (!is_wanted(reading, kind)) return nullptr;
+  reading.is_chosen = true;
+  const std::string unparsed = unparsed_type(pad);
+  if (unparsed.empty()) return reading.file.find("decode");
+  reading.problem = "GStreamer cannot take " + unparsed +
+                    " apart; make WAV, FLAC or Matroska of it, with ffmpeg for example.";
+  give_up(GST_PAD_PARENT(pad));
+  return nullptr;
+}
+
+/// Ends reading when all streams have ended, and none was wanted.
+GstPadProbeReturn count_end(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  auto& reading = *static_cast<Reading*>(user);
+  if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
+  GstElement* const parser = GST_PAD_PARENT(pad);
+  if (++reading.ended == parser->numsrcpads && !reading.is_chosen) give_up(parser);
   return GST_PAD_PROBE_OK;
 }
 
 void add_stream(GstElement*, GstPad* pad, gpointer user) {
-  constexpr auto kFlow =
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
-                                   GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
-  gst_pad_add_probe(pad, kFlow, link_stream, user, nullptr);
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, count_end, user, nullptr);
 }
 
 /// Runs in the streaming thread of the pipeline that reads the file.
@@ -172,7 +161,7 @@ void finish(Reading& reading) {
 
 TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>* stopped,
                Wanted wanted = Wanted::kHapticTrack) {
-  const FilePipeline file(
+  FilePipeline file(
       "filesrc name=source ! parsebin name=parse decodebin name=decode ! audio/x-raw ! "
       "fakesink name=out signal-handoffs=true sync=false",
       path, stopped);
@@ -180,15 +169,15 @@ TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>
   GstElement* const out = file.find("out");
   GstElement* const parser = file.find("parse");
   g_signal_connect(out, "handoff", G_CALLBACK(take_buffer), &reading);
+  file.link_streams([&reading](GstPad* stream) { return take_stream(reading, stream); });
   g_signal_connect(parser, "pad-added", G_CALLBACK(add_stream), &reading);
   struct Stop {
     const FilePipeline& file;
     ~Stop() { file.stop(); }
   } const stop{file};  // before what its streaming threads use
   file.play_until(GST_MESSAGE_APPLICATION);
-  GstPad* pad = gst_element_get_static_pad(out, "sink");
-  read_tags(pad, reading.track.notes);
-  gst_object_unref(pad);
+  const Ref<GstPad> pad(gst_element_get_static_pad(out, "sink"));
+  read_tags(pad.get(), reading.track.notes);
   gint64 promised_ns = 0;
   // For a film this is the duration of its longest stream.
   if (parser->numsrcpads == 1 &&
@@ -217,12 +206,8 @@ TrackFile read(const std::string& path, bool only_notes, const std::atomic<bool>
 std::string TrackFile::missing() const {
   // Containers round durations, to milliseconds or samples.
   if (promised_ns <= duration_ns + GST_MSECOND) return {};
-  gchar* const text = g_strdup_printf("it is cut off: %.3f s of %.3f s are there",
-                                      1e-9 * static_cast<double>(duration_ns),
-                                      1e-9 * static_cast<double>(promised_ns));
-  const std::string result = text;
-  g_free(text);
-  return result;
+  return "it is cut off: " + seconds_text(duration_ns) + " of " + seconds_text(promised_ns) +
+         " are there";
 }
 
 TrackFile read_track_file(const std::string& path, const std::atomic<bool>* stopped) {

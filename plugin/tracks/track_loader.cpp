@@ -25,10 +25,10 @@ namespace {
 constexpr std::chrono::milliseconds kLongestStop{500};
 
 /// Nothing when the film cannot be read.
-std::optional<FilmMatch> compare(const TrackFile& track, const std::string& film,
-                                 const std::atomic<bool>* stopped) {
+std::optional<Film> read_if_possible(const std::string& film, const std::atomic<bool>* stopped) {
+  if (film.empty()) return std::nullopt;
   try {
-    return match_film(read_film(film, stopped), track.duration_ns, track.notes);
+    return read_film(film, stopped);
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
@@ -36,14 +36,6 @@ std::optional<FilmMatch> compare(const TrackFile& track, const std::string& film
 
 void move(TrackFile& track, int64_t later_ns) {
   for (TrackBlock& block : track.blocks) block.begin_ns += later_ns;
-}
-
-bool has_track(const std::string& film, const std::atomic<bool>* stopped) {
-  try {
-    return read_film(film, stopped).has_track;
-  } catch (const std::runtime_error&) {
-    return false;
-  }
 }
 
 /// A sentence without its full stop, for the end of another one.
@@ -56,23 +48,19 @@ LoadedTrack load_track(const std::string& wanted, const std::string& film,
                        const std::atomic<bool>* stopped) {
   LoadedTrack loaded;
   loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
-  if (loaded.path.empty() && !film.empty() && has_track(film, stopped)) loaded.path = film;
+  const std::optional<Film> read = read_if_possible(film, stopped);
+  if (loaded.path.empty() && read && read->has_track) loaded.path = film;
   if (loaded.path.empty()) return loaded;
   try {
     loaded.track = read_track_file(loaded.path, stopped);
     loaded.problem = loaded.track->missing();
     // A track inside the film is the film's own.
-    std::optional<FilmMatch> match;
-    if (loaded.path == film) {
-      match.emplace();
-    } else if (!film.empty()) {
-      match = compare(*loaded.track, film, stopped);
-    }
-    loaded.is_compared = match.has_value();
-    if (match) {
-      if (loaded.problem.empty()) loaded.problem = match->problem;
-      move(*loaded.track, match->later_ns);
-    }
+    const bool is_inside = loaded.path == film;
+    loaded.is_compared = is_inside || read;
+    if (is_inside || !read) return loaded;
+    const FilmMatch match = match_film(*read, loaded.track->duration_ns, loaded.track->notes);
+    if (loaded.problem.empty()) loaded.problem = match.problem;
+    move(*loaded.track, match.later_ns);
   } catch (const std::runtime_error& error) {
     loaded.problem = clause(error.what());
   }
