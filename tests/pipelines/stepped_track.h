@@ -57,7 +57,6 @@ class SteppedTrack {
   std::vector<std::string> warnings();
 
   GstElement* sink() const { return sink_; }
-  GstElement* pipeline() const { return pipeline_; }
   guint64 stat(const char* name) const;
 
  private:
