@@ -24,6 +24,7 @@ if headless:
     for sink in "video-sink", "audio-sink":
         player.set_property(sink, Gst.parse_launch("fakesink sync=true"))
 main = GLib.MainLoop()
+problems = []
 waiting = deque()  # structures of the messages of frames that are not shown yet
 
 
@@ -33,7 +34,12 @@ def hear(_bus, message):
         if waiting and frame.get_value("running-time") < waiting[-1].get_value("running-time"):
             waiting.clear()  # a seek: other frames come, and running time begins again
         waiting.append(frame)
-    elif message.type in (Gst.MessageType.ERROR, Gst.MessageType.EOS):
+    elif message.type == Gst.MessageType.WARNING:
+        print(message.parse_warning()[0].message, file=sys.stderr)
+    elif message.type == Gst.MessageType.ERROR:
+        problems.append(message.parse_error()[0].message)
+        main.quit()
+    elif message.type == Gst.MessageType.EOS:
         main.quit()
 
 
@@ -52,3 +58,5 @@ GLib.timeout_add(5, show_what_is_due)
 player.set_state(Gst.State.PLAYING)
 main.run()
 player.set_state(Gst.State.NULL)
+if problems:
+    sys.exit(problems[0])

@@ -139,6 +139,13 @@ class Devices(unittest.TestCase):
                 device.push((math.nan, 0, 0))
             with self.assertRaises(TypeError):
                 device.push(("1", 0, 0))
+            for wrong in ((1, 0), (1, 0, 0, 0)):
+                said = f"is three numbers \\(x, y, z\\); got {len(wrong)}"
+                self.assertRaisesRegex(ValueError, f"force_N {said}", device.push, wrong)
+                self.assertRaisesRegex(ValueError, f"torque_Nm {said}", device.push, (1, 0, 0), wrong)
+            device.set_callback(lambda grip: (1, 0))
+            self.assertTrue(comes_true(device.callback_error))
+            self.assertIn("the force is three numbers (x, y, z); got 2", device.callback_error())
         with self.assertRaisesRegex(ValueError, "it is closed; make another one"):
             device.push((1, 0, 0))
         device.close()  # again

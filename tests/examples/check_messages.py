@@ -33,6 +33,12 @@ def check_terminal(examples, film):
     assert any(abs(right) + abs(up) > 0.5 for _, _, right, up in shown), done.stdout
 
 
+def check_error(examples):
+    done = subprocess.run([sys.executable, examples / "motion_messages.py", "--headless", "/nowhere.avi"], text=True,
+                          capture_output=True, timeout=60)
+    assert done.returncode == 1 and "/nowhere.avi" in done.stderr and "Traceback" not in done.stderr, done
+
+
 def check_gtk(examples, film):
     """In this process, which has the display of a server of its own."""
     import gi
@@ -69,6 +75,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         film = make_clip(folder, FRAMES)
         check_terminal(examples, film)
+        check_error(examples)
         if not shutil.which("Xvfb"):
             print("skipped: Xvfb is not installed", file=sys.stderr)
             sys.exit(77)

@@ -14,6 +14,7 @@ from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int64, c_uint32, 
 from gst_spidar._library import Capabilities, Controller, FeltMotion, GripState, MotionResult, MotionSettings, Pose
 from gst_spidar._library import Quaternion, State, Vector3, Wrench
 from gst_spidar._library import _call, _Callback, _checked, _grey, _Handle, _in_thread, _names, _require_no_callback, _Surface
+from gst_spidar._library import _vector
 
 __all__ = """Capabilities Controller Device FeltMotion GripState MotionResult MotionToWrench Pose Quaternion State Vector3
     Wrench list_devices list_profiles""".split()
@@ -38,7 +39,7 @@ class Device(_Handle):
 
     def push(self, force_N=(0, 0, 0), torque_Nm=(0, 0, 0)):
         """The wrench from now on, for 100 ms or until the next call. False while the device takes none."""
-        wrench = Wrench(Vector3(*force_N), Vector3(*torque_Nm))
+        wrench = Wrench(_vector(force_N, "force_N"), _vector(torque_Nm, "torque_Nm"))
         return self._checked("device_push", c_bool, byref(wrench))
 
     def rest(self):
@@ -58,7 +59,7 @@ class Device(_Handle):
             _in_thread.calls_back = True
             try:
                 found = function(GripState.from_buffer_copy(grip[0]))
-                wrench[0] = found if isinstance(found, Wrench) else Wrench(Vector3(*found))
+                wrench[0] = found if isinstance(found, Wrench) else Wrench(_vector(found, "the force"))
                 return True
             except BaseException as error:  # whatever it is, nobody else would catch it
                 raised.append(f"the callback has raised {type(error).__name__}: {error}")

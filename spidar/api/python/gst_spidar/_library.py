@@ -25,6 +25,14 @@ class Vector3(_Struct):
     _fields_ = [(name, c_double) for name in "xyz"]
 
 
+def _vector(numbers, name):
+    """Vector3() alone would take fewer than three, and make the others zero."""
+    numbers = tuple(numbers)
+    if len(numbers) != 3:
+        raise ValueError(f"{name} is three numbers (x, y, z); got {len(numbers)}: {numbers!r}")
+    return Vector3(*numbers)
+
+
 class Quaternion(_Struct):
     _fields_ = [(name, c_double) for name in "wxyz"]
 
