@@ -127,7 +127,7 @@ static void link_quietly(GstElement* from, GstElement* to) {
 }
 
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
-static void exchange(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
+static void replace_element(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
   gst_element_unlink_many(self->before, out, self->after, nullptr);
   // Not NULL: a spidarmotion keeps its device, at rest, for the next frames that it can measure.
   gst_element_set_state(out, GST_STATE_READY);
@@ -149,7 +149,7 @@ static void consider(GstSpidarFeelBin* self, GstElement* motion, const GstCaps* 
   if (!motion) return;
   const bool fits = spidar::fits_size(caps, self->felt);
   if (fits != has(self, motion))
-    exchange(self, fits ? self->middle : motion, fits ? motion : self->middle);
+    replace_element(self, fits ? self->middle : motion, fits ? motion : self->middle);
   if (fits || self->said) return;
   self->said = true;
   g_printerr("spidar-feel: %s\n", spidar::say_sizes(caps, self->felt).c_str());
@@ -220,7 +220,7 @@ static void begin_to_feel(GstSpidarFeelBin* self) {
 /// Called while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
   if (!self->motion) return;
-  if (has(self, self->motion)) exchange(self, self->motion, self->middle);
+  if (has(self, self->motion)) replace_element(self, self->motion, self->middle);
   const Ref<GstElement> motion(self->motion);
   g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
   self->considered = nullptr;
