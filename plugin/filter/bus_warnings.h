@@ -5,8 +5,8 @@
 
 #include <gst/gst.h>
 
-#include "plugin/device/device_warnings.h"
 #include "plugin/filter/engine/motion_engine.h"
+#include "plugin/output/device_warnings.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {

@@ -55,7 +55,7 @@
 
 #include <string>
 
-#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/gobject/exceptions.h"
 #include "plugin/properties/property_table.h"

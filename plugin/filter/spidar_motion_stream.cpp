@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "plugin/filter/frame/object_metas.h"
-#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/gobject/exceptions.h"
 #include "plugin/tracks/sidecar.h"

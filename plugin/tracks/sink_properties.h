@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "plugin/device/device_warnings.h"
+#include "plugin/output/device_warnings.h"
 
 namespace spidar {
 

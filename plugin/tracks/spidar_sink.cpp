@@ -27,9 +27,8 @@
 
 #include <string>
 
-#include "plugin/device/device_warnings.h"
-#include "plugin/device/haptic_output.h"
-#include "plugin/gobject/exceptions.h"
+#include "plugin/output/device_warnings.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/tracks/block_schedule.h"

@@ -11,7 +11,7 @@
 #include "plugin/filter/display/element_source.h"
 #include "plugin/filter/frame/object_metas.h"
 #include "plugin/filter/overlay/video_overlay.h"
-#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/filter/reports/message_and_meta.h"
 
 namespace spidar {
 

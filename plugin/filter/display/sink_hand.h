@@ -5,9 +5,9 @@
 
 #include <mutex>
 
-#include "plugin/device/haptic_output.h"
 #include "plugin/filter/choice/sink_mouse.h"
 #include "plugin/filter/frame/frame_report.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/window/view/mouse_hand.h"
 
 namespace spidar {

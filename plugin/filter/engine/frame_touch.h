@@ -10,10 +10,10 @@
 #include <gst/video/video.h>
 
 #include "core/picture/image_view.h"
-#include "plugin/device/haptic_output.h"
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/frame/grip_pointer.h"
 #include "plugin/filter/touch/relief_stream.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {

@@ -80,8 +80,7 @@ void LiveSource::pass_gap(GstBuffer*, const GstSegment&, int64_t running_ns) {
 }
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
-bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
-  const int64_t running_ns = report.frame.running_ns;
+bool LiveSource::follows(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
   end_gap(running_ns);
   const FramePacer::Order order = pacer_.order(running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
@@ -104,13 +103,10 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
     return false;
   }
   const int64_t begin_ns = monotonic_now_ns();
-  const int64_t running_ns = report.frame.running_ns, stream_ns = report.frame.stream_ns;
   analyzer_.configure(frame.settings);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
                                    {stream_ns_of(frame.video.buffer, frame.segment), turn_});
   report.limit = limit_of(report.frame, frame.settings.motion);
-  report.frame.running_ns = running_ns;
-  report.frame.stream_ns = stream_ns;
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
   report.part = visible_part(frame.video);
@@ -120,14 +116,13 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   return true;
 }
 
-bool LiveSource::take(const PassingFrame& frame, FrameReport& report) {
-  if (!follows(frame, report)) return false;
+bool LiveSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
+  if (!follows(frame, running_ns, report)) return false;
   if (!holds_picture(frame.video)) {
     restart();
     report.problem = FrameProblem::kTooSmall;
     return false;
   }
-  const int64_t running_ns = report.frame.running_ns;
   const int64_t shown_ns = schedule_.at_sink_ns(running_ns);
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   const ImageView luma = luma_.view(frame.video);

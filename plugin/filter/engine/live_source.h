@@ -32,7 +32,7 @@ class LiveSource : public WrenchSource {
   void set_muted(bool muted) override { schedule_.set_muted(muted); }
   void forget() override { schedule_.forget(); }
   void restart() override { analyzer_.restart(); }
-  bool take(const PassingFrame& frame, FrameReport& report) override;
+  bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
   void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
 
   // --- streaming thread
@@ -47,7 +47,7 @@ class LiveSource : public WrenchSource {
   void end_of_stream();
 
  private:
-  bool follows(const PassingFrame& frame, FrameReport& report);
+  bool follows(const PassingFrame& frame, int64_t running_ns, FrameReport& report);
   bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                FrameReport& report);
   void end_gap(int64_t running_ns);

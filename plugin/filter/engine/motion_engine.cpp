@@ -120,30 +120,33 @@ void MotionEngine::set_track(std::optional<TrackFile> track) {
   source_ = track_.has_track() ? static_cast<WrenchSource*>(&track_) : &live_;
 }
 
-/// When the sink shows the frame, and where it is in the film. False when it cannot be felt in
-/// time.
-bool MotionEngine::find_time(const PassingFrame& frame) {
+/// Nothing when it cannot be felt in time, for the report's problem.
+std::optional<MotionEngine::FrameTimes> MotionEngine::times_of(const PassingFrame& frame) {
   const GstClockTime pts = GST_BUFFER_PTS(frame.video.buffer);
   const bool has_time = frame.segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts);
   const GstClockTime shown = has_time ? shown_at(frame.video, frame.segment) : GST_CLOCK_TIME_NONE;
   if (has_time && !GST_CLOCK_TIME_IS_VALID(shown)) {
     report_.problem = FrameProblem::kNotShown;
-    return false;
+    return std::nullopt;
   }
   if (!is_time(shown)) {
     restart();
     report_.problem = FrameProblem::kNoTimestamp;
-    return false;
+    return std::nullopt;
   }
-  report_.frame.running_ns = static_cast<int64_t>(shown);
-  report_.frame.stream_ns =
-      static_cast<int64_t>(gst_segment_to_stream_time(&frame.segment, GST_FORMAT_TIME, pts));
-  return true;
+  const GstClockTime stream = gst_segment_to_stream_time(&frame.segment, GST_FORMAT_TIME, pts);
+  return FrameTimes{static_cast<int64_t>(shown), static_cast<int64_t>(stream)};
 }
 
 const FrameReport& MotionEngine::process(const PassingFrame& frame) {
   report_.begin();
-  if (!find_time(frame) || !source_->take(frame, report_)) return report_;
+  const std::optional<FrameTimes> times = times_of(frame);
+  if (!times) return report_;
+  const bool is_taken = source_->take(frame, times->running_ns, report_);
+  // The analysis has a time of its own, in which frames are as far apart as in the film.
+  report_.frame.running_ns = times->running_ns;
+  report_.frame.stream_ns = times->stream_ns;
+  if (!is_taken) return report_;
   report_.device_limit = no_force_watch_.of_device(output_.snapshot());
   if (trace_.is_open()) report_.trace_failed = !trace_.write(report_);
   if (report_.analyzed) stats_.add(report_.frame, report_.took_ns);

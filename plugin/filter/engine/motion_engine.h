@@ -10,7 +10,6 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/device/haptic_output.h"
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/live_source.h"
 #include "plugin/filter/engine/stream_orientation.h"
@@ -19,6 +18,7 @@
 #include "plugin/filter/reports/frame_trace.h"
 #include "plugin/filter/reports/motion_stats.h"
 #include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/timing/wrench_backlog.h"
 
@@ -99,7 +99,11 @@ class MotionEngine {
   std::optional<Eigen::Vector2d> grip_place() const { return touch_.grip_place(); }
 
  private:
-  bool find_time(const PassingFrame& frame);
+  /// When the sink shows a frame, and where it is in the film.
+  struct FrameTimes {
+    int64_t running_ns = 0, stream_ns = 0;
+  };
+  std::optional<FrameTimes> times_of(const PassingFrame& frame);
 
   // These outlive the output's thread, which hands on what waits.
   WrenchBacklog schedule_;

@@ -138,8 +138,7 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
   limits_.add(shown_ns, weak ? Wrench() : report.frame.wrench, report.limit);
 }
 
-bool TrackSource::take(const PassingFrame& frame, FrameReport& report) {
-  const int64_t running_ns = report.frame.running_ns;
+bool TrackSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
   play(frame.video.buffer, nominal_duration(frame.video.info), frame.segment, running_ns, report);
   if (frame.touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
   touch_.end(times_.at_sink_ns(running_ns));

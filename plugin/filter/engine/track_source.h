@@ -9,10 +9,10 @@
 #include <functional>
 
 #include "core/wrench.h"
-#include "plugin/device/haptic_output.h"
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/wrench_source.h"
 #include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/block_schedule.h"
 #include "plugin/tracks/track_file.h"
@@ -81,7 +81,7 @@ class TrackSource : public WrenchSource {
   void forget() override { samples_.forget(); }
   void restart() override { replay_.restart(); }
   /// The report's wrench is the largest of the track while the frame is shown.
-  bool take(const PassingFrame& frame, FrameReport& report) override;
+  bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
   void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
 
  private:

@@ -48,9 +48,9 @@ class WrenchSource {
 
   /// The next frame has nothing to do with the one before.
   virtual void restart() = 0;
-  /// Gives what is felt while the frame is shown, at `report.frame.running_ns`, and fills in the
-  /// report. False when nothing of it can be felt, for `report.problem`.
-  virtual bool take(const PassingFrame& frame, FrameReport& report) = 0;
+  /// Gives what is felt while the frame is shown, at `running_ns`, and fills in the report, but for
+  /// the times of its frame. False when nothing of it can be felt, for `report.problem`.
+  virtual bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) = 0;
   /// The same of a frame that has no picture.
   virtual void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) = 0;
 };

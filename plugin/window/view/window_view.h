@@ -12,9 +12,9 @@
 #include "core/choice/feel_rules.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/scene_motion.h"
-#include "plugin/device/device_view.h"
 #include "plugin/filter/frame/scene_view.h"
 #include "plugin/filter/frame/touch_view.h"
+#include "plugin/output/device_view.h"
 
 namespace spidar {
 

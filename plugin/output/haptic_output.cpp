@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/device/haptic_output.h"
+#include "plugin/output/haptic_output.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/reports/motion_meta.h"
+#include "plugin/filter/reports/message_and_meta.h"
 
 #include <utility>
 
