@@ -105,8 +105,14 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   set_properties(motion.get(), self->properties);
   const Ref<GstBus> bus(gst_bus_new());
   gst_element_set_bus(motion.get(), bus.get());
+  // Without a device, no spidarmotion is to look at the frames, whatever is asked for while it
+  // plays.
+  gint while_playing = 0;
+  g_object_get(motion.get(), "on-device-error", &while_playing, nullptr);
+  gst_util_set_object_arg(G_OBJECT(motion.get()), "on-device-error", "error");
   const bool opened =
       gst_element_set_state(motion.get(), GST_STATE_READY) != GST_STATE_CHANGE_FAILURE;
+  g_object_set(motion.get(), "on-device-error", while_playing, nullptr);
   const auto kinds =
       static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING | GST_MESSAGE_INFO);
   while (GstMessage* message = gst_bus_pop_filtered(bus.get(), kinds)) {
@@ -190,9 +196,10 @@ static GstPadProbeReturn answer_query(GstPad*, GstPadProbeInfo* info, gpointer d
   return GST_PAD_PROBE_HANDLED;
 }
 
-/// After an exchange, `before` negotiates and sends caps and segment again. When a seek flushes the
-/// bin meanwhile, that fails, and the player would stop with an error. The frame is one that the
-/// seek drops anyway. The flush has marked the pad of the bin before it reaches the elements in it.
+/// After an element was replaced, `before` negotiates and sends caps and segment again. When a seek
+/// flushes the bin meanwhile, that fails, and the player would stop with an error. The frame is one
+/// that the seek drops anyway. The flush has marked the pad of the bin before it reaches the
+/// elements in it.
 static GstFlowReturn failed_or_flushed(GstPad* pad, GstFlowReturn result) {
   if (result != GST_FLOW_NOT_NEGOTIATED && result != GST_FLOW_ERROR) return result;
   GST_OBJECT_LOCK(pad);

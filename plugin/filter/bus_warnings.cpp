@@ -91,9 +91,10 @@ void BusWarnings::check_touch(const MotionEngine& engine, const FrameReport& rep
   touch_problems_ |= bit;
   switch (report.touch_problem) {
     case TouchProblem::kNoDevice:
-      GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
-                          ("There is no device to touch the picture with."),
-                          ("device=none; the simulated one is device=sim."));
+      GST_ELEMENT_WARNING(
+          element_, RESOURCE, SETTINGS, ("There is no device to touch the picture with."),
+          ("Either device=none is set, or the device could not be opened, as a warning has said; "
+           "the simulated one is device=sim."));
       break;
     case TouchProblem::kNoDepthAxis:
       GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,

@@ -33,6 +33,9 @@ class BusWarnings {
                    const TouchProperties& wanted);
   /// The grip is to point: does the device know where it is?
   void check_pointer(const MotionEngine& engine);
+  bool check_refused(const std::exception& refusal, OnDeviceError policy) const {
+    return device_.check_refused(refusal, policy);
+  }
   /// The overlay is on: can it be drawn into such frames?
   void check_overlay(const GstVideoInfo& info);
   /// See DeviceWarnings.

@@ -57,7 +57,6 @@
 
 #include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
-#include "plugin/gobject/exceptions.h"
 #include "plugin/properties/property_table.h"
 
 GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
@@ -130,6 +129,24 @@ static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char*
 
 // --- states ------------------------------------------------------------------------------------
 
+/// False when the stream is not to begin without the device.
+static bool open_device(GstSpidarMotion* self, const MotionProperties& properties) {
+  MotionEngine& engine = *self->engine;
+  try {
+    const std::string trace_problem = engine.open(properties);
+    GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
+                    engine.output().profile().name.c_str());
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("The video and the force continue without it."));
+    }
+    self->warnings->check_opened(engine);
+    return true;
+  } catch (const std::exception& refusal) {
+    return self->warnings->check_refused(refusal, properties.on_device_error);
+  }
+}
+
 static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
                                                            GstStateChange transition) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(element);
@@ -138,17 +155,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_OBJECT_LOCK(self);
     const MotionProperties properties = *self->properties;
     GST_OBJECT_UNLOCK(self);
-    std::string trace_problem;
-    const bool opened = spidar::guarded(GST_ELEMENT(self), "opening the device",
-                                        [&] { trace_problem = engine.open(properties); });
-    if (!opened) return GST_STATE_CHANGE_FAILURE;
-    GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
-                    engine.output().profile().name.c_str());
-    if (!trace_problem.empty()) {
-      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
-                          ("The video and the force continue without it."));
-    }
-    self->warnings->check_opened(engine);
+    if (!open_device(self, properties)) return GST_STATE_CHANGE_FAILURE;
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     self->steps->begin();

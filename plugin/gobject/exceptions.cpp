@@ -2,24 +2,24 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/gobject/exceptions.h"
 
-#include "plugin/gobject/category.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile_file.h"
-
-#undef GST_CAT_DEFAULT
-#define GST_CAT_DEFAULT spidar::category_of(element)
+#include "spidar/session/profile_choice.h"
 
 namespace spidar {
 
-void post_exception(GstElement* element, const std::exception& error, const char* doing) {
-  if (dynamic_cast<const ProfileError*>(&error)) {
-    GST_ELEMENT_ERROR(element, RESOURCE, SETTINGS, ("%s", error.what()), ("while %s", doing));
-  } else if (dynamic_cast<const DeviceError*>(&error)) {
-    GST_ELEMENT_ERROR(element, RESOURCE, OPEN_READ_WRITE, ("%s", error.what()),
-                      ("while %s", doing));
-  } else {
-    GST_ELEMENT_ERROR(element, LIBRARY, FAILED, ("%s", error.what()), ("while %s", doing));
+void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
+                    const std::string& details) {
+  GQuark domain = GST_RESOURCE_ERROR;
+  gint code = GST_RESOURCE_ERROR_SETTINGS;
+  if (!dynamic_cast<const ProfileError*>(&error) && !dynamic_cast<const NoProfile*>(&error)) {
+    const bool is_device = dynamic_cast<const DeviceError*>(&error) != nullptr;
+    domain = is_device ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR;
+    code = is_device ? static_cast<gint>(GST_RESOURCE_ERROR_OPEN_READ_WRITE)
+                     : static_cast<gint>(GST_LIBRARY_ERROR_FAILED);
   }
+  gst_element_message_full(element, kind, domain, code, g_strdup(error.what()),
+                           g_strdup(details.c_str()), __FILE__, GST_FUNCTION, __LINE__);
 }
 
 }  // namespace spidar

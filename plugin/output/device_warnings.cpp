@@ -3,6 +3,7 @@
 #include "plugin/output/device_warnings.h"
 
 #include "plugin/gobject/category.h"
+#include "plugin/gobject/exceptions.h"
 #include "spidar/grip/tension_command.h"
 
 #undef GST_CAT_DEFAULT
@@ -30,6 +31,18 @@ std::string why_lost(const HapticSession& session) {
 }
 
 }  // namespace
+
+bool DeviceWarnings::check_refused(const std::exception& refusal, OnDeviceError policy) const {
+  if (policy == OnDeviceError::kError) {
+    post_exception(element_, GST_MESSAGE_ERROR, refusal, "on-device-error=error");
+    return false;
+  }
+  post_exception(element_, GST_MESSAGE_WARNING, refusal,
+                 what_ +
+                     " goes on without force. The device is opened again in the next change from "
+                     "NULL to READY.");
+  return true;
+}
 
 void DeviceWarnings::check_opened(const HapticSession& session) const {
   const GripAbilities can = session.grip().abilities();

@@ -3,6 +3,7 @@
 /// What an element says on the bus when something is wrong with its device.
 #pragma once
 
+#include <exception>
 #include <string>
 
 #include <gst/gst.h>
@@ -21,6 +22,8 @@ class DeviceWarnings {
   DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
+  /// The device cannot be opened. False when the stream is not to begin.
+  bool check_refused(const std::exception& refusal, OnDeviceError policy) const;
   /// Posts an information message if a device that was just opened renders only a part of what is
   /// to be seen in the picture.
   void check_opened(const HapticSession& session) const;

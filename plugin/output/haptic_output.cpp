@@ -123,14 +123,7 @@ void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
                                const std::string& haptic_trace) {
-  Profile profile;
-  try {
-    profile = profile_for(device, profile_name);
-  } catch (const NoProfile& refusal) {
-    GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS, ("%s", refusal.what()),
-                        ("The video continues without force."));
-    return {};
-  }
+  Profile profile = profile_for(device, profile_name);
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
   settings.trace_path = haptic_trace;

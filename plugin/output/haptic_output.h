@@ -33,10 +33,9 @@ class HapticOutput {
   void set_manual(PlaybackSync::Now now, void* user);
 
   /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the one that
-  /// the device has without. A board that has none stays closed, because its motors may get no
-  /// force: a warning on the bus lists the profiles that fit it. Throws ProfileError, DeviceError,
-  /// std::runtime_error. Empty, or why the haptic trace cannot be written: the device works without
-  /// it.
+  /// the device has without. Throws ProfileError, DeviceError, std::runtime_error, and NoProfile
+  /// for a board without one, whose motors may get no force; then it stays closed. Empty, or why
+  /// the haptic trace cannot be written: the device works without it.
   std::string open(const std::string& device, const std::string& profile,
                    const std::string& haptic_trace);
   /// Motors to rest, device closed.

@@ -22,10 +22,14 @@ Property<Settings> profile_row() {
 template <typename Settings>
 Property<Settings> on_device_error_row() {
   return Property<Settings>::template choice<OnDeviceError>(
-      {"on-device-error", "On device error", "What happens when the device fails while playing"},
+      {"on-device-error", "On device error",
+       "What happens when the device cannot be opened, or fails while playing"},
       "GstSpidarOnDeviceError",
       {{OnDeviceError::kWarn,
-        "Post a warning, continue the video, and reopen the device when it returns", "warn"},
+        "Post a warning and go on without force. A device that fails while playing is reopened "
+        "when it "
+        "returns",
+        "warn"},
        {OnDeviceError::kError, "Post an error, which stops the pipeline", "error"}},
       kPlaying, KEPT_IN(on_device_error));
 }

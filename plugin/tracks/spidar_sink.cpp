@@ -217,17 +217,19 @@ static bool open_device(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
   const SinkProperties properties = *self->properties;
   GST_OBJECT_UNLOCK(self);
-  return spidar::guarded(GST_ELEMENT(self), "opening the device", [self, &properties] {
+  try {
     const std::string trace_problem =
         self->output->open(properties.device, properties.profile, properties.haptic_trace);
     if (!trace_problem.empty()) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
-    if (!self->output->session()) return;
     self->warnings->check_opened(*self->output->session());
     self->schedule->connect(&self->output->session()->loop());
-  });
+    return true;
+  } catch (const std::exception& refusal) {
+    return self->warnings->check_refused(refusal, properties.on_device_error);
+  }
 }
 
 static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,

@@ -72,7 +72,7 @@ class ElementCase(gst_case.GstCase):
 
 class Properties(ElementCase):
     def error_at_ready(self, properties):
-        element = make(properties)
+        element = make(f"on-device-error=error {properties}")
         element.set_bus(Gst.Bus.new())
         try:
             if element.set_state(Gst.State.READY) != Gst.StateChangeReturn.FAILURE:
@@ -87,11 +87,14 @@ class Properties(ElementCase):
         # What is asked for is not replaced.
         self.assertIn("negative volts", self.error_at_ready("device=sim:sh4 profile=spidar-gcc"))
 
-    def test_what_is_not_known_or_cannot_be_read_is_an_error_at_ready(self):
+    def test_a_device_that_cannot_be_opened_is_what_on_device_error_says(self):
         broken = self.path("broken.toml")
         broken.write_text('name = "x\nrest = [1,')
         for properties, said in (("device=telepathy", "telepathy"), ("profile=spidar-zzz", "spidar-zzz"),
-                                 (f"profile={broken}", "broken.toml")):
+                                 (f"profile={broken}", "broken.toml"),
+                                 # A board without a profile, and one that is not there.
+                                 (f"device=uart:{self.path('line')}", "get no force"),
+                                 (f"device=uart:{self.path('line')} profile=spidar-g6x4", str(self.path("line")))):
             self.assertIn(said, self.error_at_ready(properties))
 
     @staticmethod

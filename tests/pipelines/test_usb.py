@@ -62,27 +62,33 @@ class Boards(Pipelines):
                 pipeline.set_state(Gst.State.NULL)
                 self.assertTrue(bus.bus_at_rest(0))
 
-    def test_the_second_to_ask_for_one_gets_an_error_and_the_first_plays_on(self):
+    def test_the_second_to_ask_for_one_has_none_and_the_first_plays_on(self):
         first = self.play()
         second = Gst.parse_launch(self.LINE)
+        second.get_by_name("m").set_property("on-device-error", "error")
         self.assertEqual(second.set_state(Gst.State.PLAYING), Gst.StateChangeReturn.FAILURE)
         self.assertIn("another element", second.bus.pop_filtered(Gst.MessageType.ERROR).parse_error()[0].message)
+        second.set_state(Gst.State.NULL)
+        second = self.start(self.LINE)
+        self.assertIn("another element", self.next_warning(second))
+        self.wait_for_frames(second, 3)
         second.set_state(Gst.State.NULL)
         self.wait_for_frames(first, 5)
         self.assertFalse(bus.bus_at_rest(0))
         first.set_state(Gst.State.NULL)
         self.assertTrue(bus.bus_at_rest(0))
 
-    def test_without_a_profile_one_gets_no_force_and_the_video_goes_on(self):
+    def test_one_that_cannot_be_opened_gets_no_force_and_the_video_goes_on(self):
         """A wrong profile pulls with other forces than wanted, and where it should let go."""
         bus.bus_plug(0, Usb.SIMPLE)
-        for sink in ("spidarmotion device=usb ! fakesink", "fakesink audiotestsrc num-buffers=3 ! audio/x-raw,rate=1000,"
-                     "channels=6,channel-mask=(bitmask)0 ! spidarsink device=usb"):
-            pipeline = self.start(SHORT + sink)
-            self.assertRegex(self.next_warning(pipeline),
-                             "usb:1-1: the motors get no force: no profile is named.* spidar-g6c, ")
-            self.assertEqual(self.next_warning(pipeline), "eos")
-            pipeline.set_state(Gst.State.NULL)
+        for device, said in (("usb", "usb:1-1: the motors get no force: no profile is named.* spidar-g6c, "),
+                             (f"usb:7 {PROFILE}", "usb:7")):
+            for sink in (f"spidarmotion device={device} ! fakesink", "fakesink audiotestsrc num-buffers=3 ! "
+                         f"audio/x-raw,rate=1000,channels=6,channel-mask=(bitmask)0 ! spidarsink device={device}"):
+                pipeline = self.start(SHORT + sink)
+                self.assertRegex(self.next_warning(pipeline), said)
+                self.assertEqual(self.next_warning(pipeline), "eos")
+                pipeline.set_state(Gst.State.NULL)
         self.assertEqual(bus.bus_updates(0), 0)
 
     def test_one_whose_lag_nobody_measured_is_touched_gently(self):

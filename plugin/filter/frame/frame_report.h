@@ -28,7 +28,7 @@ enum class FrameProblem {
 /// Why a frame cannot be touched as the properties say.
 enum class TouchProblem {
   kNone,
-  kNoDevice,     ///< device=none
+  kNoDevice,     ///< none is open
   kNoDepthAxis,  ///< the device has none, see GripAbilities::can_touch()
   kTrack,        ///< a haptic track is played, and no frame is looked at
   kTooStiff,     ///< for the drives of this device: it is touched with less
