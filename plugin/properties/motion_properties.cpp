@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/properties/motion_properties.h"
 
+#include <utility>
 #include <vector>
 
 #include <glib.h>
@@ -26,6 +27,25 @@ void set_pointer(MotionProperties& properties, const GValue* value) {
     g_warning("pointer=\"%s\" is neither 'grip' nor 'mouse' nor a place X,Y, each from 0 to 1",
               text ? text : "");
   }
+}
+
+/// Where nobody sets alpha, mean velocities have the steepness that is closest to the paper: the
+/// still background counts in them, and makes them small (docs/feeling.md, What can be told apart).
+void follow_motion(MotionProperties& properties) {
+  constexpr double kOfMean_s_px = 0.01;
+  if (properties.alpha_is_set) return;
+  properties.analyzer.controller.alpha_s_px = properties.analyzer.motion == MotionKind::kMean
+                                                  ? kOfMean_s_px
+                                                  : ControllerSettings().alpha_s_px;
+}
+
+/// `row`, after whose setting `then` is called.
+MotionRow with(MotionRow row, void (*then)(MotionProperties&)) {
+  row.set = [set = std::move(row.set), then](MotionProperties& properties, const GValue* value) {
+    set(properties, value);
+    then(properties);
+  };
+  return row;
 }
 
 MotionRow pointer_row() {
@@ -59,23 +79,26 @@ std::vector<MotionRow> feel_rows() {
             "ten times the one that is set) and no force below the measurement's noise",
             "adaptive"}},
           kControllable, KEPT_IN(analyzer.controller.kind)),
-      MotionRow::choice<MotionKind>(
-          {"motion", "Motion", "Which motion in the picture is rendered as force"},
-          "GstSpidarFeltMotion",
-          {{MotionKind::kMean,
-            "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
-            "closest to the paper (eq. 1-10)",
-            "mean"},
-           {MotionKind::kObject,
-            "The dominant object relative to the background; no force when only the camera moves",
-            "object"},
-           {MotionKind::kObjects,
-            "All objects relative to the background, weighted by area and by distance from the "
-            "pointer",
-            "objects"},
-           {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
-            "camera"}},
-          kControllable, KEPT_IN(analyzer.motion)),
+      with(
+          MotionRow::choice<MotionKind>(
+              {"motion", "Motion", "Which motion in the picture is rendered as force"},
+              "GstSpidarFeltMotion",
+              {{MotionKind::kMean,
+                "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
+                "closest to the paper (eq. 1-10)",
+                "mean"},
+               {MotionKind::kObject,
+                "The dominant object relative to the background; no force when only the camera "
+                "moves",
+                "object"},
+               {MotionKind::kObjects,
+                "All objects relative to the background, weighted by area and by distance from the "
+                "pointer",
+                "objects"},
+               {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
+                "camera"}},
+              kControllable, KEPT_IN(analyzer.motion)),
+          follow_motion),
       MotionRow::text(
           {"feel", "Feel",
            "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, or the rules "
@@ -85,11 +108,12 @@ std::vector<MotionRow> feel_rows() {
       MotionRow::number({"max-force", "Maximum force",
                          "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
                         0, 20, kControllable, KEPT_IN(analyzer.controller.max_force_N)),
-      MotionRow::number(
-          {"alpha", "Alpha",
-           "How quickly force rises with speed, in s/px at 480 lines: half of max-force is reached "
-           "at 1/alpha px/s. Not with controller=linear"},
-          1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
+      with(MotionRow::number({"alpha", "Alpha",
+                              "How quickly force rises with speed, in s/px at 480 lines: half of "
+                              "max-force at 1/alpha "
+                              "px/s. Until set, 0.01 with motion=mean. Not with controller=linear"},
+                             1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
+           [](MotionProperties& properties) { properties.alpha_is_set = true; }),
       MotionRow::number(
           {"depth-gain", "Depth gain",
            "Force towards the viewer when the object grows: factor of the speed that growth causes "

@@ -58,6 +58,7 @@ struct MotionProperties {
   std::string device = "sim";
   std::string profile;        ///< empty: that of the device's board
   AnalyzerSettings analyzer;  ///< its pointer is the fixed one
+  bool alpha_is_set = false;  ///< else that of the analyzer follows its motion
   PointerKind pointer = PointerKind::kFixed;
   GstClockTimeDiff ts_offset_ns = 0;
   OnDeviceError on_device_error = OnDeviceError::kWarn;

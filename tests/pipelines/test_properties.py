@@ -96,6 +96,17 @@ class Properties(ElementCase):
                                  (f"device=uart:{self.path('line')}", "get no force"),
                                  (f"device=uart:{self.path('line')} profile=spidar-g6x4", str(self.path("line")))):
             self.assertIn(said, self.error_at_ready(properties))
+            self.open(properties, 32, 32)
+            self.push(3)
+            warnings = self.warnings()
+            self.assertEqual(len(warnings), 1, warnings)
+            self.assertIn(said, warnings[0])
+            self.assertEqual(self.messages()[-1].get_value("device-limit"), "no-device")
+
+    def test_alpha_is_that_of_the_paper_with_its_motion_until_it_is_set(self):
+        for properties, expected in (("motion=mean", .01), ("motion=mean motion=camera", .0025), ("motion=objects", .0025),
+                                     ("motion=mean alpha=0.0025", .0025), ("alpha=0.02 motion=mean", .02)):
+            self.assertEqual(make(properties).get_property("alpha"), expected, properties)
 
     @staticmethod
     def values(element, names):
