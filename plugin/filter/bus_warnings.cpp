@@ -144,16 +144,6 @@ void BusWarnings::check_pointer(const MotionEngine& engine) {
                        "pointer=mouse the mouse does."));
 }
 
-void BusWarnings::check_overlay(const GstVideoInfo& info) {
-  if (overlay_ || !is_unpacked(*info.finfo)) return;
-  overlay_ = true;
-  GST_ELEMENT_WARNING(
-      element_, STREAM, FORMAT,
-      ("The overlay cannot be drawn into frames of the format %s.", GST_VIDEO_INFO_NAME(&info)),
-      ("The force is felt nevertheless. To convert to a format that supports the overlay, put a "
-       "videoconvert in front of the element, with caps such as format=I420."));
-}
-
 const char* words_of(FrameProblem problem) {
   switch (problem) {
     case FrameProblem::kNone:

@@ -21,7 +21,6 @@ class BusWarnings {
   /// Another stream: what is wrong with its frames may be.
   void begin_stream() {
     frame_problems_ = 0;
-    overlay_ = false;
     touch_problems_ = 0;
     pointer_ = false;
   }
@@ -33,12 +32,10 @@ class BusWarnings {
                    const TouchProperties& wanted);
   /// The grip is to point: does the device know where it is?
   void check_pointer(const MotionEngine& engine);
+  /// See DeviceWarnings.
   bool check_refused(const std::exception& refusal, OnDeviceError policy) const {
     return device_.check_refused(refusal, policy);
   }
-  /// The overlay is on: can it be drawn into such frames?
-  void check_overlay(const GstVideoInfo& info);
-  /// See DeviceWarnings.
   void check_opened(const MotionEngine& engine) const {
     if (const HapticSession* session = engine.output().session()) device_.check_opened(*session);
   }
@@ -52,7 +49,6 @@ class BusWarnings {
  private:
   GstElement* const element_;
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
-  bool overlay_ = false;      // said
   guint touch_problems_ = 0;  // bit i: TouchProblem i was said
   bool pointer_ = false;      // said
   DeviceWarnings device_;

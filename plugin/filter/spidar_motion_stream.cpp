@@ -143,7 +143,6 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     const auto stream_time = static_cast<GstClockTime>(report->frame.stream_ns);
     self->choice->check(report->frame.choice, settings.kept, stream_time);
   }
-  if (display.overlay != spidar::OverlayKind::kNone) self->warnings->check_overlay(frame->info);
   if (report->analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, *report, &self->unread_messages);
   }

@@ -242,16 +242,15 @@ TEST(PixelAspect, OfTwoViewsInAFrameTheFirstIsFelt) {
 }
 
 TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
-  // A ring for the finger of 11 px (see test_overlay_shapes), in pixels twice as wide as high.
+  // A ring for the finger of 11 px (see test_overlay), in pixels twice as wide as high.
   Canvas canvas("RGB", 320, 480);
   canvas.set_pixel_aspect(2, 1);
   TouchMark touch;
   touch.finger = {0.5, 0.5};
   canvas.draw({}, 1, 3, touch);
-  const auto drawn = [&](int x, int y) { return canvas.at(x, y) != canvas.untouched(); };
   int across = 0, down = 0;
-  for (int x = 0; x < 320; ++x) across += drawn(x, 239);
-  for (int y = 0; y < 480; ++y) down += drawn(159, y);
+  for (int x = 0; x < 320; ++x) across += canvas.is_drawn(x, 239);
+  for (int y = 0; y < 480; ++y) down += canvas.is_drawn(159, y);
   EXPECT_GT(down, 8);
   EXPECT_NEAR(2 * across, down, 4) << "each end may be off by a wide pixel";
 
@@ -262,7 +261,7 @@ TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
   scene.wrench.force_N = {2, 2, 0};
   arrow.draw(scene);
   EXPECT_EQ(arrow.at(160 + 15, 240 - 30), (Pixel{255, 255, 255}));
-  EXPECT_EQ(arrow.at(160 + 30, 240 - 30), arrow.untouched());
+  EXPECT_FALSE(arrow.is_drawn(160 + 30, 240 - 30));
 }
 
 TEST(PixelAspect, BlackAndWhiteAreThoseOfTheCaps) {

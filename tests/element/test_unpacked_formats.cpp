@@ -2,14 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // Formats that the element does not read in place: packed YUV of cameras, planar RGB, packed words
 // of 10 and 12 bits. The measured motion is that of the grey picture.
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "plugin/filter/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::unpacked_formats_test {
@@ -17,17 +16,6 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr int kWidth = 322, kHeight = 240;  // no multiple of the 6 pixels that v210 packs together
-
-std::vector<std::string> unpacked_formats() {
-  std::string text = SPIDAR_UNPACKED_FORMATS;
-  for (char& c : text) {
-    if (c == '{' || c == '}' || c == ',') c = ' ';
-  }
-  std::istringstream words(text);
-  std::vector<std::string> found;
-  for (std::string word; words >> word;) found.push_back(word);
-  return found;
-}
 
 /// The picture of make_frame() in this format, as videoconvert makes it.
 GstBuffer* converted(const GstVideoInfo& info, double dx, double dy) {
@@ -126,26 +114,8 @@ TEST_P(UnpackedFormats, TooShortFramesAreOnlyPassedOn) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
-TEST_P(UnpackedFormats, TheOverlayWarnsAndDrawsNothing) {
-  ElementHarness h("device=none overlay=tracks");
-  h.set_caps(make_caps(GetParam().c_str(), kWidth, kHeight));
-  for (int n = 0; n < 3; ++n) {
-    GstBuffer* const frame = converted(h.info(), 2.0 * n, 0);
-    GstBuffer* const untouched = gst_buffer_copy_deep(frame);
-    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-    GstBuffer* const out = gst_harness_pull(h.harness());
-    GstMapInfo map;
-    gst_buffer_map(untouched, &map, GST_MAP_READ);
-    EXPECT_EQ(gst_buffer_memcmp(out, 0, map.data, map.size), 0);
-    gst_buffer_unmap(untouched, &map);
-    gst_buffer_unref(untouched);
-    gst_buffer_unref(out);
-  }
-  ASSERT_EQ(h.warnings().size(), 1u) << "said once, not once a frame";
-  EXPECT_NE(h.warnings()[0].find(GetParam()), std::string::npos) << h.warnings()[0];
-}
-
-INSTANTIATE_TEST_SUITE_P(All, UnpackedFormats, testing::ValuesIn(unpacked_formats()),
+INSTANTIATE_TEST_SUITE_P(All, UnpackedFormats,
+                         testing::ValuesIn(formats_in(SPIDAR_UNPACKED_FORMATS)),
                          [](const auto& p) { return p.param; });
 
 }  // namespace

@@ -3,7 +3,6 @@
 /// A frame to draw into, whose pixels are read back.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -11,30 +10,27 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/frame/scene_view.h"
-#include "plugin/filter/overlay/arrow.h"
 #include "plugin/filter/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
-#include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {
 
+/// Red, green and blue.
 using Pixel = std::array<int, 3>;
 
 /// A grey frame in memory that is watched on both sides.
 class Canvas {
  public:
-  Canvas(const char* format, int width, int height, const char* colorimetry = nullptr) {
+  Canvas(const char* format, int width, int height) {
     init_gstreamer();
     GstCaps* caps = make_caps(format, width, height);
-    if (colorimetry) {
-      gst_caps_set_simple(caps, "colorimetry", G_TYPE_STRING, colorimetry, nullptr);
-    }
     gst_video_info_from_caps(&info_, caps);
     gst_caps_unref(caps);
     buffer_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info_) + 2 * kGuard, nullptr);
     gst_buffer_memset(buffer_, 0, kGrey, gst_buffer_get_size(buffer_));
     gst_buffer_resize(buffer_, kGuard, static_cast<gssize>(GST_VIDEO_INFO_SIZE(&info_)));
+    before_ = rgb();
   }
   ~Canvas() { gst_buffer_unref(buffer_); }
 
@@ -43,49 +39,18 @@ class Canvas {
     GST_VIDEO_INFO_PAR_D(&info_) = height;
   }
 
-  template <typename Work>
-  void with_frame(Work&& work) {
-    GstVideoFrame frame;
-    ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
-    work(frame);
-    gst_video_frame_unmap(&frame);
-  }
-
   void draw(const SceneView& scene, double scale = 1, double max_force_N = 3,
             const std::optional<TouchMark>& touch = std::nullopt,
-            const std::vector<uint32_t>& felt = {}) {
-    with_frame([&](GstVideoFrame& frame) {
-      draw_overlay(scene, true, felt, visible_part(frame), scale, max_force_N, touch, frame);
-    });
+            const std::vector<uint32_t>& felt = {}, bool has_tracks = true) {
+    GstVideoFrame frame;
+    ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
+    draw_overlay(scene, has_tracks, felt, visible_part(frame), scale, max_force_N, touch, frame);
+    gst_video_frame_unmap(&frame);
+    after_ = rgb();
   }
 
-  /// As many of the three as the format has; the others 0.
-  Pixel at(int x, int y) {
-    Pixel pixel{};
-    with_frame([&](GstVideoFrame& frame) {
-      for (guint c = 0; c < std::min(GST_VIDEO_FRAME_N_COMPONENTS(&frame), 3u); ++c) {
-        const auto plane = static_cast<guint>(GST_VIDEO_FRAME_COMP_PLANE(&frame, c));
-        const auto* data = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, plane)) +
-                           component_offset(*info_.finfo, c);
-        const ptrdiff_t row = y >> GST_VIDEO_FORMAT_INFO_H_SUB(info_.finfo, c);
-        const ptrdiff_t column = x >> GST_VIDEO_FORMAT_INFO_W_SUB(info_.finfo, c);
-        pixel[c] =
-            static_cast<int>(read_sample(*info_.finfo, c,
-                                         data + row * GST_VIDEO_FRAME_COMP_STRIDE(&frame, c) +
-                                             column * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c)));
-      }
-    });
-    return pixel;
-  }
-
-  Pixel untouched() const {
-    Pixel pixel{};
-    const std::array<guint8, 2> sample{kGrey, kGrey};
-    for (guint c = 0; c < std::min(GST_VIDEO_INFO_N_COMPONENTS(&info_), 3u); ++c) {
-      pixel[c] = static_cast<int>(read_sample(*info_.finfo, c, sample.data()));
-    }
-    return pixel;
-  }
+  Pixel at(int x, int y) const { return read(after_, x, y); }
+  bool is_drawn(int x, int y) const { return at(x, y) != read(before_, x, y); }
 
   bool guards_hold() {
     gsize offset, most;
@@ -103,12 +68,47 @@ class Canvas {
     return hold;
   }
 
-  static constexpr guint8 kGrey = 77;
-
  private:
   static constexpr gsize kGuard = 4096;
+  static constexpr guint8 kGrey = 77;
+
+  Pixel read(const std::vector<uint8_t>& pixels, int x, int y) const {
+    const size_t first = 3 * static_cast<size_t>(y * GST_VIDEO_INFO_WIDTH(&info_) + x);
+    return {pixels[first], pixels[first + 1], pixels[first + 2]};
+  }
+  /// The frame in RGB, without padding.
+  std::vector<uint8_t> rgb() {
+    const int width = GST_VIDEO_INFO_WIDTH(&info_), height = GST_VIDEO_INFO_HEIGHT(&info_);
+    GstVideoInfo wanted;
+    gst_video_info_set_format(&wanted, GST_VIDEO_FORMAT_RGB, static_cast<guint>(width),
+                              static_cast<guint>(height));
+    wanted.fps_n = info_.fps_n;
+    wanted.fps_d = info_.fps_d;
+    wanted.par_n = info_.par_n;
+    wanted.par_d = info_.par_d;
+    GstBuffer* const converted =
+        gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&wanted), nullptr);
+    GstVideoFrame from, to;
+    EXPECT_TRUE(gst_video_frame_map(&from, &info_, buffer_, GST_MAP_READ));
+    EXPECT_TRUE(gst_video_frame_map(&to, &wanted, converted, GST_MAP_WRITE));
+    GstVideoConverter* const converter = gst_video_converter_new(&info_, &wanted, nullptr);
+    gst_video_converter_frame(converter, &from, &to);
+    gst_video_converter_free(converter);
+    const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&to, 0);
+    const auto* const first = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&to, 0));
+    std::vector<uint8_t> pixels;
+    for (int y = 0; y < height; ++y) {
+      pixels.insert(pixels.end(), first + y * stride, first + y * stride + 3 * width);
+    }
+    gst_video_frame_unmap(&to);
+    gst_video_frame_unmap(&from);
+    gst_buffer_unref(converted);
+    return pixels;
+  }
+
   GstVideoInfo info_;
   GstBuffer* buffer_;
+  std::vector<uint8_t> before_, after_;
 };
 
 }  // namespace spidar::test

@@ -14,18 +14,20 @@
 
 namespace spidar::test {
 
-/// All that the pad templates name.
+/// Those that a list for caps names: SPIDAR_VIDEO_FORMATS or SPIDAR_UNPACKED_FORMATS.
+inline std::vector<std::string> formats_in(std::string text) {
+  for (char& c : text) {
+    if (c == '{' || c == '}' || c == ',') c = ' ';
+  }
+  std::istringstream words(text);
+  std::vector<std::string> found;
+  for (std::string word; words >> word;) found.push_back(word);
+  return found;
+}
+
+/// All that are read in place.
 inline const std::vector<std::string>& video_formats() {
-  static const std::vector<std::string> formats = [] {
-    std::string text = SPIDAR_VIDEO_FORMATS;
-    for (char& c : text) {
-      if (c == '{' || c == '}' || c == ',') c = ' ';
-    }
-    std::istringstream words(text);
-    std::vector<std::string> found;
-    for (std::string word; words >> word;) found.push_back(word);
-    return found;
-  }();
+  static const std::vector<std::string> formats = formats_in(SPIDAR_VIDEO_FORMATS);
   return formats;
 }
 
@@ -56,15 +58,6 @@ inline int component_offset(const GstVideoFormatInfo& format, guint component) {
   const bool word = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) > 8;
   if (!word) return GST_VIDEO_FORMAT_INFO_POFFSET(&format, component);
   return component == 2 && GST_VIDEO_FORMAT_INFO_N_PLANES(&format) == 2 ? 2 : 0;
-}
-
-/// A component of one pixel, in its own numbers.
-inline guint read_sample(const GstVideoFormatInfo& format, guint component, const guint8* sample) {
-  if (GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) <= 8) return *sample;
-  const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(&format);
-  const guint word = static_cast<guint>(sample[low_first ? 0 : 1]) |
-                     static_cast<guint>(sample[low_first ? 1 : 0]) << 8;
-  return word >> GST_VIDEO_FORMAT_INFO_SHIFT(&format, component);
 }
 
 }  // namespace spidar::test

@@ -51,8 +51,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
     attach_object_metas(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
                         GST_VIDEO_FRAME_HEIGHT(&frame));
   }
-  const bool can_draw =
-      (frame.map[0].flags & GST_MAP_WRITE) != 0 && !is_unpacked(*frame.info.finfo);
+  const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
     const bool has_tracks = properties.overlay == OverlayKind::kTracks;
     draw_overlay(scene, has_tracks, felt_objects(scene, settings.motion, report.touch), visible,

@@ -63,8 +63,7 @@ LumaSample sample_of(const GstVideoFormatInfo& format) {
   return {2, shift, !GST_VIDEO_FORMAT_INFO_IS_LE(&format)};
 }
 
-}  // namespace
-
+/// Whether a format is one of SPIDAR_UNPACKED_FORMATS and not of SPIDAR_VIDEO_FORMATS.
 bool is_unpacked(const GstVideoFormatInfo& format) {
   PackedOrder order;
   if (is_packed(GST_VIDEO_FORMAT_INFO_FORMAT(&format), order)) return false;
@@ -72,6 +71,8 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
   return GST_VIDEO_FORMAT_INFO_IS_RGB(&format) || GST_VIDEO_FORMAT_INFO_IS_COMPLEX(&format) ||
          GST_VIDEO_FORMAT_INFO_PSTRIDE(&format, 0) != bytes;
 }
+
+}  // namespace
 
 VisiblePart visible_part(const GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame);

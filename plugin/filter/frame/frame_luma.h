@@ -28,9 +28,6 @@ namespace spidar {
   "GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, "   \
   "v210, v216, BGR10A2_LE, RGB10A2_LE, r210 }"
 
-/// Whether a format is one of SPIDAR_UNPACKED_FORMATS and not of SPIDAR_VIDEO_FORMATS.
-bool is_unpacked(const GstVideoFormatInfo& format);
-
 /// What becomes of each field of GstVideoInfo:
 ///
 /// | field | |
@@ -45,8 +42,8 @@ bool is_unpacked(const GstVideoFormatInfo& format);
 /// picture is for, and not where it is | | views | counts pictures in planes or buffers of their
 /// own, of which the first one is mapped | | colorimetry: range | luma_levels(): black and white of
 /// touch=luma. Motion is where pictures fit best, whatever their contrast: limited range has 0.86
-/// of the other's | | colorimetry: matrix, transfer, primaries | FramePainter draws by the matrix;
-/// motion needs neither, as they are the same in all frames | | chroma_site | chroma is not looked
+/// of the other's | | colorimetry: matrix, transfer, primaries | motion needs none of them, as they
+/// are the same in all frames | | chroma_site | chroma is not looked
 /// at | | fps_n, fps_d | nominal_duration(), where a frame has none of its own | | size, flags |
 /// holds_picture() looks at the memory itself; the flags speak of rates that vary, which the time
 /// stamps show, and of alpha, which is not looked at |

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,24 +24,21 @@ struct Rgb {
 constexpr Rgb kWhite{255, 255, 255};
 constexpr Rgb kBlack{0, 0, 0};
 
+/// A line with a head.
 struct Arrow {
   Eigen::Vector2d tail_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_px = Eigen::Vector2d::Zero();
-  double width_px = 1.5;  ///< shaft width
+  double width_px = 1.5;  ///< of the line
   Rgb color;
 };
 
-/// An arrow as two convex polygons, shaft and head, with corners in order. An arrow without length
-/// is a square about its tail, as wide as the shaft and without a head.
-struct ArrowShape {
-  std::array<Eigen::Vector2d, 4> shaft_px;
-  std::array<Eigen::Vector2d, 3> head_px;
-  bool has_head = true;
+/// The triangle at the end of an arrow, on which its line ends at neck_px(). Nothing for an arrow
+/// without length, which is drawn as a dot.
+struct ArrowHead {
+  std::array<Eigen::Vector2d, 3> corners_px;  ///< the second one is the tip
+  Eigen::Vector2d neck_px() const { return (corners_px[0] + corners_px[2]) / 2; }
 };
-ArrowShape shape_of(const Arrow& arrow);
-/// The shape enlarged by `margin_px` with pointed corners. Drawing the arrow over it leaves a
-/// border of constant width.
-ArrowShape border_of(const Arrow& arrow, double margin_px);
+std::optional<ArrowHead> head_of(const Arrow& arrow);
 
 /// Colour for a direction in the picture (y down): right red, up green-yellow, left cyan, down
 /// violet. `saturation` 0 … 1.
@@ -53,21 +51,18 @@ struct ArrowStyle {
   double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
   PictureTurn turn;                                     ///< of what is drawn, before it is shown
-  double pixel_aspect = 1;  ///< of the scene's pixels; what is drawn has square ones
 };
 
 /// Shaft width of the arrow of the felt force.
 double felt_width_px(const ArrowStyle& style);
 
-/// One arrow per track with its tail at `from`: bold for objects, pale for the background.
-std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style);
+/// One arrow per track with its tail at `from`: bold for objects, pale for the background. `at_px`
+/// says where a point of the frame is drawn.
+std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style,
+                                const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 
 /// The felt force as a white arrow from the centre, in the direction in which it pushes the hand.
-/// Draw the black border first. Empty when the arrow is too short to show a direction.
-struct FeltArrow {
-  ArrowShape border;
-  Arrow arrow;
-};
-std::optional<FeltArrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
+/// Empty when it is too short to show a direction.
+std::optional<Arrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
 
 }  // namespace spidar

@@ -3,100 +3,219 @@
 #include "plugin/filter/overlay/video_overlay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+
+#include <opencv2/imgproc.hpp>
 
 #include "core/force/felt_force.h"
 #include "plugin/filter/overlay/arrow.h"
-#include "plugin/filter/overlay/frame_painter.h"
-#include "plugin/filter/overlay/stroke_text.h"
 
 namespace spidar {
-
 namespace {
 
 constexpr Rgb kProxy{255, 160, 30};
 /// Height of a number, of the picture's.
 constexpr double kNumberShare = 0.035;
 
-/// In newtons, upright as it is shown, just beyond the tip of the arrow or where there is room.
-void draw_newtons(double force_N, const Arrow& arrow, const VisiblePart& visible,
-                  const PictureTurn& turn, FramePainter& painter) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f N", force_N);
-  const double height_px = kNumberShare * visible.height;
-  const double line_px = std::max(height_px / 7, 1.5);
-  const Eigen::Vector2d size_px = height_px * Eigen::Vector2d(stroke_width_of(text), 1);
-  const Eigen::Vector2d room_px = turn.to_coded(Eigen::Vector2d(size_px / 2)).cwiseAbs() +
-                                  Eigen::Vector2d::Constant(2 * line_px);
-  const Eigen::Vector2d first_px = painter.shown_px(Eigen::Vector2d(visible.x, visible.y));
-  const Eigen::Vector2d end_px =
-      painter.shown_px(Eigen::Vector2d(visible.x + visible.width, visible.y + visible.height));
-  const Eigen::Vector2d along = (arrow.tip_px - arrow.tail_px).normalized();
-  const Eigen::Vector2d beyond_px = arrow.tip_px + 2 * arrow.width_px * along;
-  const Eigen::Vector2d middle_px = (beyond_px + along.cwiseProduct(room_px))
-                                        .cwiseMin(end_px - room_px)
-                                        .cwiseMax(first_px + room_px);
-  const auto at_px = [&](const Eigen::Vector2d& in_text) -> Eigen::Vector2d {
-    return middle_px + turn.to_coded(Eigen::Vector2d(height_px * in_text - size_px / 2));
-  };
-  for (const auto& [width_px, color] : {std::pair{3 * line_px, kBlack}, {line_px, kWhite}}) {
-    for (const TextStroke& stroke : strokes_of(text)) {
-      const Eigen::Vector2d from_px = at_px(stroke.from), to_px = at_px(stroke.to);
-      // Longer by half of its width, so that corners are closed.
-      const Eigen::Vector2d cap_px = width_px / 2 * (to_px - from_px).normalized();
-      painter.stroke(from_px - cap_px, to_px + cap_px, width_px, color);
-    }
-  }
+cv::Scalar bgra(Rgb color) {
+  return {static_cast<double>(color.b), static_cast<double>(color.g), static_cast<double>(color.r),
+          255};
 }
 
-void draw_felt(const Wrench& wrench, const ArrowStyle& style, const VisiblePart& visible,
-               FramePainter& painter) {
-  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+int whole(double px) {
+  return std::max(1, static_cast<int>(std::lround(px)));
+}
+
+/// With soft edges, OpenCV draws half a pixel more on either side.
+int thickness(double width_px) {
+  return whole(width_px - 1);
+}
+
+/// A picture in the coding of a picture that is turned by `turn` before it is shown.
+cv::Mat coded(cv::Mat shown, const PictureTurn& turn) {
+  const Eigen::Vector2d right = turn.to_coded(Eigen::Vector2d(1, 0));
+  const Eigen::Vector2d down = turn.to_coded(Eigen::Vector2d(0, 1));
+  if (turn.is_sideways()) cv::transpose(shown, shown);
+  const bool is_mirrored = (turn.is_sideways() ? down : right).x() < 0;
+  const bool is_upside_down = (turn.is_sideways() ? right : down).y() < 0;
+  if (is_mirrored) cv::flip(shown, shown, 1);
+  if (is_upside_down) cv::flip(shown, shown, 0);
+  return shown;
+}
+
+/// A transparent sheet over the visible part of a frame, in square pixels: (0, 0) is the centre of
+/// its first one. Soft edges make its pixels those of premultiplied alpha.
+class Sheet {
+ public:
+  Sheet(const GstVideoFrame& frame, const VisiblePart& visible)
+      : visible_(visible), pixel_aspect_(pixel_aspect(frame.info)) {
+    const double width_px = std::max(1.0, std::round(visible.width * pixel_aspect_));
+    pixels_ = cv::Mat::zeros(visible.height, static_cast<int>(width_px), CV_8UC4);
+  }
+
+  /// Of a place in pixels of the frame, whose first one keeps its left edge.
+  Eigen::Vector2d at_px(const Eigen::Vector2d& frame_px) const {
+    return {(frame_px.x() - visible_.x + 0.5) * pixel_aspect_ - 0.5, frame_px.y() - visible_.y};
+  }
+  Eigen::Vector2d size_px() const { return {pixels_.cols, pixels_.rows}; }
+
+  void line(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double width_px,
+            Rgb color) {
+    if (!is_near(from_px) || !is_near(to_px)) return;
+    cv::line(pixels_, fixed(from_px), fixed(to_px), bgra(color), thickness(width_px), cv::LINE_AA,
+             kShift);
+  }
+  /// Filled, or its outline.
+  void triangle(const std::array<Eigen::Vector2d, 3>& corners_px, double outline_px, Rgb color) {
+    std::vector<cv::Point> corners;
+    for (const Eigen::Vector2d& corner_px : corners_px) {
+      if (!is_near(corner_px)) return;
+      corners.push_back(fixed(corner_px));
+    }
+    cv::fillConvexPoly(pixels_, corners, bgra(color), cv::LINE_AA, kShift);
+    if (outline_px > 0) {
+      cv::polylines(pixels_, corners, true, bgra(color), thickness(outline_px), cv::LINE_AA,
+                    kShift);
+    }
+  }
+  void box(const Eigen::Vector2d& low_px, const Eigen::Vector2d& high_px, double width_px,
+           Rgb color) {
+    if (!is_near(low_px) || !is_near(high_px)) return;
+    cv::rectangle(pixels_, fixed(low_px), fixed(high_px), bgra(color), whole(width_px), cv::LINE_8,
+                  kShift);
+  }
+  /// A ring, or a disc without a width.
+  void circle(const Eigen::Vector2d& centre_px, double radius_px, double width_px, Rgb color) {
+    if (!is_near(centre_px) || !(radius_px >= 0) || radius_px > kFar_px) return;
+    const auto radius = static_cast<int>(std::lround(radius_px * (1 << kShift)));
+    cv::circle(pixels_, fixed(centre_px), radius, bgra(color),
+               width_px > 0 ? thickness(width_px) : cv::FILLED, cv::LINE_AA, kShift);
+  }
+  /// Upright as it is shown, `along` from `beyond_px`, or where there is room.
+  void text(const std::string& text, const Eigen::Vector2d& beyond_px, const Eigen::Vector2d& along,
+            const PictureTurn& turn);
+
+  /// Blends it into a frame that is mapped for writing, whatever its format.
+  void blend_into(GstVideoFrame& frame) const;
+
+ private:
+  static constexpr int kShift = 4;            // coordinates of OpenCV are whole numbers of 1/16 px
+  static constexpr double kFar_px = 1 << 20;  // these do not overflow, and nothing there is seen
+
+  static bool is_near(const Eigen::Vector2d& px) {
+    return px.allFinite() && px.cwiseAbs().maxCoeff() < kFar_px;
+  }
+  static cv::Point fixed(const Eigen::Vector2d& px) {
+    const double unit = 1 << kShift;
+    return {static_cast<int>(std::lround(px.x() * unit)),
+            static_cast<int>(std::lround(px.y() * unit))};
+  }
+
+  VisiblePart visible_;
+  double pixel_aspect_;
+  cv::Mat pixels_;
+};
+
+void Sheet::text(const std::string& text, const Eigen::Vector2d& beyond_px,
+                 const Eigen::Vector2d& along, const PictureTurn& turn) {
+  constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
+  const double height_px = kNumberShare * visible_.height;
+  const int line = whole(height_px / 7), margin = 2 * line;
+  const double scale = cv::getFontScaleFromHeight(kFont, whole(height_px), line);
+  int below = 0;
+  const cv::Size size = cv::getTextSize(text, kFont, scale, line, &below);
+  cv::Mat label = cv::Mat::zeros(size.height + 2 * margin, size.width + 2 * margin, pixels_.type());
+  const cv::Point left(margin, margin + size.height);
+  cv::putText(label, text, left, kFont, scale, bgra(kBlack), 3 * line, cv::LINE_AA);
+  cv::putText(label, text, left, kFont, scale, bgra(kWhite), line, cv::LINE_AA);
+  label = coded(label, turn);
+  const Eigen::Vector2d label_px(label.cols, label.rows);
+  const Eigen::Vector2d most_px = size_px() - label_px;
+  if (!is_near(beyond_px) || most_px.minCoeff() < 0) return;
+  const Eigen::Vector2d corner_px =
+      (beyond_px + along.cwiseProduct(label_px / 2) - label_px / 2).cwiseMin(most_px).cwiseMax(0.0);
+  const cv::Rect place(static_cast<int>(corner_px.x()), static_cast<int>(corner_px.y()), label.cols,
+                       label.rows);
+  cv::Mat covered;
+  cv::extractChannel(label, covered, 3);
+  label.copyTo(pixels_(place), covered);
+}
+
+void Sheet::blend_into(GstVideoFrame& frame) const {
+  cv::Mat covered;
+  cv::extractChannel(pixels_, covered, 3);
+  const cv::Rect drawn = cv::boundingRect(covered);
+  if (drawn.empty()) return;
+  // Whole rows, so that their scaling to pixels that are not square begins at the left edge.
+  const cv::Mat rows = pixels_.rowRange(drawn.y, drawn.y + drawn.height);
+  const gsize bytes = rows.total() * rows.elemSize();
+  GstBuffer* const buffer = gst_buffer_new_memdup(rows.data, bytes);
+  gst_buffer_add_video_meta(buffer, GST_VIDEO_FRAME_FLAG_NONE,
+                            GST_VIDEO_OVERLAY_COMPOSITION_FORMAT_RGB, static_cast<guint>(rows.cols),
+                            static_cast<guint>(rows.rows));
+  GstVideoOverlayRectangle* const rectangle = gst_video_overlay_rectangle_new_raw(
+      buffer, visible_.x, visible_.y + drawn.y, static_cast<guint>(visible_.width),
+      static_cast<guint>(rows.rows), GST_VIDEO_OVERLAY_FORMAT_FLAG_PREMULTIPLIED_ALPHA);
+  GstVideoOverlayComposition* const composition = gst_video_overlay_composition_new(rectangle);
+  gst_video_overlay_composition_blend(composition, &frame);
+  gst_video_overlay_composition_unref(composition);
+  gst_video_overlay_rectangle_unref(rectangle);
+  gst_buffer_unref(buffer);
+}
+
+/// With a border of `margin_px` all around.
+void draw_arrow(const Arrow& arrow, double margin_px, Rgb color, Sheet& sheet) {
+  const double width_px = arrow.width_px + 2 * margin_px;
+  const std::optional<ArrowHead> head = head_of(arrow);
+  if (!head) return sheet.circle(arrow.tail_px, width_px / 2, 0, color);
+  sheet.line(arrow.tail_px, head->neck_px(), width_px, color);
+  sheet.triangle(head->corners_px, 2 * margin_px, color);
+}
+
+void draw_felt(const Wrench& wrench, const ArrowStyle& style, Sheet& sheet) {
+  const std::optional<Arrow> felt = felt_arrow(wrench, style);
   if (!felt) return;
-  painter.draw(felt->border, kBlack);
-  painter.draw(felt->arrow);
+  draw_arrow(*felt, felt->width_px / 4, kBlack, sheet);
+  draw_arrow(*felt, 0, felt->color, sheet);
   const double force_N = wrench.force_N.norm();
-  if (force_N >= kFeltForce_N) draw_newtons(force_N, felt->arrow, visible, style.turn, painter);
+  if (force_N < kFeltForce_N) return;
+  char newtons[32];
+  std::snprintf(newtons, sizeof newtons, "%.1f N", force_N);
+  const Eigen::Vector2d along = (felt->tip_px - felt->tail_px).normalized();
+  sheet.text(newtons, felt->tip_px + 2 * felt->width_px * along, along, style.turn);
 }
 
 void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle style,
-                FramePainter& painter) {
+                Sheet& sheet) {
   // Place 0 is the left edge of the first pixel, half a pixel from its centre.
   const auto at_px = [&](const Eigen::Vector2d& place) {
-    return painter.shown_px(Eigen::Vector2d(visible.x + place.x() * visible.width - 0.5,
-                                            visible.y + place.y() * visible.height - 0.5));
+    return sheet.at_px({visible.x + place.x() * visible.width - 0.5,
+                        visible.y + place.y() * visible.height - 0.5});
   };
   const double ring_px = finger_radius_px(style.height_px), line_px = ring_px / 4;
   const Eigen::Vector2d finger_px = at_px(touch.finger);
-  painter.disc(finger_px, ring_px + line_px, kBlack, ring_px - 2 * line_px);
-  painter.disc(finger_px, ring_px, kWhite, ring_px - line_px);
+  sheet.circle(finger_px, ring_px - line_px / 2, 3 * line_px, kBlack);
+  sheet.circle(finger_px, ring_px - line_px / 2, line_px, kWhite);
   if (!touch.touching) return;
   const double radius_px = proxy_radius_px(touch, style.max_force_N, style.height_px);
   style.centre_px = at_px(touch.proxy);
   Wrench wrench;
   wrench.force_N = touch.force_N;
-  draw_felt(wrench, style, visible, painter);
-  painter.disc(style.centre_px, radius_px + line_px / 2, kBlack);
-  painter.disc(style.centre_px, radius_px, kProxy);
+  draw_felt(wrench, style, sheet);
+  sheet.circle(style.centre_px, radius_px + line_px / 2, 0, kBlack);
+  sheet.circle(style.centre_px, radius_px, 0, kProxy);
 }
 
 /// Thick and orange where it is felt.
 void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& visible,
-                  FramePainter& painter) {
+                  Sheet& sheet) {
   const ObjectCorners box = corners_of(object, visible);
-  const Eigen::Vector2d a = painter.shown_px(box.low_px), c = painter.shown_px(box.high_px);
-  const Eigen::Vector2d b(c.x(), a.y()), d(a.x(), c.y());
-  const double thin_px = std::max(visible.height / 480.0, 1.5);
-  const auto line = [&](double width_px, Rgb color) {
-    const Eigen::Vector2d end_px(width_px / 2, 0);  // closes the corners
-    painter.stroke(a - end_px, b + end_px, width_px, color);
-    painter.stroke(d - end_px, c + end_px, width_px, color);
-    painter.stroke(a, d, width_px, color);
-    painter.stroke(b, c, width_px, color);
-  };
-  if (!is_felt) return line(thin_px, kWhite);
-  line(4 * thin_px, kBlack);
-  line(2 * thin_px, kProxy);
+  const Eigen::Vector2d low_px = sheet.at_px(box.low_px), high_px = sheet.at_px(box.high_px);
+  const double thin_px = visible.height / 480.0;
+  if (!is_felt) return sheet.box(low_px, high_px, thin_px, kWhite);
+  sheet.box(low_px, high_px, 4 * thin_px, kBlack);
+  sheet.box(low_px, high_px, 2 * thin_px, kProxy);
 }
 
 }  // namespace
@@ -104,27 +223,32 @@ void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& v
 void draw_overlay(const SceneView& scene, bool has_tracks, const std::vector<uint32_t>& felt,
                   const VisiblePart& visible, double scale, double max_force_N,
                   const std::optional<TouchMark>& touch, GstVideoFrame& frame) {
+  Sheet sheet(frame, visible);
   ArrowStyle style;
   style.scale = scale;
   style.max_force_N = max_force_N;
   style.turn = scene.turn;
   style.height_px = visible.height;
-  style.pixel_aspect = pixel_aspect(frame.info);
-  FramePainter painter(frame, visible);
-  style.centre_px = painter.shown_px(force_origin_px(scene, felt, visible));
+  style.centre_px = sheet.at_px(force_origin_px(scene, felt, visible));
   if (has_tracks) {
-    for (const Arrow& arrow : track_arrows(scene, style)) painter.draw(arrow);
-    const double cross_px = felt_width_px(style);
+    const auto at_px = [&](const ImagePoint& at) { return sheet.at_px({at.x_px, at.y_px}); };
+    for (const Arrow& arrow : track_arrows(scene, style, at_px)) {
+      draw_arrow(arrow, 0, arrow.color, sheet);
+    }
+    const double half_px = felt_width_px(style) / 3;
     for (const ImagePoint& lost : scene.lost) {
-      painter.cross(painter.shown_px({lost.x_px, lost.y_px}), cross_px, cross_px / 4, kWhite);
+      const Eigen::Vector2d a(half_px, half_px), b(half_px, -half_px), lost_px = at_px(lost);
+      sheet.line(lost_px - a, lost_px + a, half_px / 2, kWhite);
+      sheet.line(lost_px - b, lost_px + b, half_px / 2, kWhite);
     }
   }
   for (const MovingObject& object : scene.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();
-    if (object.tracks > 0) draw_outline(object, is_felt, visible, painter);
+    if (object.tracks > 0) draw_outline(object, is_felt, visible, sheet);
   }
-  draw_felt(scene.wrench, style, visible, painter);
-  if (touch) draw_touch(*touch, visible, style, painter);
+  draw_felt(scene.wrench, style, sheet);
+  if (touch) draw_touch(*touch, visible, style, sheet);
+  sheet.blend_into(frame);
 }
 
 }  // namespace spidar

@@ -18,8 +18,7 @@ namespace spidar {
 /// white arrow with a black border, which begins on the object (see force_origin_px()). With
 /// `touch`, also draws the finger as a ring, the touched point as a disc that grows with the force,
 /// and the contact force from that point. With `has_tracks`, also draws one arrow per track and a
-/// cross at each lost point. `frame` must be mapped for writing and have one of
-/// SPIDAR_VIDEO_FORMATS.
+/// cross at each lost point. `frame` must be mapped for writing.
 void draw_overlay(const SceneView& scene, bool has_tracks, const std::vector<uint32_t>& felt,
                   const VisiblePart& visible, double scale, double max_force_N,
                   const std::optional<TouchMark>& touch, GstVideoFrame& frame);

@@ -37,40 +37,25 @@ ImU32 color_of(Rgb color, unsigned opacity) {
   return IM_COL32(color.r, color.g, color.b, opacity);
 }
 
-void draw_arrow(const Brush& brush, const Arrow& arrow, unsigned opacity = 255) {
-  const ArrowShape shape = shape_of(arrow);
-  const ImU32 color = color_of(arrow.color, opacity);
-  std::array<ImVec2, 4> shaft;
-  std::transform(shape.shaft_px.begin(), shape.shaft_px.end(), shaft.begin(),
-                 [](const Eigen::Vector2d& p) { return im(p); });
-  brush.list.AddConvexPolyFilled(shaft.data(), static_cast<int>(shaft.size()), color);
-  if (!shape.has_head) return;
-  brush.list.AddTriangleFilled(im(shape.head_px[0]), im(shape.head_px[1]), im(shape.head_px[2]),
-                               color);
-}
-
-/// A dark line around an arrow, which is drawn over it.
-void draw_border(const Brush& brush, const Arrow& arrow) {
-  const ArrowShape shape = shape_of(arrow);
-  const auto around = [&](const auto& corners_px) {
-    std::vector<ImVec2> corners;
-    for (const Eigen::Vector2d& corner_px : corners_px) corners.push_back(im(corner_px));
-    brush.list.AddPolyline(corners.data(), static_cast<int>(corners.size()), IM_COL32(0, 0, 0, 200),
-                           ImDrawFlags_Closed, brush.px(3.5));
-  };
-  around(shape.shaft_px);
-  if (shape.has_head) around(shape.head_px);
+void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margin = 0) {
+  const auto width = static_cast<float>(arrow.width_px) + 2 * margin;
+  const std::optional<ArrowHead> head = head_of(arrow);
+  if (!head) return brush.list.AddCircleFilled(im(arrow.tail_px), width / 2, color);
+  const std::array<ImVec2, 3> corners{im(head->corners_px[0]), im(head->corners_px[1]),
+                                      im(head->corners_px[2])};
+  brush.list.AddLine(im(arrow.tail_px), im(head->neck_px()), color, width);
+  brush.list.AddTriangleFilled(corners[0], corners[1], corners[2], color);
+  if (margin > 0) brush.list.AddTriangle(corners[0], corners[1], corners[2], color, 2 * margin);
 }
 
 void draw_tracks(const Overlay& over, const ArrowStyle& style) {
   const std::vector<SceneTrack>& tracks = over.facts.scene.tracks;
-  const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style);  // one for each track
+  const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
+  const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style, at_px);  // one for each
   for (size_t i = 0; i < arrows.size(); ++i) {
-    Arrow arrow = arrows[i];
-    arrow.tail_px = over.map(arrow.tail_px);
-    arrow.tip_px = over.map(arrow.tip_px);
     const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
-    draw_arrow(over.brush, arrow, over.picture.detail ? 255 : is_felt ? kFelt : kFaint);
+    const unsigned opacity = over.picture.detail ? 255 : is_felt ? kFelt : kFaint;
+    draw_arrow(over.brush, arrows[i], color_of(arrows[i].color, opacity));
   }
 }
 
@@ -136,13 +121,13 @@ void draw_size(const Overlay& over, double force_N, const char* which,
 bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
                 const Eigen::Vector2d& from_px, ArrowStyle style) {
   style.centre_px = from_px;
-  const std::optional<FeltArrow> felt = felt_arrow(wrench, style);
+  const std::optional<Arrow> felt = felt_arrow(wrench, style);
   if (!felt) return false;
-  draw_border(over.brush, felt->arrow);
-  draw_arrow(over.brush, felt->arrow);
+  draw_arrow(over.brush, *felt, IM_COL32(0, 0, 0, 255), over.brush.px(1.75));
+  draw_arrow(over.brush, *felt, color_of(felt->color, 255));
   // Beyond the tip.
-  draw_size(over, wrench.force_N.norm(), which, felt->arrow.tip_px,
-            (felt->arrow.tip_px - felt->arrow.tail_px).normalized());
+  draw_size(over, wrench.force_N.norm(), which, felt->tip_px,
+            (felt->tip_px - felt->tail_px).normalized());
   return true;
 }
 
