@@ -127,7 +127,6 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     settings = settings_now(self, *frame, touch);
     take_track(self, frame->info);
-    self->engine->want_relief(self->display->window_waits());
     report = &self->engine->process({*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch});
     self->display->show(*report, display, settings, *frame);
   });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Frames that are turned or mirrored before they are shown: the tag image-orientation.
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/engine/stream_orientation.h"
+#include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
@@ -98,11 +98,24 @@ TEST(Orientation, PlacesAreTurnedThereAndBack) {
   }
 }
 
-/// The relief of a frame that is bright in its upper left quarter, whose middle heights are given
-/// in the order of the quarters of what is shown: upper left, upper right, lower left, lower right.
-std::array<double, 4> relief_with(const char* orientation, int width, int height) {
-  ElementHarness h("device=sim touch=luma");
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+/// The force on a grip that is pressed into the middle of a frame that becomes brighter to the
+/// right and downwards, and is shown in this orientation.
+Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
+  int64_t time_ns = 1'000'000'000;
+  ElementHarness h("device=sim touch=luma touch-friction=0", read_time, &time_ns);
   h.set_caps(make_caps("GRAY8", width, height));
+  const auto tick = [&](int count) {
+    for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);
+  };
+  tick(300);  // energised and located
+  PlaybackClock clock;
+  clock.playing = true;
+  clock.monotonic_ns = time_ns;
+  h.engine().output().session()->loop().set_playback_clock(clock);
   gst_harness_push_event(h.harness(),
                          gst_event_new_tag(orientation_tags(orientation, GST_TAG_SCOPE_STREAM)));
   GstBuffer* buffer = make_frame(h.info(), 0, 0);
@@ -110,42 +123,31 @@ std::array<double, 4> relief_with(const char* orientation, int width, int height
   EXPECT_TRUE(gst_video_frame_map(&frame, &h.info(), buffer, GST_MAP_READWRITE));
   auto* const luma = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
+    for (int x = 0; x < width; ++x) {
       luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x] =
-          x < width / 2 && y < height / 2 ? 235 : 16;
+          static_cast<guint8>(16 + 100 * x / width + 100 * y / height);
+    }
   }
-  GST_BUFFER_PTS(buffer) = 0;
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  TouchProperties touch;
-  touch.kind = TouchKind::kLuma;
-  h.engine().want_relief(true);
-  const AnalyzerSettings settings;
-  const FrameReport report = h.engine().process({frame, segment, settings, touch});
   gst_video_frame_unmap(&frame);
-  gst_buffer_unref(buffer);
-  const auto relief = report.touch.relief;
-  if (!relief) return {};
-  constexpr int kLeft = HeightField::kColumns / 4, kTop = HeightField::kRows / 4;
-  return {relief->row(kTop)[kLeft], relief->row(kTop)[3 * kLeft], relief->row(3 * kTop)[kLeft],
-          relief->row(3 * kTop)[3 * kLeft]};
+  EXPECT_EQ(h.push(buffer, 0), GST_FLOW_OK);
+  h.engine().output().lead_hand(Eigen::Vector3d(0, 0, -0.01));
+  tick(1000);
+  return h.engine().output().snapshot()->last.contact.force_N;
 }
 
 TEST(Orientation, ReliefIsTurnedLikeThePicture) {
   for (const Turn& turn : kTurns) {
-    // Where the upper left quarter is shown: against both directions from the middle.
-    const Eigen::Vector2d at = -turn.right - turn.down;
-    const size_t high = (at.x() > 0 ? 1U : 0U) + (at.y() > 0 ? 2U : 0U);
+    // Where it is shown brighter, and therefore nearer.
+    const Eigen::Vector2d brighter = turn.right + turn.down;
     // In place, and thinned in one direction or in both.
     for (const auto& [width, height] :
          {std::pair(320, 240), std::pair(1280, 160), std::pair(1280, 720)}) {
       SCOPED_TRACE(std::string(turn.tag) + " " + std::to_string(width));
-      const std::array<double, 4> z_m = relief_with(turn.tag, width, height);
-      for (size_t i = 0; i < 4; ++i) {
-        if (i != high) {
-          EXPECT_GT(z_m[high], z_m[i] + 0.004) << i << ": half of the relief's height";
-        }
-      }
+      const Eigen::Vector3d contact_N = contact_N_with(turn.tag, width, height);
+      EXPECT_GT(contact_N.z(), 0.5);
+      // The surface pushes away from what is near, by a slope of 100 / 219 · 8 mm in some 60 mm.
+      EXPECT_GT(contact_N.x() * -brighter.x(), 0.03 * contact_N.z());
+      EXPECT_GT(contact_N.y() * brighter.y(), 0.03 * contact_N.z());
     }
   }
 }

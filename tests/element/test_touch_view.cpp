@@ -10,8 +10,6 @@
 
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
-#include "plugin/filter/touch/relief_stream.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
@@ -21,36 +19,6 @@ namespace {
 
 int64_t read_time(void* time) {
   return *static_cast<int64_t*>(time);
-}
-
-TEST(TouchView, AReliefIsCopiedOnlyWhenAWindowAsks) {
-  init_gstreamer();
-  const Profile profile = load_profile(kDefaultProfile);
-  SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  const auto loop = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device));
-  ReliefStream stream;
-  stream.connect(loop.get(), profile, {0.03, 0.03});
-  const std::vector<uint8_t> white(320 * 240, 255);
-  Frame analysis;
-  analysis.width = 320;
-  analysis.height = 240;
-  TouchProperties touch;
-  touch.kind = TouchKind::kLuma;
-  const auto add = [&](int64_t shown_ns) {
-    stream.add({white.data(), 320, 240, 320}, analysis, shown_ns, touch, {0.5, 0.5});
-  };
-  add(0);
-  EXPECT_EQ(stream.take_copy(), nullptr);
-  stream.want_copy(true);
-  add(1'000'000);
-  const std::shared_ptr<const HeightField> copy = stream.take_copy();
-  ASSERT_NE(copy, nullptr);
-  // White is half of the relief of 8 mm above the middle; floats.
-  EXPECT_NEAR(copy->at(0, 0).z_m, 0.004, 1e-8);
-  EXPECT_EQ(stream.take_copy(), nullptr) << "each frame's once";
-  touch.kind = TouchKind::kOff;
-  add(2'000'000);
-  EXPECT_EQ(stream.take_copy(), nullptr);
 }
 
 TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Finger, relief and mouse in a debug window, without a window.
-#include <cmath>
+// Finger and mouse in a debug window, without a window.
 #include <limits>
-#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "plugin/filter/frame/touch_view.h"
-#include "plugin/window/program/model/relief_view.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 #include "spidar/profiles/profile.h"
@@ -120,69 +117,6 @@ TEST(MouseHand, WheelAndShiftMoveItDeeperAndNearer) {
   EXPECT_NEAR(hand.update(mouse, kPicture, map)->z(), MouseHand::kFurthest_m, kRounding);
   hand.let_go();
   EXPECT_NEAR(hand.z_m(), MouseHand::kFurthest_m, kRounding) << "the depth stays";
-}
-
-/// A roof along the columns, 2 mm high in the middle, 0 at the left and right edge.
-HeightField roof() {
-  HeightField relief(0.06, 0.04);
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
-      relief.row(y)[x] = static_cast<float>(0.002 * (1 - std::fabs(relief.x_m(x)) / 0.03));
-    }
-  }
-  return relief;
-}
-
-TEST(ReliefView, IsLitFromTheUpperLeft) {
-  const std::vector<uint8_t> rgba = shade_relief(roof());
-  ASSERT_EQ(rgba.size(), size_t{4} * HeightField::kCells);
-  const auto grey = [&](int x, int y) {
-    return rgba[4 * static_cast<size_t>(y * HeightField::kColumns + x)];
-  };
-  // A level surface has 0.15 + 0.85 · 1.6 / √4.56 of 255; slopes of 1/15 change that.
-  const double left = 1.6 + 1 / 15.0, right = 1.6 - 1 / 15.0, size = std::sqrt(4.56 * 226 / 225);
-  EXPECT_NEAR(grey(60, 70), 255 * (0.15 + 0.85 * left / size), 0.6);
-  EXPECT_NEAR(grey(200, 70), 255 * (0.15 + 0.85 * right / size), 0.6);
-}
-
-TEST(ReliefView, ASectionHasTheHeightsOfTheSurface) {
-  const HeightField relief = roof();
-  const auto section = relief_section(relief, 0.01, 5);
-  ASSERT_EQ(section.size(), 5u);
-  for (const Eigen::Vector2d& at_m : section) {
-    EXPECT_EQ(at_m.y(), relief.at(at_m.x(), 0.01).z_m);
-  }
-  EXPECT_NEAR(section[0].x(), -0.03, kRounding);
-  EXPECT_NEAR(section[4].x(), 0.03, kRounding);
-  EXPECT_GT(section[2].y(), section[1].y());
-}
-
-TEST(ReliefView, TheTouchedPointLiesOnTheSectionThatIsDrawn) {
-  const HeightField relief = roof();
-  TickRecord tick;
-  // Friction holds it back from where the grip is, and between two frames the surface is 0.5 mm
-  // nearer than in either.
-  tick.pose.position_m = {0.004, 0.01, -0.001};
-  tick.contact.touching = true;
-  tick.contact.proxy_m = {0.0075, -0.005, relief.at(0.0075, -0.005).z_m + 0.0005};
-  const auto section = touched_section(relief, tick, 9);
-  // Every 7.5 mm: the sixth of them.
-  EXPECT_NEAR(section[5].x(), 0.0075, kRounding);
-  EXPECT_NEAR(section[5].y(), tick.contact.proxy_m.z(), kRounding);
-  tick.contact.touching = false;
-  EXPECT_EQ(touched_section(relief, tick, 9), relief_section(relief, 0.01, 9));
-}
-
-TEST(ReliefView, SaysHowFarTheSurfaceIs) {
-  TouchScene scene;
-  TickRecord tick;
-  EXPECT_EQ(depth_line(scene, tick), "") << "no relief yet";
-  scene.relief = std::make_shared<HeightField>(0.06, 0.04);
-  tick.pose.position_m = {0, 0, 0.0032};
-  EXPECT_EQ(depth_line(scene, tick), "3.2 mm in front");
-  tick.contact.touching = true;
-  tick.contact.depth_m = 0.0014;
-  EXPECT_EQ(depth_line(scene, tick), "1.4 mm deep");
 }
 
 TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {

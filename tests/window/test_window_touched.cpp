@@ -3,7 +3,6 @@
 // What a debug window shows of a picture that is touched, and what the mouse does there.
 #include <memory>
 
-#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
@@ -35,27 +34,19 @@ ElementState touching_state() {
   return state;
 }
 
-/// On a surface that slopes up to the right.
 FrameFacts touched_facts(const StringGeometry& geometry) {
   FrameFacts facts;
   facts.touch.on = true;
   facts.touch.map = {GripPointer(geometry)};
-  auto relief = std::make_shared<HeightField>(0.059, 0.064);
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
-      relief->row(y)[x] = static_cast<float>(0.1 * relief->x_m(x));
-    }
-  }
-  facts.touch.relief = std::move(relief);
   return facts;
 }
 
-TEST_F(WindowTest, FingerProxyAndReliefAreInThePicture) {
+TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
   const ElementState state = touching_state();
   Window window(std::make_shared<FakeSource>(state));
   FrameFacts facts = touched_facts(state.device->geometry);
   give(window, facts, 40);
-  Screenshot shot = look(window);
+  const Screenshot shot = look(window);
   const PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {
     const Eigen::Vector2d p = map({x_px, y_px});
@@ -67,33 +58,6 @@ TEST_F(WindowTest, FingerProxyAndReliefAreInThePicture) {
   EXPECT_TRUE(is_grey(color(79.5, 59.5))) << "within the ring: " << shown(color(79.5, 59.5));
   EXPECT_TRUE(is_orange(color(239.5, 59.5))) << shown(color(239.5, 59.5));
   EXPECT_TRUE(is_white(color(239.5, 59.5 + 24)));
-  const Color relief = color(160, 180);
-  EXPECT_GT(relief.r, 60) << "over the dark picture";
-  press(window, GLFW_KEY_R);
-  shot = look(window);
-  EXPECT_NEAR(color(160, 180).r, 40, 1) << "the picture alone";
-  EXPECT_TRUE(is_orange(color(239.5, 59.5)));
-}
-
-TEST_F(WindowTest, TheSectionStandsInPlaceOfTheCurveOfTheController) {
-  ElementState state = touching_state();
-  const FrameFacts touched = touched_facts(state.device->geometry);
-  const auto orange = [&](const FrameFacts& facts) {
-    Window window(std::make_shared<FakeSource>(state));
-    give(window, facts);
-    const Screenshot shot = look(window);
-    const Rect panel = lay_out(shot.width, shot.height, 1).gain;
-    int count = 0;
-    for (double y = panel.y + 30; y < panel.bottom(); ++y) {
-      for (double x = panel.x; x < panel.right(); ++x) count += is_orange(at(shot, x, y));
-    }
-    return count;
-  };
-  // The proxy is a disc of a radius of 4 px: 50 px², a ring of 25 px of which is soft.
-  EXPECT_GT(orange(touched), 25);
-  state.device->last.contact = {};
-  EXPECT_EQ(orange(touched), 0) << "no proxy while it does not touch";
-  EXPECT_GT(orange({}), 0) << "the dot of the curve";
 }
 
 TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {

@@ -29,7 +29,7 @@ void MotionDisplay::show(const FrameReport& report, const DisplayProperties& pro
   const VisiblePart& visible = report.part;
   const SceneView& scene = viewer_.see(report.frame, visible, report.turn);
   // Before the overlay draws into the frame, because the window draws arrows of its own.
-  if (shown_in && window_waits_) {
+  if (shown_in && shown_in->wants_frame()) {
     FrameFacts facts;
     facts.running_ns = report.frame.running_ns;
     facts.film = film_;
@@ -81,12 +81,6 @@ void MotionDisplay::follow_film(const FrameReport& report) {
     film_.length_ns = known ? std::max<gint64>(length_ns, 0) : 0;
   }
   film_.stream_ns = now_ns;
-}
-
-bool MotionDisplay::window_waits() {
-  const std::shared_ptr<Window> shown_in = window();
-  window_waits_ = shown_in && shown_in->wants_frame();
-  return window_waits_;
 }
 
 std::shared_ptr<Window> MotionDisplay::window() const {

@@ -28,10 +28,6 @@ class MotionDisplay {
 
   // --- streaming thread
 
-  /// Call before a frame is processed. Returns whether show() will give it to the window, which
-  /// then needs its relief, too. A window that asks for a frame later gets the next one.
-  bool window_waits();
-
   /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
   /// on, and whose buffer is writable when metas are attached.
   void show(const FrameReport& report, const DisplayProperties& properties,
@@ -66,7 +62,6 @@ class MotionDisplay {
   SinkHand hand_;
   // Streaming thread.
   SceneViewer viewer_;
-  bool window_waits_ = false;
   FilmMoment film_;  // for the window
 
   mutable std::mutex mutex_;  // never held while a window opens or closes

@@ -38,7 +38,6 @@ void FrameTouch::add(const GstVideoFrame& frame, const ImageView& luma,
   report.touch.map = {grip_pointer_, report.turn};
   report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
   report.touch.motion_share = touch.motion_share;
-  report.touch.relief = reliefs_.take_copy();
   if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
     report.touch_mark = touch_mark(report.touch, loop->last);
   }

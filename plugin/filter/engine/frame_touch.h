@@ -41,8 +41,6 @@ class FrameTouch {
 
   // --- streaming thread
 
-  /// Whether reports have the relief of their frame from now on.
-  void want_relief(bool wanted) { reliefs_.want_copy(wanted); }
   /// The relief of a frame that was analysed, whose brightness is `luma` and which the sink shows
   /// at `shown_ns`. Fills in what the report says of touching.
   void add(const GstVideoFrame& frame, const ImageView& luma, const TouchProperties& touch,

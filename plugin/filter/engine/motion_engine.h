@@ -81,8 +81,6 @@ class MotionEngine {
   void set_track(std::optional<TrackFile> track);
   /// Valid until the next call.
   const FrameReport& process(const PassingFrame& frame);
-  /// Whether reports have the relief of their frame from now on.
-  void want_relief(bool wanted) { touch_.want_relief(wanted); }
   /// The next frame has nothing to do with the one before.
   void restart() { live_.restart(); }
   /// Running time begins anew: after a flush.

@@ -3,13 +3,11 @@
 /// The contact of the grip with the picture, as data for the overlay and the window.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "core/picture_turn.h"
-#include "core/touch/height_field.h"
 #include "plugin/filter/frame/grip_pointer.h"
 #include "spidar/loop/tick_record.h"
 
@@ -31,9 +29,8 @@ struct TouchMap {
 struct TouchScene {
   bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
   TouchMap map;
-  double stiffness_N_m = 0;                   ///< rendered stiffness
-  double motion_share = 0;                    ///< share of the film's motion that is also rendered
-  std::shared_ptr<const HeightField> relief;  ///< null unless a window requested it
+  double stiffness_N_m = 0;  ///< rendered stiffness
+  double motion_share = 0;   ///< share of the film's motion that is also rendered
 };
 
 /// Finger and proxy in one tick, as places in the picture.

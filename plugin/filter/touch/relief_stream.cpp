@@ -172,7 +172,6 @@ bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchPro
 
 void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
                        const TouchProperties& properties, const Eigen::Vector2d& finger) {
-  copy_.reset();
   if (!loop_) return;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
@@ -201,7 +200,6 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
       Eigen::Vector2d(moved_px.x() / analyzed.width, moved_px.y() / analyzed.height));
   frame->displacement_m = {moved.x() * frame->relief.width_m(),
                            -moved.y() * frame->relief.height_m()};
-  if (copy_wanted_) copy_ = std::make_shared<HeightField>(frame->relief);
   stiffness_N_m_ = frame->contact.stiffness_N_m;
   frame->follows =
       touched_ && !left_out_ && generation == generation_ && analyzed.has_motion_before();

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -74,10 +73,6 @@ class ReliefStream {
   void set_turn(const PictureTurn& turn) { turn_ = turn; }
   /// The brightness of black and white in the frames that follow.
   void set_levels(const LumaLevels& levels) { levels_ = levels; }
-  /// Sets whether add() copies the relief, which allocates.
-  void want_copy(bool wanted) { copy_wanted_ = wanted; }
-  /// Returns the copy of the last added frame; null if there is none.
-  std::shared_ptr<const HeightField> take_copy() { return std::move(copy_); }
   /// Removes the surface from `shown_ns` on.
   void end(int64_t shown_ns);
 
@@ -105,8 +100,6 @@ class ReliefStream {
   bool touched_ = false;   ///< the newest frame has a surface
   bool left_out_ = false;  ///< the newest frame was not published
   uint32_t generation_ = 0;
-  bool copy_wanted_ = false;
-  std::shared_ptr<const HeightField> copy_;
 
   std::atomic<double> stiffness_N_m_{0};
   std::atomic<uint64_t> reliefs_{0};

@@ -122,7 +122,7 @@ void draw_controls(const Brush& brush, const Rect& panel, const ElementState& st
   ImGui::End();
 }
 
-void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* relief) {
+void draw_switch(const Brush& brush, const Rect& picture, bool& detail) {
   const float margin = brush.px(8);
   ImGui::SetNextWindowPos(
       {static_cast<float>(picture.right()) - margin, static_cast<float>(picture.y) + margin},
@@ -135,12 +135,6 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* 
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushStyleColor(ImGuiCol_Border, kTextColor);
-  if (relief) {
-    ImGui::Checkbox("Relief", relief);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("The surface that is touched, over the picture (R)");
-    ImGui::SameLine();
-  }
   ImGui::Checkbox("Detail", &detail);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("All tracks, new and lost points, all objects (D)");
   ImGui::PopStyleColor();

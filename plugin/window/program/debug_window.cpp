@@ -17,7 +17,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include "plugin/window/program/model/relief_view.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
@@ -109,14 +108,12 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the one above, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
-  relief_texture_.emplace();
 }
 
 DebugWindow::~DebugWindow() {
   end_choices();
   link_.lead_hand(std::nullopt);
   texture_.reset();
-  relief_texture_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -176,19 +173,11 @@ void DebugWindow::record(bool is_new) {
   timeline_.add(now);
 }
 
-void DebugWindow::show_relief(const TouchScene& touch) {
-  if (touch.relief == relief_) return;
-  relief_ = touch.relief;
-  if (!relief_) return;
-  relief_texture_->upload(shade_relief(*relief_).data(), HeightField::kColumns, HeightField::kRows);
-}
-
 ShownPicture DebugWindow::shown_picture() const {
   ShownPicture picture;
   picture.arrow_scale = state_.value("arrow-scale", 1);
   picture.max_force_N = facts_.controller.max_force_N;
   picture.detail = detail_;
-  if (show_relief_ && relief_) picture.relief = (ImTextureID)uintptr_t{relief_texture_->id()};
   if (state_.device) picture.touch = touch_mark(facts_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
@@ -205,7 +194,6 @@ void DebugWindow::draw_panels(int width, int height) {
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
   const ControllerSettings& controller = facts_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
-  show_relief(facts_.touch);
   const ShownPicture picture = shown_picture();
   const Rect shown = shown_rect(layout.picture, picture, facts_);
   draw_picture(brush, layout.picture, picture, facts_);
@@ -218,16 +206,12 @@ void DebugWindow::draw_panels(int width, int height) {
   draw_choices(brush, layout.timeline);
   draw_force(brush, layout.force, timeline_, controller.max_force_N);
   draw_speed(brush, layout.speed, timeline_);
-  if (facts_.touch.on && state_.device) {
-    draw_section(brush, layout.gain, facts_.touch, state_.device->last);
-  } else {
-    draw_gain(brush, layout.gain, timeline_, controller);
-  }
+  draw_gain(brush, layout.gain, timeline_, controller);
   if (now_s() > note_until_s_) note_.clear();
   draw_status(brush, layout.status, state_, facts_, note_);
   draw_controls(brush, layout.controls, state_,
                 [this](const std::string& setting, double value) { change(setting, value); });
-  draw_switches(brush, layout.picture, detail_, relief_ ? &show_relief_ : nullptr);
+  draw_switch(brush, layout.picture, detail_);
 }
 
 void DebugWindow::draw() {

@@ -44,7 +44,6 @@ class DebugWindow {
   void read();
   void record(bool is_new);
   ShownPicture shown_picture() const;
-  void show_relief(const TouchScene& touch);
   bool offers_hand() const;
   std::string hint() const;
   void use_mouse(const Mouse& mouse, const Rect& picture);
@@ -66,7 +65,7 @@ class DebugWindow {
   GLFWwindow* window_ = nullptr;
   double scale_ = 1;
   Fonts fonts_;
-  std::optional<PictureTexture> texture_, relief_texture_;
+  std::optional<PictureTexture> texture_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;
@@ -74,8 +73,7 @@ class DebugWindow {
   FrameFacts facts_;
   double frame_s_ = 0;  ///< when the last frame came
   Timeline timeline_;
-  int shown_width_ = 0, loaded_width_ = 0;     // of the picture in the window, and its texture
-  std::shared_ptr<const HeightField> relief_;  // what relief_texture_ shows
+  int shown_width_ = 0, loaded_width_ = 0;  // of the picture in the window, and its texture
   MouseHand hand_;
   ObjectClick click_;
   Sightings sightings_;
@@ -83,7 +81,6 @@ class DebugWindow {
   bool has_clicked_ = false;                     ///< the user knows what a click does
   std::optional<Mouse> given_mouse_;
   bool detail_ = false;
-  bool show_relief_ = true;
   bool save_wanted_ = false;
   std::string note_;
   double note_until_s_ = 0;

@@ -62,9 +62,6 @@ void DebugWindow::on_key(int key) {
     case GLFW_KEY_D:
       detail_ = !detail_;
       break;
-    case GLFW_KEY_R:
-      show_relief_ = !show_relief_;
-      break;
     case GLFW_KEY_P:
       link_.play(!state_.is_playing);
       break;

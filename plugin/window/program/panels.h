@@ -25,7 +25,6 @@ struct ShownPicture {
   double pixel_aspect = 1;
   double arrow_scale = 1;
   double max_force_N = 0;
-  ImTextureID relief{};  ///< of the touched surface, over the picture; 0: not shown
   std::optional<TouchMark> touch;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
 };
@@ -45,10 +44,6 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
                const ControllerSettings& controller);
 
-/// Instead of the curve of the controller, while the picture is touched: the surface from the left
-/// to the right through the finger, seen from below, with finger and proxy.
-void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
-                  const TickRecord& tick);
 /// At the lower edge of the picture: what the mouse does.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
 
@@ -69,8 +64,8 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
                  const FrameFacts& facts, const std::string& note);
 
-/// Switches in the upper right corner of the picture; null: there is none for the relief.
-void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool* relief);
+/// A switch in the upper right corner of the picture.
+void draw_switch(const Brush& brush, const Rect& picture, bool& detail);
 /// Widgets for the settings of the element, the button for rest first.
 void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                    const std::function<void(const std::string&, double)>& set);

@@ -11,7 +11,6 @@ namespace spidar {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
-constexpr int kReliefOpacity = 110;
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -184,17 +183,6 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   brush.list.AddImage(picture.texture, upper_left(map.shown), lower_right(map.shown),
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
-  if (picture.relief) {
-    // The relief is turned like the picture when it is shown; here it is turned back.
-    const auto in_relief = [&facts](double x, double y) {
-      return im(facts.scene.turn.place_shown({x, y}));
-    };
-    const Rect& on = map.shown;
-    brush.list.AddImageQuad(picture.relief, im(on.x, on.y), im(on.right(), on.y),
-                            im(on.right(), on.y + on.height), im(on.x, on.y + on.height),
-                            in_relief(0, 0), in_relief(1, 0), in_relief(1, 1), in_relief(0, 1),
-                            IM_COL32(255, 255, 255, kReliefOpacity));
-  }
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
   ArrowStyle style;
   style.scale = picture.arrow_scale;

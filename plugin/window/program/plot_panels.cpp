@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/force/felt_force.h"
-#include "plugin/window/program/model/relief_view.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 
@@ -65,10 +64,6 @@ double highest_speed_px_s(const Timeline& timeline) {
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
 }
-
-constexpr int kSectionPoints = 200;
-/// Margin of the height axis beyond relief and grip.
-constexpr double kMargin_mm = 1;
 
 }  // namespace
 
@@ -143,37 +138,6 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   if (moments.empty()) return;
   // The controller's force, a part of which may have become torque.
   plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
-}
-
-void draw_section(const Brush& brush, const Rect& panel, const TouchScene& scene,
-                  const TickRecord& tick) {
-  const Rect content = draw_panel(brush, panel, "Under the finger", depth_line(scene, tick));
-  if (!scene.relief) {
-    draw_text(brush, brush.fonts.small, im(content.x + brush.px(6), content.y + brush.px(6)),
-              kMutedColor, "No relief yet");
-    return;
-  }
-  const Eigen::Vector3d& grip_m = tick.pose.position_m;
-  std::vector<PlotPoint> line;
-  double highest_mm = std::fabs(1e3 * grip_m.z());
-  for (const Eigen::Vector2d& at_m : touched_section(*scene.relief, tick, kSectionPoints)) {
-    line.push_back({1e3 * at_m.x(), 1e3 * at_m.y()});
-    highest_mm = std::max(highest_mm, std::fabs(line.back().y));
-  }
-  const double half_mm = 500 * scene.relief->width_m();
-  const double most_mm = highest_mm + kMargin_mm;
-  const PlotAxis x = make_axis(-half_mm, half_mm, Plot::steps_across(brush, content.width));
-  const PlotAxis y = make_axis(-most_mm, most_mm, Plot::steps_up(brush, content.height));
-  const Plot plot(brush, content, x, y, "mm", "mm near");
-  plot.line(line, kMutedColor);
-  const Eigen::Vector3d& proxy_m = tick.contact.proxy_m;
-  const ImVec2 finger = plot.at(1e3 * grip_m.x(), 1e3 * grip_m.z());
-  if (tick.contact.touching) {
-    const ImVec2 proxy = plot.at(1e3 * proxy_m.x(), 1e3 * proxy_m.z());
-    brush.list.AddLine(finger, proxy, kTextColor, brush.px(1.5));
-    brush.list.AddCircleFilled(proxy, brush.px(4), kFeltColor);
-  }
-  brush.list.AddCircle(finger, brush.px(6), kTextColor, 0, brush.px(2));
 }
 
 }  // namespace spidar

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/window/view/messages.h"
 
-#include <cmath>
 #include <utility>
 
 #include "plugin/window/view/wire.h"
@@ -77,30 +76,9 @@ void pass(Wire& wire, ControllerSettings& controller) {
 }
 
 template <typename Wire>
-void pass(Wire& wire, std::shared_ptr<const HeightField>& relief) {
-  bool is_there = relief != nullptr;
-  wire(is_there);
-  if (!is_there) return;
-  constexpr size_t kBytes = sizeof(float) * HeightField::kCells;
-  double width_m = relief ? relief->width_m() : 0, height_m = relief ? relief->height_m() : 0;
-  wire(width_m, height_m);
-  if constexpr (Wire::kReads) {
-    constexpr double kLeast_m = 1e-6;
-    const bool is_size = std::isfinite(width_m) && std::isfinite(height_m);
-    if (!is_size || width_m < kLeast_m || height_m < kLeast_m) return wire.fail();
-    auto read = std::make_shared<HeightField>(width_m, height_m);
-    wire.raw(read->row(0), kBytes);
-    relief = std::move(read);
-  } else {
-    wire.raw(relief->row(0), kBytes);
-  }
-}
-
-template <typename Wire>
 void pass(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
-  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_share,
-       touch.relief);
+  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_share);
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
