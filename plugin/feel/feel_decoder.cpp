@@ -8,7 +8,6 @@
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_tracer.h"
-#include "plugin/feel/video_notice.h"
 #include "plugin/gobject/downstream.h"
 
 namespace spidar {
@@ -216,7 +215,6 @@ bool is_shown(GstPad* pad) {
 void feel_pad(GstElement* decoder, GstPad* pad) {
   if (!GST_IS_GHOST_PAD(pad)) return;
   if (get_filter(pad) || !is_shown(pad)) return;
-  notice_video();
   if (has_raw_video(pad)) add_filter(decoder, pad);
 }
 

@@ -22,7 +22,6 @@
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/feel_decoder.h"
-#include "plugin/feel/video_notice.h"
 #include "plugin/gobject/ref.h"
 
 struct GstSpidarFeelTracer {
@@ -43,7 +42,6 @@ static bool is_playbin(GstElement* element) {
 }
 
 static void set_filter(GstElement* element) {
-  spidar::notice_video();
   GstElement* before = nullptr;
   guint flags = 0;
   g_object_get(element, "video-filter", &before, "flags", &flags, nullptr);

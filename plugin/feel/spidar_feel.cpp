@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidar-feel: runs a player so that its video is felt.
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -14,7 +16,6 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_tracer.h"
-#include "plugin/feel/video_notice.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"
@@ -204,8 +205,15 @@ std::string device_of(const Wish& wish) {
   return device;
 }
 
-/// Says what would otherwise be missed: that nothing real moves, and, when it turns out so, that
-/// the player shows no video by GStreamer.
+/// Whether the program is one of those that people try, and that show no video by GStreamer.
+bool is_without_gstreamer(const std::string& program) {
+  constexpr const char* kPrograms[] = {"mpv",  "vlc",     "cvlc",     "mplayer",      "ffplay",
+                                       "kodi", "firefox", "chromium", "google-chrome"};
+  const std::string name = fs::path(program).filename().string();
+  return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
+}
+
+/// Says what would otherwise be missed: that nothing real moves, or that nothing is felt.
 void warn_of_nothing_felt(const Wish& wish) {
   const std::string device = device_of(wish);
   if (device == "none") return;  // nothing is to be felt
@@ -214,7 +222,12 @@ void warn_of_nothing_felt(const Wish& wish) {
         "spidar-feel: no device is given: a simulated one takes the force, and nothing real moves; "
         "\"spidarctl list\" names what is plugged in\n",
         stderr);
-  spidar::expect_video(wish.program[0]);
+  if (is_without_gstreamer(wish.program[0]))
+    std::fprintf(
+        stderr,
+        "spidar-feel: %s does not use GStreamer, so nothing of it is felt: play the film with "
+        "gst-play-1.0, Totem, Parole, Clapper or Showtime\n",
+        wish.program[0]);
 }
 
 }  // namespace
@@ -228,7 +241,6 @@ int main(int argc, char** argv) {
   warn_of_nothing_felt(wish);
   execvp(wish.program[0], wish.program);
   const int error = errno;
-  spidar::notice_video();  // this message says enough
   fail(error == ENOENT ? kNoProgram : kCannotRun,
        std::string(wish.program[0]) + ": " + std::strerror(error));
 }

@@ -65,6 +65,12 @@ class Command(track_case.TrackCase):
         self.assertIn(line, self.feel("true"))
         self.assertNotIn(line, self.feel("device=sim -- true"))
 
+    def test_a_player_that_does_not_use_gstreamer_is_named(self):
+        """mpv is a name for the command true here."""
+        self.path("mpv").symlink_to(shutil.which("true"))
+        self.assertIn("mpv does not use GStreamer", self.feel(f"device=sim -- {self.path('mpv')}"))
+        self.assertEqual(self.feel("device=sim -- true"), "")
+
     def paths(self, environment):
         """GST_PLUGIN_PATH and GST_PLUGIN_PATH_1_0 as the player gets them. Between them and spidar-feel is another one,
         which would put the folder before them once more if it did not find the plugin as a player does."""
