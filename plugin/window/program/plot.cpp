@@ -10,21 +10,6 @@ namespace {
 constexpr double kStepAcross_px = 56, kStepUp_px = 17;
 constexpr double kGap_px = 5;
 
-/// Fills meet without the seams that soft edges would leave between them.
-class PlainEdges {
- public:
-  explicit PlainEdges(ImDrawList& list) : list_(list), before_(list.Flags) {
-    list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
-  }
-  ~PlainEdges() { list_.Flags = before_; }
-  PlainEdges(const PlainEdges&) = delete;
-  PlainEdges& operator=(const PlainEdges&) = delete;
-
- private:
-  ImDrawList& list_;
-  ImDrawListFlags before_;
-};
-
 }  // namespace
 
 Plot::Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotAxis& y,
@@ -111,19 +96,6 @@ void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px
     middles.push_back({x + part / 2, (span.low + span.high) / 2});
   }
   end_line();
-}
-
-void Plot::area(const std::vector<PlotPoint>& points, ImU32 color) const {
-  const PlainEdges plain(brush_.list);
-  brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
-  for (size_t i = 1; i < points.size(); ++i) {
-    const PlotPoint& a = points[i - 1];
-    const PlotPoint& b = points[i];
-    const ImVec2 corners[4] = {at(a.x, 0), at(a.x, std::min(a.y, y_.high)),
-                               at(b.x, std::min(b.y, y_.high)), at(b.x, 0)};
-    brush_.list.AddQuadFilled(corners[0], corners[1], corners[2], corners[3], color);
-  }
-  brush_.list.PopClipRect();
 }
 
 void Plot::upright(double x, ImU32 color) const {

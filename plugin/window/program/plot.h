@@ -34,8 +34,6 @@ class Plot {
   /// From the lowest to the highest value in each part of the width, never lower than a line of
   /// `width_px`.
   void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
-  /// The area between a line and y = 0.
-  void area(const std::vector<PlotPoint>& points, ImU32 color) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
   /// Names beside each other at the upper right, in their colours, as many as there is room for.

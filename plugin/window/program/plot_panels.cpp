@@ -111,7 +111,6 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "px/s at 480 lines");
   const std::vector<PlotPoint> speed =
       series(timeline, [](const Moment& m) { return m.speed_px_s; });
-  plot.area(speed, faded(kSpeedColor, 40));
   plot.line(speed, kSpeedColor);
   const std::optional<double> at_s = plot.hovered_x();
   if (!at_s) return;

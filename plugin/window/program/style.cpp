@@ -36,10 +36,6 @@ ImFont* load_font(const char* file, double size_px) {
   return atlas.AddFontDefault(&font);
 }
 
-ImVec4 rgba(ImU32 color) {
-  return ImGui::ColorConvertU32ToFloat4(color);
-}
-
 }  // namespace
 
 Fonts load_fonts(double scale) {
@@ -51,36 +47,14 @@ Fonts load_fonts(double scale) {
 }
 
 void set_style(double scale) {
+  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowPadding = {10, 8};
-  style.FramePadding = {8, 3};
-  style.ItemSpacing = {8, 6};
-  style.CellPadding = {4, 3};
-  style.ScrollbarSize = 10;
-  style.GrabMinSize = 10;
   style.WindowRounding = style.PopupRounding = static_cast<float>(kRounding_px);
   style.FrameRounding = style.GrabRounding = style.ScrollbarRounding = 4;
-  style.WindowBorderSize = style.PopupBorderSize = 1;
   style.ScaleAllSizes(static_cast<float>(scale));
-  ImVec4* colors = style.Colors;
-  colors[ImGuiCol_Text] = rgba(kTextColor);
-  colors[ImGuiCol_TextDisabled] = rgba(kMutedColor);
-  colors[ImGuiCol_WindowBg] = rgba(kPanelColor);
-  colors[ImGuiCol_PopupBg] = rgba(IM_COL32(34, 38, 47, 250));
-  colors[ImGuiCol_Border] = rgba(kBorderColor);
-  const ImU32 frame = IM_COL32(41, 46, 57, 255), hovered = IM_COL32(54, 61, 76, 255);
-  colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = rgba(frame);
-  colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = rgba(hovered);
-  colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = rgba(IM_COL32(64, 72, 90, 255));
-  colors[ImGuiCol_SliderGrab] = rgba(faded(kAccentColor, 170));
-  colors[ImGuiCol_SliderGrabActive] = rgba(IM_COL32(120, 190, 255, 255));
-  colors[ImGuiCol_CheckMark] = rgba(kAccentColor);
-  colors[ImGuiCol_Header] = rgba(frame);
-  colors[ImGuiCol_HeaderHovered] = rgba(hovered);
-  colors[ImGuiCol_HeaderActive] = rgba(hovered);
-  colors[ImGuiCol_ScrollbarBg] = rgba(IM_COL32(0, 0, 0, 0));
-  colors[ImGuiCol_ScrollbarGrab] = rgba(hovered);
-  colors[ImGuiCol_TitleBgActive] = colors[ImGuiCol_TitleBg] = rgba(frame);
+  style.Colors[ImGuiCol_Text] = ImGui::ColorConvertU32ToFloat4(kTextColor);
+  style.Colors[ImGuiCol_WindowBg] = ImGui::ColorConvertU32ToFloat4(kPanelColor);
+  style.Colors[ImGuiCol_Border] = ImGui::ColorConvertU32ToFloat4(kBorderColor);
 }
 
 ImVec2 text_size(const ImFont* font, const std::string& text) {

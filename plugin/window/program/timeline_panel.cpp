@@ -101,8 +101,7 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
   const Plot plot(brush, content, x, y, "s", "N");
   const std::vector<PlotPoint> force =
       profile(timeline, static_cast<size_t>(std::max(plot.area().width / 2, 1.0)));
-  plot.area(force, faded(kFeltColor, 60));
-  plot.line(force, kFeltColor, 1.2);
+  plot.line(force, kFeltColor);
   // What the plots below show.
   brush.list.AddRectFilled(plot.at(-timeline.plotted_s(), y.high), plot.at(0, y.low),
                            faded(kTextColor, 28));
