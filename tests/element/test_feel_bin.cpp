@@ -202,20 +202,6 @@ TEST_F(FeelBin, FramesOfEverySizePlayAndThoseThatFitAreFelt) {
             "8192 and heights of 16 to 8192 pixels\n");
 }
 
-TEST_F(FeelBin, AFilmThatIsTooSmallPlays) {
-  set_state(GST_STATE_PAUSED);
-  begin_stream();
-  set_size(8, 8);
-  testing::internal::CaptureStderr();
-  for (const GstState state : {GST_STATE_PAUSED, GST_STATE_PLAYING}) {
-    set_state(state);
-    EXPECT_EQ(push(), GST_FLOW_OK);
-    EXPECT_EQ(motion(), nullptr);
-  }
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("frames of 8x8 pixels are not felt"),
-            std::string::npos);
-}
-
 TEST_F(FeelBin, AFrameMayComeWhileThePlayerBeginsToPlay) {
   set_state(GST_STATE_PAUSED);
   begin_stream();

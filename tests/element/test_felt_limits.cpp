@@ -98,11 +98,5 @@ TEST_F(ForceLimitTest, AGripWithoutAPositionCannotPoint) {
   EXPECT_TRUE(h->warnings().empty());
 }
 
-TEST_F(ForceLimitTest, TouchingNeedsADevice) {
-  open("device=none touch=luma motion=object");
-  show_moved(kFrames, 2);
-  expect_of_device("no-device");
-}
-
 }  // namespace
 }  // namespace spidar::test::felt_limits_test

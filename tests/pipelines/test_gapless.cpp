@@ -124,14 +124,6 @@ TEST(Gapless, FilmsOfOneKind) {
   expect_both_felt(kBall, kBars);
 }
 
-TEST(Gapless, AnotherSize) {
-  expect_both_felt(kBall, {480, 360, 25, 40, kMovingBars});
-}
-
-TEST(Gapless, AnotherFrameRate) {
-  expect_both_felt(kBall, {320, 240, 50, 80, kMovingBars});
-}
-
 TEST(Gapless, AnotherSizeAndFrameRate) {
   expect_both_felt({160, 120, 20, 30, kMovingBars}, kBall);
 }

@@ -165,18 +165,5 @@ TEST(Synchronisation, AtTheEndTheForceRunsOut) {
   EXPECT_EQ(pipeline.idle(kFrame + 50 * GST_MSECOND).commanded.force_N.norm(), 0);
 }
 
-TEST(Synchronisation, TwiceTheRateIsTwiceTheVelocityAndInTime) {
-  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PAUSED);
-  ASSERT_TRUE(gst_element_seek(pipeline.element(), 2.0, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH,
-                               GST_SEEK_TYPE_SET, 0, GST_SEEK_TYPE_NONE, 0));
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 10; ++n) {
-    SCOPED_TRACE(n);
-    expect_wrench_of_frame(pipeline, pipeline.step());
-    EXPECT_EQ(pipeline.running_time(), static_cast<GstClockTime>(n) * kFrame / 2);
-  }
-}
-
 }  // namespace
 }  // namespace spidar::test::synchronisation_test
