@@ -173,40 +173,5 @@ TEST_F(Meta, IsCopiedWithAFrameButNotWithAPartOfIt) {
   gst_buffer_unref(out);
 }
 
-TEST_F(Meta, IsScaledWithThePicture) {
-  open("attach-meta=true");
-  gst_buffer_unref(push_next());
-  GstBuffer* out = push_next();
-  GstVideoInfo in_info, out_info;
-  gst_video_info_set_format(&in_info, GST_VIDEO_FORMAT_I420, 320, 240);
-  gst_video_info_set_format(&out_info, GST_VIDEO_FORMAT_RGB, 640, 120);
-  GstVideoMetaTransform scale{&in_info, &out_info};
-  GstMeta* meta =
-      reinterpret_cast<GstMeta*>(gst_buffer_get_custom_meta(out, GST_SPIDAR_MOTION_META_NAME));
-  GstBuffer* scaled = gst_buffer_new();
-  EXPECT_TRUE(meta->info->transform_func(scaled, meta, out,
-                                         gst_video_meta_transform_scale_get_quark(), &scale));
-  GstSpidarFrameMotion before, after;
-  ASSERT_TRUE(read_motion_in_c(out, &before));
-  ASSERT_TRUE(read_motion_in_c(scaled, &after));
-  EXPECT_EQ(after.width, 640u);
-  EXPECT_EQ(after.height, 120u);
-  EXPECT_DOUBLE_EQ(after.velocity_x, 2 * before.velocity_x);
-  EXPECT_DOUBLE_EQ(after.velocity_y, before.velocity_y / 2);
-  EXPECT_EQ(after.force_x, before.force_x) << "what is felt does not change";
-  const auto a = tracks_of(out), b = tracks_of(scaled);
-  ASSERT_EQ(a.size(), b.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    EXPECT_DOUBLE_EQ(b[i].from_x, 2 * a[i].from_x + 0.5);
-    EXPECT_DOUBLE_EQ(b[i].to_y, a[i].to_y / 2 - 0.25);
-    EXPECT_EQ(b[i].id, a[i].id);
-  }
-  // Any other change of the picture is unknown.
-  EXPECT_FALSE(
-      meta->info->transform_func(scaled, meta, out, g_quark_from_static_string("turned"), nullptr));
-  gst_buffer_unref(scaled);
-  gst_buffer_unref(out);
-}
-
 }  // namespace
 }  // namespace spidar::test::meta_test

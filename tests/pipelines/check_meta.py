@@ -43,7 +43,8 @@ def metas_after(elements):
         meta = info.get_buffer().get_custom_meta("GstSpidarMotionMeta")
         frame = meta and meta.get_structure()
         found.append(frame and (frame.get_value("width"), frame.get_value("height"),
-                                frame.get_value("velocity-x"), frame.get_value("tracks").unpack()))
+                                frame.get_value("velocity-x"), frame.get_value("force-x"),
+                                frame.get_value("tracks").unpack()))
         return Gst.PadProbeReturn.OK
 
     pipeline.get_by_name("sink").get_static_pad("sink").add_probe(Gst.PadProbeType.BUFFER, read)
@@ -58,12 +59,12 @@ def metas_after(elements):
 Gst.init(None)
 check_example()
 plain = metas_after("identity")
-assert len(plain) == 5 and all(plain) and plain[-1][3]
+assert len(plain) == 5 and all(plain) and plain[-1][4]
 assert metas_after("queue ! videoconvert ! video/x-raw,format=BGRx") == plain
 scaled = metas_after("videoconvert ! videoscale ! video/x-raw,width=640,height=120")
-for (_, _, velocity, tracks), after in zip(plain, scaled, strict=True):
-    assert after[:3] == (640, 120, 2 * velocity), after[:3]
-    for (number, x, _, _, y, _), (same, scaled_x, _, _, scaled_y, _) in zip(tracks, after[3],
+for (_, _, velocity, force, tracks), after in zip(plain, scaled, strict=True):
+    assert after[:4] == (640, 120, 2 * velocity, force), after[:4]
+    for (number, x, _, _, y, _), (same, scaled_x, _, _, scaled_y, _) in zip(tracks, after[4],
                                                                            strict=True):
         assert number == same
         # In units of pixels whose first centre is (0, 0): (x + 1/2) 2 - 1/2.

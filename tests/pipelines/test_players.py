@@ -85,13 +85,6 @@ class Players(gst_case.GstCase):
         self.expect_felt(self.play(f"filesrc location={self.path('film.mkv')} ! decodebin name=d d. ! queue ! videoconvert "
                                    f"! {MOTION} ! fakesink d. ! queue ! audioconvert ! fakesink"), 15)
 
-    def test_a_decoder_that_changes_its_size_in_mid_play(self):
-        parts = [f"videotestsrc num-buffers=10 pattern=smpte horizontal-speed=2 ! video/x-raw,width={width},"
-                 f"height={height} ! jpegenc ! c. " for width, height in ((160, 120), (640, 360), (320, 240))]
-        outcome = self.play(f"concat name=c ! jpegdec ! queue ! {MOTION} ! queue ! fakesink {' '.join(parts)}")
-        self.assertTrue(outcome.eos)
-        self.expect_felt(outcome, 30)
-
     def test_a_live_source_that_stamps_its_frames_as_a_camera_does(self):
         self.expect_felt(self.play("videotestsrc is-live=true do-timestamp=true pattern=ball ! "
                                    "video/x-raw,width=160,height=120,framerate=60/1 ! queue ! videoconvert ! "
@@ -167,19 +160,6 @@ class Players(gst_case.GstCase):
         self.path("clip.avi").write_bytes(content)
         outcome = self.play(f"filesrc location={self.path('clip.avi')} ! decodebin ! videoconvert ! spidarmotion ! fakesink")
         self.assertTrue(outcome.eos or outcome.error)
-
-    def test_the_simulated_device_of_the_monitor(self):
-        monitor = Gst.DeviceMonitor.new()
-        self.assertNotEqual(monitor.add_filter("Haptic/SPIDAR", None), 0, "the plugin has no device provider")
-        device, = (device for device in monitor.get_devices() if device.get_properties().get_string("device") == "sim")
-        pipeline = Gst.Pipeline.new(None)
-        parts = [Gst.parse_bin_from_description("videotestsrc pattern=ball num-buffers=10 ! capsfilter "
-                                                "caps=video/x-raw,width=320,height=240", True),
-                 device.create_element(None), Gst.ElementFactory.make("fakesink")]
-        for part in parts:
-            pipeline.add(part)
-        self.assertTrue(parts[0].link(parts[1]) and parts[1].link(parts[2]))
-        self.expect_felt(self.play(self.watch(pipeline)), 10)
 
     @unittest.skipUnless(GstPlay, "needs gir1.2-gst-plugins-bad-1.0")
     def test_gst_play(self):
