@@ -101,7 +101,7 @@ class Properties(ElementCase):
             warnings = self.warnings()
             self.assertEqual(len(warnings), 1, warnings)
             self.assertIn(said, warnings[0])
-            self.assertEqual(self.messages()[-1].get_value("device-limit"), "no-device")
+            self.assertEqual(self.stats("device-limit"), ["no-device"])
 
     def test_alpha_is_that_of_the_paper_with_its_motion_until_it_is_set(self):
         for properties, expected in (("motion=mean", .01), ("motion=mean motion=camera", .0025), ("motion=objects", .0025),
