@@ -23,7 +23,7 @@ constexpr Pixel kWhitePixel{255, 255, 255}, kBlackPixel{0, 0, 0}, kOrange{255, 1
 
 /// Edges are soft.
 bool is_dark(const Pixel& pixel) {
-  return pixel[0] < 40 && pixel[1] < 40 && pixel[2] < 40;
+  return pixel[0] < 128 && pixel[1] < 128 && pixel[2] < 128;
 }
 
 SceneView one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwner::kUnknown) {
@@ -115,7 +115,9 @@ TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
   background.draw(one_track({100, 99}, {200, 99}, TrackOwner::kBackground));
   object.draw(one_track({100, 99}, {200, 99}, TrackOwner::kObject));
   EXPECT_EQ(object.at(150, 99), (Pixel{255, 0, 0}));
-  EXPECT_EQ(background.at(150, 99), (Pixel{255, 140, 140}));  // 255 (1 − 0.45)
+  // 255 (1 − 0.45), less where the edges of a line are soft that is a pixel wide.
+  EXPECT_NEAR(background.at(150, 99)[1], 140, 20);
+  EXPECT_GT(background.at(150, 99)[0], 200);
 }
 
 TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
@@ -128,8 +130,8 @@ TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
   const int tip_y = 240 - 96, neck_y = tip_y + 24;
   for (const int y : {236, 200, neck_y + 4, tip_y + 6}) EXPECT_EQ(canvas.at(320, y), kWhitePixel);
   EXPECT_EQ(canvas.at(329, neck_y - 1), kWhitePixel) << "the head";
-  EXPECT_TRUE(is_dark(canvas.at(324, 200))) << "the border of the shaft";
-  EXPECT_TRUE(is_dark(canvas.at(328, neck_y + 2))) << "and of the head";
+  EXPECT_TRUE(canvas.is_drawn(324, 200) && is_dark(canvas.at(324, 200))) << "its border";
+  EXPECT_TRUE(canvas.is_drawn(328, neck_y + 2) && is_dark(canvas.at(328, neck_y + 2)));
   EXPECT_FALSE(canvas.is_drawn(328, 200)) << "beside the shaft";
   EXPECT_FALSE(canvas.is_drawn(320, 260));
   EXPECT_FALSE(canvas.is_drawn(320, tip_y - 10)) << "before its newtons";
@@ -212,7 +214,7 @@ TEST(Overlay, ShowsFingerProxyAndTheForceOfTheContact) {
   EXPECT_FALSE(canvas.is_drawn(160, 239)) << "within the ring";
   EXPECT_EQ(canvas.at(159 + 7, 239), kBlackPixel);
   EXPECT_EQ(canvas.at(159 + 10, 239), kWhitePixel);
-  EXPECT_EQ(canvas.at(159 + 13, 239), kBlackPixel);
+  EXPECT_TRUE(canvas.is_drawn(159 + 13, 239) && is_dark(canvas.at(159 + 13, 239)));
   EXPECT_FALSE(canvas.is_drawn(159 + 17, 239));
   EXPECT_FALSE(canvas.is_drawn(480, 240)) << "it touches nothing";
 

@@ -44,6 +44,27 @@ cv::Mat coded(cv::Mat shown, const PictureTurn& turn) {
   return shown;
 }
 
+/// Blends into a copy of the frame, which is copied back: GStreamer's functions for lines read and
+/// write some bytes beyond their ends, for which not every frame has room.
+void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame) {
+  constexpr gsize kRoom = 256;
+  GstVideoInfo roomy;
+  gst_video_info_set_format(&roomy, GST_VIDEO_FRAME_FORMAT(&frame),
+                            static_cast<guint>(GST_VIDEO_FRAME_WIDTH(&frame)),
+                            static_cast<guint>(GST_VIDEO_FRAME_HEIGHT(&frame)));
+  roomy.colorimetry = frame.info.colorimetry;
+  GstBuffer* const buffer =
+      gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&roomy) + kRoom, nullptr);
+  GstVideoFrame copy;
+  if (gst_video_frame_map(&copy, &roomy, buffer, GST_MAP_READWRITE)) {
+    gst_video_frame_copy(&copy, &frame);
+    gst_video_overlay_composition_blend(composition, &copy);
+    gst_video_frame_copy(&frame, &copy);
+    gst_video_frame_unmap(&copy);
+  }
+  gst_buffer_unref(buffer);
+}
+
 /// A transparent sheet over the visible part of a frame, in square pixels: (0, 0) is the centre of
 /// its first one. Soft edges make its pixels those of premultiplied alpha.
 class Sheet {
@@ -158,7 +179,7 @@ void Sheet::blend_into(GstVideoFrame& frame) const {
       buffer, visible_.x, visible_.y + drawn.y, static_cast<guint>(visible_.width),
       static_cast<guint>(rows.rows), GST_VIDEO_OVERLAY_FORMAT_FLAG_PREMULTIPLIED_ALPHA);
   GstVideoOverlayComposition* const composition = gst_video_overlay_composition_new(rectangle);
-  gst_video_overlay_composition_blend(composition, &frame);
+  blend_safely(composition, frame);
   gst_video_overlay_composition_unref(composition);
   gst_video_overlay_rectangle_unref(rectangle);
   gst_buffer_unref(buffer);
