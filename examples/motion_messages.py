@@ -59,4 +59,4 @@ player.set_state(Gst.State.PLAYING)
 main.run()
 player.set_state(Gst.State.NULL)
 if problems:
-    sys.exit(problems[0])
+    sys.exit(f"{name}: {problems[0]}")
