@@ -40,17 +40,9 @@ Weights weights(int count, int left_out, int also = -1) {
   return w;
 }
 
-bool solve(const NormalEquations& equations, double damping, const double* rhs, Twist& solution) {
+bool solve(const NormalEquations& equations, double damping, const Twist& rhs, Twist& solution) {
   constexpr int kAll[6] = {0, 1, 2, 3, 4, 5};
-  return solve_ldlt<6>(equations.H, damping, kAll, rhs, solution.data());
-}
-
-bool newton_step(const NormalEquations& equations, double damping, Twist& step) {
-  return solve(equations, damping, equations.g, step);
-}
-
-double decrease(const NormalEquations& equations, const Twist& step) {
-  return Eigen::Map<const Twist>(equations.g).dot(step);
+  return solve_ldlt(6, equations.H, damping, kAll, rhs.data(), solution.data());
 }
 
 // Rotations by 1 rad about the axes and the diagonals of the cube: no pose within 80° is further
@@ -79,7 +71,7 @@ Twist weakest_direction(const NormalEquations& equations) {
   double eigenvalue = 0;
   for (int i = 0; i < kIterations; ++i) {
     Twist next;
-    if (!solve(equations, 0, direction.data(), next)) break;
+    if (!solve(equations, 0, direction, next)) break;
     eigenvalue = 1 / next.norm();
     direction = next * eigenvalue;
   }
@@ -96,12 +88,12 @@ PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& star
   NormalEquations equations;
   while (fit.iterations < kMaxTrackingSteps && !fit.converged) {
     ++fit.iterations;
-    model_.linearise(fit.pose, lengths_m.data(), w.data(), equations);
+    model_.linearise(fit.pose, lengths_m, w, equations);
     Twist step;
-    if (!newton_step(equations, 0, step)) break;
+    if (!solve(equations, 0, equations.g, step)) break;
     fit.pose = model_.moved(fit.pose, step);
     // The cost of the linear model after the step, which is the true cost where the step is short.
-    const double cost_m2 = std::max(0.0, equations.cost_m2 - decrease(equations, step));
+    const double cost_m2 = std::max(0.0, equations.cost_m2 - equations.g.dot(step));
     fit.residual_m = model_.rms_m(cost_m2, used);
     fit.converged = step.squaredNorm() <= kLastStep_m * kLastStep_m;
   }
@@ -114,12 +106,12 @@ PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pos
   const int used = model_.count - (left_out >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;
-  model_.linearise(fit.pose, lengths_m.data(), w.data(), equations);
+  model_.linearise(fit.pose, lengths_m, w, equations);
   double damping = 0;
   while (fit.iterations < kMaxSearchSteps && !fit.converged) {
     ++fit.iterations;
     Twist step;
-    if (!newton_step(equations, damping, step)) {
+    if (!solve(equations, damping, equations.g, step)) {
       damping = std::max(kLittleDamping, 10 * damping);
       continue;
     }
@@ -127,7 +119,7 @@ PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pos
     if (length_m > kLongestStep_m) step *= kLongestStep_m / length_m;
     const Pose pose = model_.moved(fit.pose, step);
     NormalEquations there;
-    model_.linearise(pose, lengths_m.data(), w.data(), there);
+    model_.linearise(pose, lengths_m, w, there);
     // A step that damping has shortened says nothing about how near the minimum is.
     fit.converged =
         (length_m <= kLastSearchStep_m && damping <= kLittleDamping) || there.cost_m2 <= kNoCost_m2;
@@ -157,7 +149,7 @@ PoseFit PoseFitter::search(const StringVector& lengths_m, const Pose& start) con
 PoseFit PoseFitter::beside(const StringVector& lengths_m, const PoseFit& fit,
                            int left_out) const noexcept {
   NormalEquations equations;
-  model_.linearise(fit.pose, lengths_m.data(), weights(model_.count, left_out).data(), equations);
+  model_.linearise(fit.pose, lengths_m, weights(model_.count, left_out), equations);
   const Twist direction = weakest_direction(equations);
   PoseFit best;
   int iterations = 0;

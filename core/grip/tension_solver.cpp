@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/grip/row.h"
 #include "core/grip/small_ldlt.h"
 #include "core/grip/tension_objective.h"
 
@@ -30,50 +29,38 @@ constexpr double kLeastDamping = 0x1p-48;
 
 // Feasible tensions, their gradient, and which strings may move (bit i: string i).
 struct Iterate {
-  alignas(16) Row t;
-  alignas(16) Row gradient;
-  double residual[6];
+  StringVector t, gradient;
+  Eigen::Matrix<double, 6, 1> residual;
   unsigned free;
 };
 
 struct Bounds {
-  const double* low;
-  const double* high;
+  const StringVector& low;
+  const StringVector& high;
 
   // Finite, and not crossed: the difference of anything else is infinite, NaN or negative.
   bool are_valid() const {
-    Pair smallest = {}, sum = {};
-#pragma GCC unroll 4
-    for (int p = 0; p < kPairs; ++p) {
-      const Pair room = pair(high, p) - pair(low, p);
-      smallest = smaller(room, smallest);
-      sum += 0 * room;
-    }
-    return sum[0] + sum[1] == 0 && smallest[0] == 0 && smallest[1] == 0;
+    const StringVector room_N = high - low;
+    return room_N.allFinite() && room_N.minCoeff() >= 0;
   }
 
   // NaN ends at the lower bound.
-  double clamp(int i, double t) const {
-    return std::min(std::max(low[i], t), high[i]);
-  }
+  double clamp(int i, double t) const { return std::min(std::max(low[i], t), high[i]); }
 
   // Strings that have room between their bounds.
   unsigned apart() const {
     unsigned strings = 0;
-    for (int p = 0; p < kPairs; ++p) strings |= bits(pair(low, p) < pair(high, p), p);
+    for (int i = 0; i < kStrings; ++i) strings |= static_cast<unsigned>(low[i] < high[i]) << i;
     return strings;
   }
 };
 
 // The nearest feasible point; free are the strings that are at no bound.
-void start(const Bounds& bounds, const double* tension, Iterate& x) {
+void start(const Bounds& bounds, const StringVector& tension, Iterate& x) {
   x.free = 0;
-#pragma GCC unroll 4
-  for (int p = 0; p < kPairs; ++p) {
-    const Pair low = pair(bounds.low, p), high = pair(bounds.high, p);
-    const Pair t = smaller(larger(pair(tension, p), low), high);
-    pair(x.t, p) = t;
-    x.free |= bits((low < t) & (t < high), p);
+  for (int i = 0; i < kStrings; ++i) {
+    x.t[i] = bounds.clamp(i, tension[i]);
+    x.free |= static_cast<unsigned>(bounds.low[i] < x.t[i] && x.t[i] < bounds.high[i]) << i;
   }
 }
 
@@ -94,16 +81,15 @@ StringVector tension_at_rest(const TensionProblem& p) {
   return t;
 }
 
-// Each string's violation of its optimality condition; returns the largest.
-double violations(const Bounds& bounds, const Iterate& x, double* violation) {
-#pragma GCC unroll 4
-  for (int p = 0; p < kPairs; ++p) {
-    const Pair g = pair(x.gradient, p);
-    const Pair decrease = pair(x.t, p) > pair(bounds.low, p) ? g : Pair{};
-    const Pair increase = pair(x.t, p) < pair(bounds.high, p) ? -g : Pair{};
-    pair(violation, p) = larger(decrease, increase);
+// Each string's violation of its optimality condition.
+StringVector violations(const Bounds& bounds, const Iterate& x) {
+  StringVector violation;
+  for (int i = 0; i < kStrings; ++i) {
+    const double decrease = x.t[i] > bounds.low[i] ? x.gradient[i] : 0;
+    const double increase = x.t[i] < bounds.high[i] ? -x.gradient[i] : 0;
+    violation[i] = std::max(decrease, increase);
   }
-  return largest(pair(violation, 0), pair(violation, 1), pair(violation, 2), pair(violation, 3));
+  return violation;
 }
 
 // A step to the minimum over the free strings: t[index] − length.
@@ -120,15 +106,16 @@ Step newton_step(const TensionObjective& objective, const Iterate& x) {
     step.count += static_cast<int>(x.free >> i & 1);
   }
   double damping = 0;
-  while (!solve_ldlt(step.count, objective.Q, damping, step.index, x.gradient, step.length) &&
-         damping < 1)
+  while (
+      !solve_ldlt(step.count, objective.Q, damping, step.index, x.gradient.data(), step.length) &&
+      damping < 1)
     damping = damping > 0 ? 4 * damping : kLeastDamping;
   return step;
 }
 
 // Goes the whole step, clipped to the bounds. Returns the strings that were clipped.
 unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, Iterate& next) {
-  for (int p = 0; p < kPairs; ++p) pair(next.t, p) = pair(x.t, p);
+  next.t = x.t;
   unsigned clipped = 0;
   for (int a = 0; a < step.count; ++a) {
     const int i = step.index[a];
@@ -142,10 +129,7 @@ unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, It
 
 // Change of the objective from `x` to `next`; exact, as the objective is quadratic.
 double change(const Iterate& x, const Iterate& next) {
-  double sum = 0;
-  for (int i = 0; i < kStrings; ++i)
-    sum += (next.t[i] - x.t[i]) * (x.gradient[i] + next.gradient[i]) / 2;
-  return sum;
+  return (next.t - x.t).dot(x.gradient + next.gradient) / 2;
 }
 
 // Goes along the step to the first bound in the way, and holds the string that meets it.
@@ -170,7 +154,7 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
   x.free &= ~(1u << i);
 }
 
-unsigned strings_to_release(const Iterate& x, const double* violation, double share) {
+unsigned strings_to_release(const Iterate& x, const StringVector& violation, double share) {
   double largest = 0;
   for (int i = 0; i < kStrings; ++i)
     if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
@@ -190,7 +174,7 @@ class Search {
   double violation = 0;  // of the optimality conditions, the largest
   double scale = 0;      // of the terms that cancel in the gradient
 
-  Search(const TensionObjective& objective, const Bounds& bounds, const double* tension)
+  Search(const TensionObjective& objective, const Bounds& bounds, const StringVector& tension)
       : objective_(objective), bounds_(bounds) {
     start(bounds, tension, *x_);
   }
@@ -216,8 +200,8 @@ class Search {
         continue;
       }
       std::swap(x_, next_);
-      alignas(16) Row violation_of;
-      violation = violations(bounds_, *x_, violation_of);
+      const StringVector violation_of = violations(bounds_, *x_);
+      violation = violation_of.maxCoeff();
       scale = objective_.gradient_scale(x_->t);
       if (violation <= kTolerance * scale) return;
       // After a rejected step, strings are released only at the minimum over the free ones, and
@@ -253,8 +237,7 @@ TensionResult no_solution(const TensionProblem& problem) {
 TensionResult describe(const TensionProblem& problem, const TensionObjective& objective,
                        const Search& search) {
   const Iterate& x = search.result();
-  double sum = 0;
-  for (int k = 0; k < 6; ++k) sum += x.residual[k] * x.residual[k];
+  const double sum = x.residual.squaredNorm();
   // The bounds or the start were so large that W t overflowed; the search compared NaN.
   if (!std::isfinite(sum)) return no_solution(problem);
   TensionResult result;
@@ -263,12 +246,9 @@ TensionResult describe(const TensionProblem& problem, const TensionObjective& ob
   result.status =
       result.kkt_residual <= kAccepted ? TensionStatus::kSolved : TensionStatus::kIterationLimit;
   result.residual_N = std::sqrt(sum);
-  for (int p = 0; p < kPairs; ++p) pair(result.tension_N.data(), p) = pair(x.t, p);
-  for (int k = 0; k < 3; ++k) {
-    result.delivered.force_N[k] = x.residual[k] + objective.b[k];
-    result.delivered.torque_Nm[k] =
-        (x.residual[k + 3] + objective.b[k + 3]) * problem.torque_length_m;
-  }
+  result.tension_N = x.t;
+  const Eigen::Matrix<double, 6, 1> delivered = x.residual + objective.b;
+  result.delivered = {delivered.head<3>(), delivered.tail<3>() * problem.torque_length_m};
   return result;
 }
 
@@ -277,13 +257,13 @@ TensionResult describe(const TensionProblem& problem, const TensionObjective& ob
 TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   if (problem.count > 0 && problem.count < kStrings) return solve(with_eight_strings(problem));
   const TensionObjective objective(problem);
-  const Bounds bounds{problem.t_min_N.data(), problem.t_max_N.data()};
+  const Bounds bounds{problem.t_min_N, problem.t_max_N};
   TensionResult result;
   if (is_valid(problem, objective, bounds)) {
     // When nothing pulls, the solution may be zero, and what is left of the last tensions has
     // nothing to be compared with.
     const bool warm = warm_ && objective.has_pull();
-    Search search(objective, bounds, warm ? last_N_.data() : problem.t_ref_N.data());
+    Search search(objective, bounds, warm ? last_N_ : problem.t_ref_N);
     if (!warm) search.free_all();
     search.run();
     result = describe(problem, objective, search);
