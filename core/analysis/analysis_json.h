@@ -3,34 +3,27 @@
 /// Writes the result of a frame's analysis as JSON.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "core/analysis/frame.h"
 
 namespace spidar {
 
-struct JsonOptions {
-  bool points = false;  ///< also writes the tracks
-};
-
-/// Appends one JSON object and a line end. Keys carry their units; positions are pixels from the
-/// centre of the frame, x right, y down:
+/// One JSON object and a line end. Keys carry their units; positions are pixels from the centre of
+/// the frame, x right, y down:
 ///
 ///     running_time_ns, stream_time_ns, interval_ns, width_px, height_px, restarted, repeated,
-///     features, motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
+///     features, object, motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
 ///     wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]},
 ///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
 ///                  coverage} or null,
 ///     objects: [{id, position_px, size_px, velocity_px_s, error_px_s, on_screen_px_s, growth_1_s,
-///                roll_rad_s, model, tracks, prominence}, …],
-///     points: [[id, x, y, moved x, moved y], …] where they are in this frame, only with `points`
+///                roll_rad_s, model, tracks, prominence}, …]
 ///
 /// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).
 /// `repeated`: the frame shows the previous picture again, and all other values are those of that
-/// picture. Numbers are written in the "C" locale with as few digits as can be read back exactly. A
-/// number that is not finite becomes null, because JSON cannot express it. Does not allocate when
-/// the capacity of `line` is sufficient.
-void append_json(const Frame& frame, const JsonOptions& options, std::string& line);
+/// picture. Numbers have as few digits as can be read back exactly. A number that is not finite
+/// becomes null, because JSON cannot express it.
+std::string json_line(const Frame& frame);
 
 }  // namespace spidar

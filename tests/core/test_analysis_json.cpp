@@ -10,7 +10,6 @@
 
 #include "core/analysis/analysis_json.h"
 #include "core/analysis/motion_analyzer.h"
-#include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar::test::analysis_json_test {
@@ -18,11 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr JsonOptions kWithPoints{true};
-
-json parsed(const Frame& frame, const JsonOptions& options = kWithPoints) {
-  std::string line;
-  append_json(frame, options, line);
+json parsed(const Frame& frame) {
+  const std::string line = json_line(frame);
   EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
   return json::parse(line);
 }
@@ -81,16 +77,6 @@ TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
   EXPECT_GT(object.error_px_s, 0);
   expect_vector(j["objects"][0]["on_screen_px_s"], object.on_screen_px_s);
   EXPECT_EQ(j["objects"][0]["tracks"], object.tracks);
-
-  ASSERT_FALSE(frame.tracks.empty());
-  ASSERT_EQ(j["points"].size(), frame.tracks.size());
-  ASSERT_GT(j["points"].size(), 20u);
-  const Track& track = frame.tracks.front();
-  EXPECT_EQ(j["points"][0][0], track.id);
-  EXPECT_EQ(j["points"][0][1].get<float>(), track.to.x_px - 159.5f);
-  EXPECT_EQ(j["points"][0][2].get<float>(), track.to.y_px - 89.5f);
-  EXPECT_EQ(j["points"][0][3].get<float>(), track.to.x_px - track.from.x_px);
-  EXPECT_FALSE(parsed(frame, {}).contains("points"));
 }
 
 TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {
@@ -99,7 +85,6 @@ TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {
   EXPECT_EQ(j["restarted"], true);
   EXPECT_TRUE(j["background"].is_null());
   EXPECT_EQ(j["objects"], json::array());
-  EXPECT_EQ(j["points"], json::array());
 }
 
 TEST(AnalysisJson, NumbersThatJsonDoesNotHaveAreNull) {
@@ -112,19 +97,6 @@ TEST(AnalysisJson, NumbersThatJsonDoesNotHaveAreNull) {
   EXPECT_TRUE(j["motion"]["velocity_px_s"][1].is_null());
   EXPECT_EQ(j["motion"]["growth_1_s"].get<double>(), 1e-300);
   EXPECT_EQ(j["motion"]["roll_rad_s"].get<double>(), -0.1);
-}
-
-TEST(AnalysisJson, DoesNotAllocateWhereThereIsRoom) {
-  Frame frame;
-  frame.tracks.resize(200);
-  frame.objects.resize(16);
-  frame.background = Background();
-  std::string line;
-  append_json(frame, kWithPoints, line);
-  line.clear();
-  const long before = allocations;
-  append_json(frame, kWithPoints, line);
-  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ void FrameTrace::append_csv(const FrameReport& report) {
 bool FrameTrace::write(const FrameReport& report) {
   line_.clear();
   if (is_json_) {
-    append_json(report.frame, {}, line_);
+    line_ = json_line(report.frame);
   } else {
     append_csv(report);
   }

@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// Where the name ends in .csv, CSV with a header line; in .jsonl, what append_json() writes, with
+/// Where the name ends in .csv, CSV with a header line; in .jsonl, what json_line() gives, with
 /// objects and background; numbers are written without regard to the locale, with the digits that
 /// reading them back needs.
 class FrameTrace {
