@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/force/felt_force.h"
 #include "spidar/profiles/force_range.h"
 
 namespace spidar {
@@ -53,27 +54,28 @@ PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noe
   return trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump : PoseTrouble::kNone;
 }
 
-bool GripWatch::is_frozen(const DeviceReading& reading, const Wrench& applied,
-                          int64_t now_ns) noexcept {
-  const bool moved = !counted_ || reading.count != last_count_;
-  if (moved) {
+bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept {
+  if (!counted_ || reading.count != last_count_) {
     counted_ = true;
     last_count_ = reading.count;
-    at_last_change_ = applied;
+    at_last_change_ = command.wrench;
+    pushed_s_ = 0;
+    frozen_ = false;
   }
-  const double change_N = std::hypot(
-      (applied.force_N - at_last_change_.force_N).norm(),
-      (applied.torque_Nm - at_last_change_.torque_Nm).norm() / std::max(radius_m_, 1e-3));
-  if (moved || change_N < kFrozenForce_N) pushed_ns_ = now_ns;
+  const Wrench change = command.wrench - at_last_change_;
+  const double change_N =
+      std::hypot(change.force_N.norm(), change.torque_Nm.norm() / std::max(radius_m_, 1e-3));
+  // A force that passes the old one on its way, as in a film that shakes, takes nothing back.
+  if (change_N >= kFeltForce_N)
+    pushed_s_ += std::min(1.0, change_N / kFrozenForce_N) * command.dt_s;
   // At rest the force returns to its previous value, but dead counters stay dead.
-  if (moved) frozen_ = false;
-  if (now_ns - pushed_ns_ > kFrozenAfter_ns) frozen_ = true;
+  if (pushed_s_ > kFrozenAfter_s) frozen_ = true;
   return frozen_;
 }
 
-void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
-                    int64_t now_ns) noexcept {
-  const bool frozen = is_frozen(reading, applied, now_ns);
+void GripWatch::see(const DeviceReading& reading, const GripCommand& command) noexcept {
+  const int64_t now_ns = command.now_ns;
+  const bool frozen = is_frozen(reading, command);
   const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
   residual_m_ = result.residual_m;
   PoseTrouble trouble = judge(result, now_ns);
@@ -86,7 +88,7 @@ void GripWatch::see(const DeviceReading& reading, const Wrench& applied, bool ma
   if (trouble == PoseTrouble::kNone) {
     if (result.faulty_string >= 0 && result.faulty_string != faulty_string_) ++string_faults_;
     faulty_string_ = result.faulty_string;
-    return trust_.succeed(may_trust);
+    return trust_.succeed(command.wrench.stacked().isZero(0));
   }
   ++pose_errors_;
   // A single jump is enough: the previous pose is not the present one.
@@ -187,8 +189,7 @@ ExchangeStatus StringGrip::exchange(const GripCommand& command) noexcept {
 }
 
 void StringGrip::see(const DeviceReading& answer, const GripCommand& command) noexcept {
-  const bool at_rest = command.wrench.stacked().isZero(0);
-  watch_.see(answer, reading_.delivered, at_rest, command.now_ns);
+  watch_.see(answer, command);
   if (watch_.trusted())
     reading_.motion.see(watch_.pose(), watch_.located_ns());
   else

@@ -27,11 +27,13 @@ class GripWatch {
  public:
   /// At this rotation, strings from all sides have tangled long before.
   static constexpr double kMaxTurn_rad = 2.1;
-  /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and a count is
-  /// some hundredths of a millimetre. If no counter has moved kFrozenAfter_ns after that change,
-  /// the counters do not work.
+  /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and by more than a
+  /// tenth when by the least that it feels, kFeltForce_N; it trembles by as much. A count is some
+  /// hundredths of a millimetre. If no counter has moved while the force was another one for
+  /// kFrozenAfter_s, or for as much longer as the change is smaller, the counters do not work.
+  /// Friction may hold a grip against a change that no hand feels, which therefore tells nothing.
   static constexpr double kFrozenForce_N = 0.5;
-  static constexpr int64_t kFrozenAfter_ns = 500'000'000;
+  static constexpr double kFrozenAfter_s = 0.5;
 
   /// Throws std::invalid_argument when the profile has fewer than six strings.
   explicit GripWatch(const Profile& profile);
@@ -39,11 +41,8 @@ class GripWatch {
   /// Forgets everything. The grip is assumed to be at the centre, as when a device is opened.
   void reset() noexcept;
 
-  /// Takes the reading of a tick in which the device answered. `applied`: the wrench of the strings
-  /// on the grip, as far as it is known. `may_trust`: trust may begin with this tick; existing
-  /// trust is kept in any case.
-  void see(const DeviceReading& reading, const Wrench& applied, bool may_trust,
-           int64_t now_ns) noexcept;
+  /// Takes the reading of a tick in which the device has answered `command`.
+  void see(const DeviceReading& reading, const GripCommand& command) noexcept;
   /// For a tick in which the device did not answer.
   void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
   /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
@@ -67,7 +66,7 @@ class GripWatch {
 
  private:
   PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
-  bool is_frozen(const DeviceReading& reading, const Wrench& applied, int64_t now_ns) noexcept;
+  bool is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept;
 
   const Profile profile_;
   const EncoderScale encoders_;
@@ -83,10 +82,10 @@ class GripWatch {
   uint64_t string_faults_ = 0;
 
   bool frozen_ = false;
-  bool counted_ = false;  ///< the three below are known
+  bool counted_ = false;  ///< the two below are known
   std::array<int32_t, kMaxStrings> last_count_{};
-  Wrench at_last_change_;  ///< applied when a counter moved last
-  int64_t pushed_ns_ = 0;  ///< since when `applied` differs from it without a counter moving
+  Wrench at_last_change_;  ///< commanded when a counter moved last
+  double pushed_s_ = 0;    ///< for how long the command has differed from it by kFrozenForce_N
 };
 
 /// A wrench becomes tensions, tensions become volts; counts become lengths, lengths a pose. It

@@ -176,7 +176,7 @@ TEST(HapticSession, WhatVibratedCountsInTheNextOneToo) {
   };
   double left_before = 1;
   {
-    HapticSession session(profile, std::make_unique<FakeDevice>(std::make_shared<FakeDeviceLog>()));
+    HapticSession session(profile, make_device("sim", profile));
     // ±3 N take a hundredth of the store in 1.3 s.
     for (int i = 0; i < 100; ++i)
       session.loop().schedule(

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/force/felt_force.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
@@ -172,10 +173,53 @@ TEST(LostPose, CountersThatAllStandStillAreNoticed) {
   EXPECT_EQ(bench.snapshot().last.commanded.force_N.x(), -1);
 }
 
-TEST(LostPose, AGripAtRestIsNotFrozen) {
-  Bench bench;  // 1 N all the time: nothing changes, so nothing need move
-  bench.run(5000);
-  EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kNone);
+// Counters that never move, from the first force on: one that stays, and one that is reversed
+// before the counters would be missed.
+TEST(LostPose, CountersThatNeverMoveStopEveryForceThatIsFelt) {
+  for (const double force_N : {kFeltForce_N, 0.1, 0.3, 1.0, 3.0}) {
+    for (const bool reversed : {false, true}) {
+      SafetyLimits limits;
+      limits.max_force_N = force_N;
+      LoopDriver driver(limits);
+      driver.open();
+      driver.play(0);
+      // The smaller the force, the longer; ramps add to it.
+      const double longest_s =
+          GripWatch::kFrozenAfter_s * std::max(1.0, GripWatch::kFrozenForce_N / force_N);
+      constexpr int64_t kFrame_ns = 40 * kMs;
+      int64_t frame_ns = 0;
+      const auto play = [&](double seconds) {
+        for (const int64_t end_ns = frame_ns + std::llround(1e9 * seconds); frame_ns < end_ns;) {
+          const bool back = reversed && frame_ns / (10 * kFrame_ns) % 2 == 1;
+          driver.loop->schedule({frame_ns, kFrame_ns, push_right(back ? -3.0 : 3.0)});
+          frame_ns += kFrame_ns;
+          driver.run(kFrame_ns);
+        }
+      };
+      play(0.9 * longest_s);
+      EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kNone) << force_N << " N";
+      play(0.5 * longest_s + 0.2);
+      EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kFrozen) << force_N << " N";
+      play(10);
+      EXPECT_EQ(driver.loop->snapshot().pose_trouble, PoseTrouble::kFrozen) << force_N << " N";
+      EXPECT_EQ(driver.loop->snapshot().last.tension_N, driver.profile.min_tension_N());
+    }
+  }
+}
+
+TEST(LostPose, AHandThatYieldsToAWeakForceIsNotFrozen) {
+  RandomMotion random(15);
+  for (const std::string& name : list_profiles()) {
+    Bench bench(name, false);
+    for (const double force_N : {kFeltForce_N, 0.1, 0.5}) {
+      const Wrench wanted{force_N * random.direction(), Eigen::Vector3d::Zero()};
+      bench.loop->cancel_scheduled();
+      bench.loop->schedule({0, INT64_MAX / 2, wanted});
+      bench.loop->set_playback_clock({bench.now_ns, 0, 1, true});
+      bench.run(8000);
+      EXPECT_EQ(bench.snapshot().pose_trouble, PoseTrouble::kNone) << name << ", " << force_N;
+    }
+  }
 }
 
 TEST(BrokenString, IsLeftOut) {
