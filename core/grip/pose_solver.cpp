@@ -218,22 +218,32 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   return apart_m > kImplausible_m && (elsewhere(one) || elsewhere(other));
 }
 
-// The pose next to the expected one, without the string that is known to be at fault.
+// The pose next to the expected one, without the string that is known to be at fault. Near the
+// walls of the frame, where the strings hardly tell one coordinate, steps stay long although the
+// lengths fit: what is as near as a hand can have moved the grip will do.
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
-  const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
+  PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
+  if (!fit.converged)
+    fit.converged = fitter_.model().twist(expected, fit.pose).norm() <= kImplausible_m;
   const PoseStatus status = is_good(fit) ? PoseStatus::kSolved : PoseStatus::kNotConverged;
   return {status == PoseStatus::kSolved ? fit.pose : last_, fit.residual_m, fit.iterations,
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};
 }
 
 // A pose that was not found, or is further from the expected one than a hand can have moved the
-// grip, gives way to one without a string, if that is there and much nearer.
+// grip, gives way to one without a string, if that is there and much nearer, and the string is
+// somewhere else there. Near the walls of the frame, poses with almost the same lengths are apart.
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;
   const double distance_m = fitter_.model().twist(expected, found.pose).norm();
   if (solved && distance_m <= kImplausible_m) return found;
   PoseResult seven = track_without_one(lengths_m, expected);
+  const int out = seven.faulty_string;
+  if (out >= 0 && misfit_m(lengths_m, seven.pose, out) <= kMisfit * max_residual_m_) {
+    if (solved) return found;
+    seven.faulty_string = -1;
+  }
   const double limit_m = solved ? kMuchNearer * distance_m : kInfinity;
   const bool nearer = seven.status == PoseStatus::kSolved &&
                       fitter_.model().twist(expected, seven.pose).norm() <= limit_m;
