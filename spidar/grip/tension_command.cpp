@@ -14,8 +14,7 @@ StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& pr
   for (int i = 0; i < profile.geometry.count; ++i) {
     const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
     if (!std::isfinite(wanted_N[i])) wanted_N[i] = drive.min_tension_N;
-    const double allowed_N =
-        non_negative(dt_s) / kRange_s * (drive.max_tension_N - drive.min_tension_N);
+    const double allowed_N = non_negative(dt_s) * pace_N_s(drive);
     const double change_N = std::fabs(wanted_N[i] - last_N_[i]);
     if (change_N > allowed_N) share = std::min(share, allowed_N / change_N);
   }

@@ -66,8 +66,16 @@ class MotorHeat {
 /// (docs/workspace.md). A hand would feel that as a jerk, and a motor cannot follow it.
 class TensionSlew {
  public:
-  /// Shortest time in which a string passes through its whole range.
+  /// Shortest time in which a string passes through its whole range, …
   static constexpr double kRange_s = 0.02;
+  /// … unless the range is so small that a wrench, which may change as fast as by SafetyLimits,
+  /// would be held up: weak motors need all of it for a few newtons, and a force that a brake takes
+  /// away would go on accelerating the grip.
+  static constexpr double kLeast_N_s = 300;
+
+  static double pace_N_s(const StringDrive& drive) noexcept {
+    return std::max(kLeast_N_s, (drive.max_tension_N - drive.min_tension_N) / kRange_s);
+  }
 
   explicit TensionSlew(const Profile& profile) { reset(profile); }
 

@@ -46,8 +46,8 @@ constexpr int kFade_ms = 14;
 /// Three time constants of the drives, after which a force of three times the limit is within it.
 constexpr int kLag_ms = 6;
 constexpr int kMostAbove_ms = PoseTrust::kMaxMisses + 1 + kFade_ms + kLag_ms;
-/// Where the pose was lost before the player died. A string needs TensionSlew::kRange_s more when
-/// it passes through its whole range.
+/// Where the pose was lost before the player died. A string needs up to TensionSlew::kRange_s more
+/// when it passes through its whole range.
 constexpr int kSlew_ms = 20;
 constexpr int kMostAfter_ms = kFade_ms + kSlew_ms + kGuardian_ms + kGuardianTry_ms;
 /// Forces that differ by less are the same: rounding of the D/A converter, and the pull at rest

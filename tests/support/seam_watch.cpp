@@ -42,11 +42,12 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
     if (tick.released && !(told_N <= kRounding_N)) fail(tick, "not off", where);
   }
   if (tick.acknowledged) {
-    const double share = std::min(tick.dt_s, 2e-3) / TensionSlew::kRange_s;
+    const double passed_s = std::min(tick.dt_s, 2e-3);
     for (int i = 0; i < count; ++i) {
       const double step_N = std::abs(tick.told_N[i] - told_N_[i]);
       largest_.step_N = std::max(largest_.step_N, step_N);
-      if (!(step_N <= share * (most_N_[i] - least_N_[i]) + kRounding_N))
+      const StringDrive& drive = real_.drives[static_cast<size_t>(i)];
+      if (!(step_N <= passed_s * TensionSlew::pace_N_s(drive) + kRounding_N))
         fail(tick, "a string changes too fast", where);
     }
     told_N_ = tick.told_N;
