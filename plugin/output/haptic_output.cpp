@@ -92,9 +92,6 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
                     not_negative(link.round_trip_p99_ns), nullptr);
 }
 
-/// More than a window that draws seldom takes from one picture to the next.
-constexpr int64_t kLongestLook_ns = 500'000'000;
-
 int64_t monotonic_now(void*) {
   return HapticSession::monotonic_now_ns();
 }
@@ -255,12 +252,11 @@ bool HapticOutput::look_at_device(DeviceView& view) {
   view.last = loop.last;
   view.overruns = loop.counters.overruns;
   view.ticks.clear();
-  // Where nobody looked for long, the oldest ticks are there and the newest are not.
-  const int64_t oldest_ns = view.last.monotonic_ns - kLongestLook_ns;
   ForceTick tick;
-  while (session_->loop().pop_force(tick)) {
-    if (tick.monotonic_ns >= oldest_ns) view.ticks.push_back(tick);
-  }
+  while (session_->loop().pop_force(tick)) view.ticks.push_back(tick);
+  // Where nobody looked for long, the oldest ticks are there and the newest are not: a gap that can
+  // be seen is better than one between them.
+  if (view.ticks.size() >= HapticLoop::kForces) view.ticks.clear();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();
   view.max_tension_N = profile_.max_tension_N();

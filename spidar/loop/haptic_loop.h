@@ -61,6 +61,7 @@ class HapticLoop {
   /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
   /// end in a step.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
+  static constexpr size_t kForces = 1024;
 
   /// `grip` is opened by open().
   explicit HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits = {});
@@ -108,7 +109,8 @@ class HapticLoop {
 
   /// Returns every tick in order, for one reader. Ticks are dropped if they are not read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
-  /// Takes the oldest tick's force alone, for another reader.
+  /// Takes the oldest tick's force alone, for another reader. kForces are kept; later ones are
+  /// dropped until some are taken.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Its description, name and health.
@@ -160,7 +162,7 @@ class HapticLoop {
   // Shared.
   LoopSchedule schedule_;
   SpscRing<TickRecord, 4096> records_;
-  SpscRing<ForceTick, 1024> forces_;
+  SpscRing<ForceTick, kForces> forces_;
   std::atomic<bool> closing_{false};
   std::atomic<TouchMailbox*> touch_mailbox_{nullptr};
   WrenchCallback callback_;

@@ -54,10 +54,15 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
         std::max(widest_N, (view.ticks.back().delivered_N - view.ticks.front().delivered_N).norm());
   }
   EXPECT_GT(widest_N, 0.1) << "the force changes between looks";
-  // Where nobody looked for seconds, it does not see the beginning of that time.
-  tick(3000);
+  // Where nobody looked for longer than ticks are kept, there are none rather than the first ones.
+  tick(1000);
   output.look_at_device(view);
-  EXPECT_TRUE(view.ticks.empty());
+  EXPECT_EQ(view.ticks.size(), 1000u);
+  for (const int count : {1100, 3000}) {
+    tick(count);
+    output.look_at_device(view);
+    EXPECT_TRUE(view.ticks.empty()) << count;
+  }
   tick(10);
   output.look_at_device(view);
   EXPECT_EQ(view.ticks.size(), 10u);
