@@ -35,18 +35,22 @@ constexpr double kTellingForce_N = 0.1;
 constexpr double kFirmHand_N_m = 200;
 constexpr double kFirmForce_N = 0.3;
 constexpr double kWithstands_s = 0.3;
-/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown.
+/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown. What it
+/// stores while it is slow, it keeps for kStored_s: until the smoothed force has turned, and the
+/// grip has come back.
 constexpr double kThrown_m = 0.03;
 constexpr double kThrown_m_s = 0.4;
+constexpr double kStored_s = 0.2;
 /// From a pose to the force that depends on it: a tick until the next exchange, and half a tick in
 /// which it is held.
 constexpr double kLoop_s = 1.5e-3;
 
-/// Reduces the part of `vector` along `velocity` to the share that the speed leaves.
-Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity,
-                      double metres) {
+/// Reduces the part of `vector` along `velocity` to the share that the speed leaves. A turn has the
+/// speed at the end of an arm of `metres`. `earlier_m_s` is added to the speed.
+Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double metres,
+                      double earlier_m_s) {
   const double size = velocity.norm();
-  const double speed_m_s = metres * size;
+  const double speed_m_s = metres * size + earlier_m_s;
   if (speed_m_s <= GripBrake::kFadeFrom_m_s) return vector;
   const Eigen::Vector3d direction = velocity / size;
   const double along = std::max(0.0, vector.dot(direction));
@@ -55,10 +59,10 @@ Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velo
   return vector - (1 - std::max(0.0, left)) * along * direction;
 }
 
-/// The damping force, at the end of an arm of `metres` for a turn.
-Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres) {
+/// The damping force in the same way.
+Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, double earlier_m_s) {
   const double speed_m_s = metres * velocity.norm();
-  const double above_m_s = speed_m_s - GripBrake::kDampedFrom_m_s;
+  const double above_m_s = speed_m_s + earlier_m_s - GripBrake::kDampedFrom_m_s;
   if (!(above_m_s > 0)) return Eigen::Vector3d::Zero();
   return -metres * metres * GripBrake::kDamping_N_s_m * above_m_s / speed_m_s * velocity;
 }
@@ -98,28 +102,35 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m, double dt_
     from_m_ = position_m;
     gone_m_.setZero();
     pulled_N_.setZero();
-    withstood_s_ = 0;
+    withstood_s_ = loose_s_ = 0;
     located_ = true;
   }
   const double share = share_passed(dt_s, kYieldTime_s);
   gone_m_ += share * (position_m - from_m_ - gone_m_);
   pulled_N_ += share * (strings_N_ - pulled_N_);
+  loose_s_ = has_yielded() ? kStored_s : loose_s_ - dt_s;
   const double force_N = pulled_N_.norm();
   if (force_N < kFirmForce_N) return;
   const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
   withstood_s_ = firm ? withstood_s_ + dt_s : 0;
 }
 
-bool GripBrake::yields(const GripMotion& motion) const noexcept {
+/// Further than a hand lets it, and if there was none that withstood the force, far.
+bool GripBrake::has_yielded() const noexcept {
   const double force_N = pulled_N_.norm();
   if (!(force_N > kTellingForce_N)) return false;
   const double along_m = pulled_N_.dot(gone_m_) / force_N;
   if (along_m < kLeastYield_m || kLooseHand_N_m * along_m < force_N) return false;
+  return share_ < 1 || (withstood_s_ < kWithstands_s && gone_m_.norm() > kThrown_m);
+}
+
+bool GripBrake::yields(const GripMotion& motion) const noexcept {
+  if (!has_yielded()) return false;
   if (share_ < 1) return true;
   const Eigen::Vector3d& velocity_m_s = motion.velocity().linear_m_s;
   const double speed_m_s = velocity_m_s.norm();
-  return withstood_s_ < kWithstands_s && gone_m_.norm() > kThrown_m && speed_m_s > kThrown_m_s &&
-         velocity_m_s.dot(pulled_N_) > kAligned * speed_m_s * force_N;
+  return speed_m_s > kThrown_m_s &&
+         velocity_m_s.dot(pulled_N_) > kAligned * speed_m_s * pulled_N_.norm();
 }
 
 bool GripBrake::is_released(const GripMotion& motion) const noexcept {
@@ -141,9 +152,11 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
     share_ = std::min(1.0, share_ + dt_s / kReturn_s);
   }
   const GripVelocity then = motion.velocity_in(kLoop_s + drive_lag_s_);
-  const Wrench left{faded(share_ * wanted.force_N, then.linear_m_s, 1),
-                    faded(share_ * wanted.torque_Nm, then.angular_rad_s, radius_m_)};
-  return left + Wrench{damping(then.linear_m_s, 1), damping(then.angular_rad_s, radius_m_)};
+  const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
+  const Wrench left{faded(share_ * wanted.force_N, then.linear_m_s, 1, earlier_m_s),
+                    faded(share_ * wanted.torque_Nm, then.angular_rad_s, radius_m_, earlier_m_s)};
+  return left + Wrench{damping(then.linear_m_s, 1, earlier_m_s),
+                       damping(then.angular_rad_s, radius_m_, earlier_m_s)};
 }
 
 }  // namespace spidar

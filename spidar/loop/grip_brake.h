@@ -22,7 +22,9 @@ namespace spidar {
 ///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
 ///   film reverses its force. Until a hand has withstood a force, a fast grip that has gone far
-///   along the force is one that yields, too.
+///   along the force is one that yields, too. With a slow one, fading and damping begin
+///   kEarlier_m_s below their speeds, because what it has stored comes on top of a force that is
+///   reversed.
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
@@ -35,6 +37,7 @@ class GripBrake {
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
   static constexpr double kDampedFrom_m_s = 0.6;
   static constexpr double kDamping_N_s_m = 7.5;
+  static constexpr double kEarlier_m_s = 0.2;
   /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
   static constexpr double kBareGrip_kg = 0.1;
   static constexpr double kRest_s = 1.0;
@@ -59,6 +62,7 @@ class GripBrake {
 
  private:
   bool is_released(const GripMotion& motion) const noexcept;
+  bool has_yielded() const noexcept;
   bool yields(const GripMotion& motion) const noexcept;
   void compare_with_force(const Eigen::Vector3d& position_m, double dt_s) noexcept;
 
@@ -77,6 +81,7 @@ class GripBrake {
   Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
+  double loose_s_ = 0;      ///< for how long the grip still counts as one that has stored energy
   double share_ = 1;        ///< of the wrench
   double resting_s_ = 0;    ///< until it begins to return
 };
