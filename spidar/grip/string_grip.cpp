@@ -118,15 +118,9 @@ StringGrip::StringGrip(const Profile& profile, Device& device)
       heat_(profile) {}
 
 StringGrip::StringGrip(const Profile& profile, std::unique_ptr<Device> device)
-    : profile_(profile),
-      owned_(std::move(device)),
-      device_(*owned_),
-      traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
-      abilities_(abilities_of(profile)),
-      watch_(profile),
-      tension_command_(profile),
-      tension_slew_(profile),
-      heat_(profile) {}
+    : StringGrip(profile, *device) {
+  owned_ = std::move(device);
+}
 
 /// Only the home position of the grip is known.
 void StringGrip::open() {

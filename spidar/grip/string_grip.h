@@ -116,7 +116,7 @@ class StringGrip final : public Grip {
   void report() noexcept;
 
   const Profile profile_;
-  const std::unique_ptr<Device> owned_;
+  std::unique_ptr<Device> owned_;
   Device& device_;
   const GripTraits traits_;
   const GripAbilities abilities_;

@@ -6,12 +6,12 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 #include "spidar/simulation/grip_model.h"
@@ -21,12 +21,6 @@ namespace {
 
 constexpr int64_t kStep_ns = 1'000'000;
 constexpr int64_t kMaxElapsed_ns = 50'000'000;  // limits the step after the process was suspended
-
-int64_t monotonic_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
 
 /// Steady-state tension of the motor of `drive`, after the range and the steps of the D/A converter
 /// and the limit of the motor.
@@ -44,7 +38,7 @@ struct SimulatedDevice::Impl {
   Impl(const Profile& of, Time how, const GripModel& model, SimulatedClock to_read)
       : profile(of),
         time(how),
-        clock(to_read ? std::move(to_read) : SimulatedClock(monotonic_ns)),
+        clock(to_read ? std::move(to_read) : SimulatedClock(monotonic_now_ns)),
         model_lag_s(model.motor_time_constant_s),
         delay_ns(std::llround(1e9 * model.motor_delay_s)),
         dynamics(of.geometry, of.max_tension_N(), model),

@@ -235,6 +235,28 @@ TEST(ForceGrip, AStickMaySnapBack) {
   EXPECT_GT(stick.grip->reading().pose.position_m.x(), 0.01);
 }
 
+/// A stick that swings back when a hand lets go is no danger: it stays on its base.
+TEST(ForceGrip, AStickThatSwingsKeepsItsForce) {
+  ForceBench stick(ForceKind::kForceFeedback);
+  HapticLoop loop(stick.grip());
+  loop.open();
+  int64_t now_ns = 0;
+  loop.set_playback_clock({now_ns, 0, 1.0, true});
+  ASSERT_TRUE(loop.schedule(lasting({1, 0.5, 0})));
+  double fastest_m_s = 0;
+  for (int ms = 0; ms < 1000; ++ms) {
+    if (ms > 500) stick.motors.count[0] = (ms / 20 % 2 == 0 ? 1 : -1) * ff::Position::kFull;
+    loop.tick(now_ns, now_ns);
+    now_ns += kTick_ns;
+    const TickRecord now = loop.snapshot().last;
+    fastest_m_s = std::max(fastest_m_s, now.velocity.linear_m_s.norm());
+    ASSERT_TRUE(now.held) << ms;
+    if (ms <= 300) continue;
+    ASSERT_EQ(now.commanded.force_N, Eigen::Vector3d(1, 0.5, 0)) << ms;
+  }
+  EXPECT_GT(fastest_m_s, GripBrake::kFastest_m_s);
+}
+
 TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
   ForceBench bench(ForceKind::kInverse3);
   bench.motors.count[0] = 10'000;

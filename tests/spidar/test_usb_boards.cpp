@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +16,6 @@
 #include "spidar/boards/usb_board.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/pushed_grip.h"
@@ -324,20 +322,6 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
     EXPECT_TRUE(again.at_rest());
     clear_bus();
   }
-}
-
-TEST_F(UsbBoards, TheLoopLosesItAndTakesItBack) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
-  HapticSession session(profile, device());
-  const auto state = [&] { return session.loop().snapshot().last.device; };
-  while (state() != DeviceState::kRunning) std::this_thread::yield();
-  EXPECT_FALSE(port.at_rest());
-  unplug(0, EPROTO);
-  while (state() != DeviceState::kLost) std::this_thread::yield();
-  plug(0, UsbKind::kSh4);
-  while (state() != DeviceState::kRunning) std::this_thread::yield();
-  EXPECT_EQ(session.loop().snapshot().counters.times_lost, 1u);
-  EXPECT_FALSE(port.at_rest());
 }
 
 TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
