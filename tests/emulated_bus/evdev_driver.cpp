@@ -43,7 +43,7 @@ void reset(EvdevPort& port) {
   port.axis_end = 1000;
   port.pressed = 0;
   port.gain = port.autocentre = 0;
-  port.upload_ms = port.upload_error = port.interruptions = 0;
+  port.upload_ms = port.upload_error = 0;
   port.query_error = port.event_error = port.setting_error = 0;
   port.failing = -1;
   port.expires = port.hangs = port.cuts_events = port.signals = false;
@@ -76,10 +76,6 @@ int EvdevDriver::upload(ff_effect& wanted) {
     --port_.hanging;
   }
   if (port_.kind == EvdevKind::kNone) return -ENODEV;
-  if (port_.interruptions > 0) {
-    --port_.interruptions;
-    return -EINTR;
-  }
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - port_.last_upload_ns.exchange(now_ns);
   if (port_.shortest_ns == 0 || passed_ns < port_.shortest_ns) port_.shortest_ns = passed_ns;

@@ -62,7 +62,6 @@ struct EvdevPort {
   std::atomic<int> upload_ms{0};
   std::atomic<int> upload_error{0};      ///< of uploads
   std::atomic<int> failing{-1};          ///< how many of the next uploads fail with it; −1: all
-  std::atomic<int> interruptions{0};     ///< how many of the next uploads a signal interrupts
   std::atomic<bool> hangs{false};        ///< uploads do not return until this is false
   std::atomic<int> hanging{0};           ///< uploads that do not return
   std::atomic<int> query_error{0};       ///< of every question for the position

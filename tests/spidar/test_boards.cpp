@@ -69,23 +69,6 @@ TEST_P(Boards, VoltsBeyondTheConverterAreCut) {
   EXPECT_EQ(motors.digit[3], 0);
 }
 
-TEST_P(Boards, VoltsThatAreNoNumbersPushNowhere) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto device = this->device();
-  device->open();
-  DeviceReading reading;
-  MotorVolts one_string;
-  one_string.volt[0] = 1;
-  for (const double value : {kNan, kInfinity, -kInfinity}) {
-    for (int i = 0; i < 2; ++i) device->exchange(one_string, reading);
-    ASSERT_FALSE(motors.all_zero());
-    for (int i = 0; i < 2; ++i)
-      ASSERT_EQ(device->exchange(all_volts(value), reading), ExchangeStatus::kOk);
-    EXPECT_TRUE(motors.all_zero()) << value;
-  }
-}
-
 TEST_P(Boards, CloseRampsToZero) {
   const auto device = this->device();
   device->open();

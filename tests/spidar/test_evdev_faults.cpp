@@ -114,18 +114,6 @@ TEST_F(EvdevFaults, EveryErrorIsNamedCountedAndForgotten) {
   }
 }
 
-TEST_F(EvdevFaults, AnUpdateThatASignalInterruptsIsRepeated) {
-  EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  const auto device = stepped();
-  device->open();
-  port.interruptions = 3;
-  EXPECT_EQ(exchange(*device, pushing(1), reading), ExchangeStatus::kOk);
-  EXPECT_EQ(port.interruptions, 0);
-  EXPECT_GT(evdev_levels(0).right, 0);
-  EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_EQ(device->health().errors(), 0u);
-}
-
 TEST_F(EvdevFaults, ForcesBeyondFullLevelAreCutAndKeepTheirDirection) {
   plug_evdev(0, EvdevKind::kStick);
   const auto device = stepped();
@@ -158,25 +146,6 @@ TEST_F(EvdevFaults, WheelsAndPadsCutForcesToo) {
     EXPECT_EQ(levels.right, kind == EvdevKind::kWheel ? ff::kFullLevel : 0);
     EXPECT_EQ(levels.rumble, kind == EvdevKind::kPad ? ff::kFullStrength : 0);
     EXPECT_EQ(levels.up, 0);
-  }
-}
-
-TEST_F(EvdevFaults, ForcesThatAreNoNumbersPushNowhere) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const EvdevKind kind : {EvdevKind::kStick, EvdevKind::kWheel, EvdevKind::kPad}) {
-    plug_evdev(0, kind);
-    const auto device = stepped();
-    device->open();
-    for (const double value : {kNan, kInfinity, -kInfinity}) {
-      // On one axis, and on both.
-      for (const ForceOutput& bad : {pushing(1, value), pushing(value, value)}) {
-        ASSERT_EQ(exchange(*device, pushing(1), reading), ExchangeStatus::kOk);
-        ASSERT_FALSE(evdev_levels(0).at_rest());
-        ASSERT_EQ(exchange(*device, bad, reading), ExchangeStatus::kOk);
-        EXPECT_TRUE(evdev_levels(0).at_rest()) << value;
-      }
-    }
   }
 }
 
