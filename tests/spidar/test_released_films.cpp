@@ -149,5 +149,22 @@ TEST(ReleasedFilms, AGripThatFollowsTheReturningForceStaysReleased) {
   EXPECT_FALSE(grip.snapshot().last.held);
 }
 
+/// What a loose hand stores while the grip goes slowly comes on top of the force that is reversed:
+/// with a brake that acts no earlier than without it, up to 1.09 m/s.
+TEST(ReleasedFilms, WhatALooseHandHasStoredDoesNotThrowIt) {
+  const Profile profile = load_profile("spidar-g6x3-v2-l");
+  GripModel model = released(profile, 0.1);
+  model.hand_stiffness_N_m = 58;
+  model.hand_damping_N_s_m = 0.4;
+  for (const Eigen::Vector3d& towards :
+       {Eigen::Vector3d(-0.59, -0.72, 0.37), {0, -0.26, 0.97}, {-0.04, -0.71, 0.71}}) {
+    for (const double rate_Hz : {3.0, 3.5}) {
+      PlayedGrip grip(profile, model, pulses(3 * towards.normalized(), rate_Hz, true));
+      grip.run(3);
+      EXPECT_LE(grip.fastest_m_s, kFastest_m_s) << towards.transpose() << ", " << rate_Hz << " Hz";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::released_films_test
