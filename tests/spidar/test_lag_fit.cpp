@@ -36,32 +36,6 @@ std::vector<ResponseLine> lines_of(const Response& response, double noise, uint3
   return lines;
 }
 
-void expect_covers(const LagFit& fit, double lag_s) {
-  EXPECT_EQ(fit.missing, NoLag::kNone) << static_cast<int>(fit.missing);
-  EXPECT_LE(fit.least_s, lag_s);
-  EXPECT_GE(fit.most_s, lag_s);
-}
-
-TEST(LagFit, FindsADelayAFirstOrderLagAndBoth) {
-  for (const double delay_s : {0.0, 0.001, 0.005}) {
-    for (const double part_s : {0.0, 0.001, 0.005, 0.01}) {
-      for (uint32_t seed = 1; seed <= 3; ++seed) {
-        SCOPED_TRACE(testing::Message() << delay_s << " " << part_s << " seed " << seed);
-        const auto response = [&](double w) {
-          return grip_of(w) * std::exp(-kJ * w * delay_s) / (1.0 + kJ * w * part_s);
-        };
-        const LagFit fit = LagFitter::fit(lines_of(response, 0.005, seed), kPeriods);
-        expect_covers(fit, delay_s + part_s);
-        // Errors of the phase of 0.5 % each: 19 lines at 300 rad/s would tell 0.005 / 300 / √19 =
-        // 4 µs if nothing else had to be found. A lag of 10 ms is told by the lines below its
-        // corner at 16 Hz, two of them, against a damping that looks alike there.
-        EXPECT_LT(fit.error_s, part_s < 0.01 ? 1e-4 : 4e-4);
-        EXPECT_NEAR(fit.mass_kg, 0.1, 0.005);
-      }
-    }
-  }
-}
-
 // An amplifier and a winding, neither of which is alone: T and T'. The model has one stage and a
 // delay; one that agrees up to the second order (T² + T'²) differs by 2 (T² + T'²)^1.5 − 2 (T³ +
 // T'³) in the third, a sixth of which times ω² is a lag: 76 µs at 64 Hz, in the middle of the lines

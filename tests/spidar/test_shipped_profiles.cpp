@@ -28,6 +28,7 @@ struct Published {
   double tolerance_mm;
   std::string encoder_signs;
   std::string motor_signs;
+  double volts_per_newton, metres_per_count, min_N, max_N;
 };
 
 const std::vector<double> kGcc = {89.187, 90.990, 90.990, 89.187, 89.187, 90.990, 90.990, 89.187};
@@ -39,55 +40,99 @@ std::vector<double> all(double length_mm) {
 }
 
 const std::vector<Published> kPublished = {
-    {"spidar-g6c", all(156.70), 0.005, "--------", "++++++++"},
+    {"spidar-g6c", all(156.70), 0.005, "--------", "++++++++", 0.3, 2.03086921e-5, 1, 20},
     {"spidar-g6jun",
      {185.79, 186.53, 186.53, 185.79, 185.79, 186.53, 186.53, 185.79},
      0.005,
      "++++----",
-     "++++++++"},
+     "++++++++",
+     0.3,
+     2.924062107079e-5,
+     1,
+     20},
     {"spidar-g6o",
      {155.30, 155.40, 155.40, 155.30, 155.30, 155.40, 155.40, 155.30},
      0.005,
      "--+++---",
-     "++++++++"},
-    {"spidar-g6x", all(104.08), 0.005, "-+-++-+-", "++++++++"},
-    {"spidar-g6x2", all(104.08), 0.005, "++++++++", "++++++++"},
-    {"spidar-g6x3-v1-r", all(92.17), 0.005, "++----++", "++++++++"},
-    {"spidar-g6x3-v1-l", all(92.17), 0.005, "++----++", "++++++++"},
-    {"spidar-g6x3-v2-r", kG6x3, 0.005, "++----++", "++++++++"},
-    {"spidar-g6x3-v2-l", kG6x3, 0.005, "++----++", "++++++++"},
+     "++++++++",
+     0.15,
+     2.03086921e-5,
+     1,
+     20},
+    {"spidar-g6x", all(104.08), 0.005, "-+-++-+-", "++++++++", 0.12, 2.924062107079e-5, 1, 20},
+    {"spidar-g6x2", all(104.08), 0.005, "++++++++", "++++++++", 4 / 35.1, 1.705029838e-5, 0.7, 20},
+    {"spidar-g6x3-v1-r", all(92.17), 0.005, "++----++", "++++++++", 4 / 35.1, 1.705029838e-5, 1,
+     20},
+    {"spidar-g6x3-v1-l", all(92.17), 0.005, "++----++", "++++++++", 4 / 35.1, 1.705029838e-5, 1,
+     20},
+    {"spidar-g6x3-v2-r", kG6x3, 0.005, "++----++", "++++++++", 0.365296803653, 1.66555e-5, 0.3, 20},
+    {"spidar-g6x3-v2-l", kG6x3, 0.005, "++----++", "++++++++", 0.365296803653, 1.66555e-5, 0.3, 20},
     {"spidar-g645",
      {326.22, 325.97, 325.97, 326.22, 326.22, 325.97, 325.97, 326.22},
      0.005,
      "++++++++",
-     "++++++++"},
+     "++++++++",
+     0.3,
+     2.924062107079e-5,
+     1,
+     20},
     {"spidar-g6x4",
      {121.57, 126.29, 126.29, 121.57, 121.57, 126.29, 126.29, 121.57},
      0.005,
      "--++++--",
-     "++----++"},
+     "++----++",
+     0.08,
+     3.485e-5,
+     0.2,
+     20},
     {"spidar-g6x5-r",
      {123.75, 123.75, 124.24, 124.24, 123.75, 123.75, 124.24, 124.24},
      0.005,
      "-+-+-+-+",
-     "+-+-+-+-"},
+     "+-+-+-+-",
+     0.091,
+     2.25e-5,
+     0.3,
+     6},
     {"spidar-g6x5-l",
      {123.75, 123.75, 124.24, 124.24, 123.75, 123.75, 124.24, 124.24},
      0.005,
      "++++++++",
-     "++++++++"},
-    {"spidar-i7", {26.75, 26.75, 26.75, 30.87, 30.87, 30.87, 30.87}, 0.005, "+++++++", "+++++++"},
-    // Rotation direction a is written +, b −.
-    {"spidar-gcc", kGcc, 0.0005, "-+-++-+-", "-+-++-+-"},
-    {"spidar-gcc-l", kGcc, 0.0005, "-+-++-+-", "-+-++-+-"},
-    {"spidar-gcc-sh", kGcc, 0.0005, "-+-++-+-", "-+-++-+-"},
-    {"spidar-g", kG, 0.05, "++----++", "++----++"},
-    {"spidar-g-sh", kG, 0.05, "++----++", "++----++"},
-    {"spidar-i05", all(25.9), 0.05, "++--++--", "++--++--"},
-    {"spidar-igarashi001", all(30.0), 0.05, "+-+-+-+-", "+-+-+-+-"},
-    {"spidar-igarashi002", all(39.7), 0.05, "+-+-+-+-", "+-+-+-+-"},
-    {"spidar-koyama003", all(38.3), 0.05, "+-+-+-+-", "+-+-+-+-"},
-    {"spidar-isotropic", all(21.6), 0.05, "--++--++", "--++--++"},
+     "++++++++",
+     0.091,
+     2.25e-5,
+     0.3,
+     6},
+    {"spidar-i7",
+     {26.75, 26.75, 26.75, 30.87, 30.87, 30.87, 30.87},
+     0.005,
+     "+++++++",
+     "+++++++",
+     0.2279,
+     0.008 * M_PI / 500 / 4,
+     0.4,
+     3},
+    // Rotation direction a is written +, b −. A GCC's log has volt and force per A/D digit, and the
+    // length per pulse.
+    {"spidar-gcc", kGcc, 0.0005, "-+-++-+-", "-+-++-+-", 6.105006e-4 / 2.600732e-3, 1.533981e-5,
+     0.05, 4.2},
+    {"spidar-gcc-l", kGcc, 0.0005, "-+-++-+-", "-+-++-+-", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048,
+     0.02, 4.2},
+    {"spidar-gcc-sh", kGcc, 0.0005, "-+-++-+-", "-+-++-+-", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048,
+     0.02, 4.2},
+    {"spidar-g", kG, 0.05, "++----++", "++----++", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.01, 6},
+    {"spidar-g-sh", kG, 0.05, "++----++", "++----++", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.002,
+     6},
+    {"spidar-i05", all(25.9), 0.05, "++--++--", "++--++--", 3.0 / 21.3, 2 * M_PI * 3.0e-3 / 2048,
+     0.05, 5},
+    {"spidar-igarashi001", all(30.0), 0.05, "+-+-+-+-", "+-+-+-+-", 4.5 / 10,
+     2 * M_PI * 4.5e-3 / 2048, 0.02, 4.2},
+    {"spidar-igarashi002", all(39.7), 0.05, "+-+-+-+-", "+-+-+-+-", 4.5 / 10.1,
+     2 * M_PI * 4.5e-3 / 2048, 0.025, 1.2},
+    {"spidar-koyama003", all(38.3), 0.05, "+-+-+-+-", "+-+-+-+-", 4.5 / 10.1,
+     2 * M_PI * 4.5e-3 / 2048, 0.0018, 1.2},
+    {"spidar-isotropic", all(21.6), 0.05, "--++--++", "--++--++", 2.55 / 10.1,
+     2 * M_PI * 2.55e-3 / 2048, 0.0018, 1.2},
 };
 
 std::string sign(int value) {
@@ -108,8 +153,14 @@ TEST_P(ShippedProfile, HomeLengthsAreAsPublished) {
         << "string " << i;
 }
 
-TEST_P(ShippedProfile, SignsAreAsPublished) {
+TEST_P(ShippedProfile, DrivesAreAsPublished) {
   const Profile profile = load_profile(GetParam().name);
+  const StringDrive& drive = profile.drives[0];
+  // The files have at least seven digits.
+  EXPECT_NEAR(drive.newtons_per_volt * GetParam().volts_per_newton, 1, 5e-7);
+  EXPECT_NEAR(drive.metres_per_count / GetParam().metres_per_count, 1, 5e-7);
+  EXPECT_EQ(drive.min_tension_N, GetParam().min_N);
+  EXPECT_EQ(drive.max_tension_N, GetParam().max_N);
   std::string encoder, motor;
   for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
     encoder += sign(profile.drives[i].encoder_sign);
@@ -183,50 +234,6 @@ TEST(ShippedProfiles, NoneIsUntestedAndTheDefaultIsAmongThem) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     shipped.insert(entry.path().stem().string());
   EXPECT_EQ(shipped, tested);
-}
-
-TEST(ShippedProfiles, ElectricalNumbersAreAsPublished) {
-  struct Row {
-    std::string name;
-    double volts_per_newton, metres_per_count, min_N, max_N;
-  };
-  const std::vector<Row> rows = {
-      {"spidar-g6c", 0.3, 2.03086921e-5, 1, 20},
-      {"spidar-g6jun", 0.3, 2.924062107079e-5, 1, 20},
-      {"spidar-g6o", 0.15, 2.03086921e-5, 1, 20},
-      {"spidar-g6x", 0.12, 2.924062107079e-5, 1, 20},
-      {"spidar-g6x2", 4 / 35.1, 1.705029838e-5, 0.7, 20},
-      {"spidar-g6x3-v1-r", 4 / 35.1, 1.705029838e-5, 1, 20},
-      {"spidar-g6x3-v1-l", 4 / 35.1, 1.705029838e-5, 1, 20},
-      {"spidar-g645", 0.3, 2.924062107079e-5, 1, 20},
-      {"spidar-i7", 0.2279, 0.008 * M_PI / 500 / 4, 0.4, 3},
-      {"spidar-g6x3-v2-r", 0.365296803653, 1.66555e-5, 0.3, 20},
-      {"spidar-g6x3-v2-l", 0.365296803653, 1.66555e-5, 0.3, 20},
-      {"spidar-g6x4", 0.08, 3.485e-5, 0.2, 20},
-      {"spidar-g6x5-r", 0.091, 2.25e-5, 0.3, 6},
-      {"spidar-g6x5-l", 0.091, 2.25e-5, 0.3, 6},
-      // A GCC's log: volt and force per A/D digit, length per pulse.
-      {"spidar-gcc", 6.105006e-4 / 2.600732e-3, 1.533981e-5, 0.05, 4.2},
-      {"spidar-gcc-l", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.02, 4.2},
-      {"spidar-gcc-sh", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.02, 4.2},
-      {"spidar-g", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.01, 6},
-      {"spidar-g-sh", 5.0 / 21.3, 2 * M_PI * 5.0e-3 / 2048, 0.002, 6},
-      {"spidar-i05", 3.0 / 21.3, 2 * M_PI * 3.0e-3 / 2048, 0.05, 5},
-      {"spidar-igarashi001", 4.5 / 10, 2 * M_PI * 4.5e-3 / 2048, 0.02, 4.2},
-      {"spidar-igarashi002", 4.5 / 10.1, 2 * M_PI * 4.5e-3 / 2048, 0.025, 1.2},
-      {"spidar-koyama003", 4.5 / 10.1, 2 * M_PI * 4.5e-3 / 2048, 0.0018, 1.2},
-      {"spidar-isotropic", 2.55 / 10.1, 2 * M_PI * 2.55e-3 / 2048, 0.0018, 1.2},
-  };
-  EXPECT_EQ(rows.size(), kPublished.size());
-  for (const Row& row : rows) {
-    SCOPED_TRACE(row.name);
-    const StringDrive drive = load_profile(row.name).drives[0];
-    // The files have at least seven digits.
-    EXPECT_NEAR(drive.newtons_per_volt * row.volts_per_newton, 1, 5e-7);
-    EXPECT_NEAR(drive.metres_per_count / row.metres_per_count, 1, 5e-7);
-    EXPECT_EQ(drive.min_tension_N, row.min_N);
-    EXPECT_EQ(drive.max_tension_N, row.max_N);
-  }
 }
 
 // Where the strings hardly tell one of the six coordinates, the rounding of the counts moves the
