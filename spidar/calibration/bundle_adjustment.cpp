@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <random>
 
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
@@ -107,28 +106,6 @@ void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   for (size_t k = 0; k < blocks.size(); ++k) bundle.poses[k] = to_pose(blocks[k].data());
-}
-
-Eigen::VectorXd noise_bias(const CalibrationModel& model,
-                           const std::vector<StringVector>& paid_out_m, double sigma_m,
-                           int max_iterations, const Bundle& bundle) {
-  const int n = model.strings();
-  const double scale = model.scale(bundle.parameters);
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal(0, sigma_m);
-  std::vector<StringVector> above, below;
-  for (size_t k = 0; k < paid_out_m.size(); ++k) {
-    StringVector exact_m = paid_out_m[k], noise_m = StringVector::Zero();
-    exact_m.head(n) +=
-        model.length_errors_m(bundle.parameters, paid_out_m[k], bundle.poses[k], nullptr) / scale;
-    for (int i = 0; i < n; ++i) noise_m[i] = normal(random) / scale;
-    above.push_back(exact_m + noise_m);
-    below.push_back(exact_m - noise_m);
-  }
-  Bundle up = bundle, down = bundle;
-  adjust(model, above, sigma_m, Adjust::kAll, max_iterations, up);
-  adjust(model, below, sigma_m, Adjust::kAll, max_iterations, down);
-  return (up.parameters + down.parameters) / 2 - bundle.parameters;
 }
 
 namespace {

@@ -27,15 +27,6 @@ enum class Adjust { kPoses, kAll };
 void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
             double sigma_m, Adjust what, int max_iterations, Bundle& bundle);
 
-/// Bias of the parameters of `bundle`, which fits `paid_out_m` best. Poses are as noisy as the
-/// lengths, and least squares with a pose for each sample has a bias of the order of the squared
-/// noise, however many samples there are. Computed by a parametric bootstrap (Efron and Tibshirani
-/// 1993, ch. 10) with noise of `sigma_m` and its negative, whose first-order effects cancel. The
-/// noise is seeded, so that results are reproducible.
-Eigen::VectorXd noise_bias(const CalibrationModel& model,
-                           const std::vector<StringVector>& paid_out_m, double sigma_m,
-                           int max_iterations, const Bundle& bundle);
-
 /// √5.99: exceeded by 5 % of the good samples, whose squared error is χ² with two degrees of
 /// freedom in units of σ².
 inline constexpr double kHuber = 2.448;

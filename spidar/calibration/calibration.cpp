@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/grip/pose_solver.h"
+#include "core/grip/singular_values.h"
+#include "core/quantile.h"
 #include "spidar/calibration/bundle_adjustment.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"
-#include "spidar/calibration/uncertainty.h"
 #include "spidar/profiles/toml_field.h"
 #include "spidar/simulation/grip_model.h"
 
@@ -28,9 +28,18 @@ constexpr double kOutlier = 5.0;
 // If the strings slipped and stayed there, the earlier offsets are no longer valid: most of the
 // last tenth of the samples must fit.
 constexpr Eigen::Index kLastParts = 10;
-// Coefficients of a combination that are printed.
-constexpr double kShownShare = 0.3;
-constexpr size_t kShownParts = 6;
+
+/// Standard deviation of one length, estimated from the norms of the samples' errors; up to half of
+/// them may be arbitrary. The norm of a good sample is σ times the root of χ² with `redundant`
+/// degrees of freedom, one or two. `parameters` were fitted to all samples. Not less than
+/// `floor_m`.
+double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, double floor_m) {
+  const double errors = redundant * static_cast<double>(norms_m.size());
+  if (errors <= parameters) return floor_m;
+  const double median_of_chi = redundant == 1 ? kNormalMedian : kRayleighMedian;
+  const double left = std::sqrt((errors - parameters) / errors);
+  return std::max(floor_m, median(norms_m.begin(), norms_m.end()) / median_of_chi / left);
+}
 
 /// The fitted parameters and their errors.
 struct Fit {
@@ -73,58 +82,48 @@ void refine(double floor_m, Fit& fit) {
   }
 }
 
-void remove_bias(double noise_m, double floor_m, Fit& fit) {
-  fit.bundle.parameters -=
-      noise_bias(fit.model, fit.lengths_m, noise_m, kMaxFitIterations, fit.bundle);
-  adjust(fit.model, fit.lengths_m, fit.sigma_m, Adjust::kPoses, kMaxFitIterations, fit.bundle);
-  fit.look_at_errors(floor_m);
+/// Factor by which standard deviations grow because errors of successive samples (rows) are
+/// correlated, as those of a wrong model are. Computed as for a first-order autoregression with
+/// their correlation. It is one if the correlation is no larger than by chance.
+double correlation_factor(const Fit& fit) {
+  constexpr double kMaxCorrelation = 0.9999;
+  const Eigen::MatrixXd weighted = fit.weights.asDiagonal() * fit.errors_m;
+  const Eigen::Index pairs = weighted.rows() - 1;
+  const double total = weighted.squaredNorm();
+  if (pairs < 1 || !(total > 0)) return 1;
+  const double product = weighted.topRows(pairs).cwiseProduct(weighted.bottomRows(pairs)).sum();
+  const double correlation = product / total;
+  // Three standard deviations of the correlation of independent errors.
+  const double chance = 3 / std::sqrt(static_cast<double>(fit.redundant() * pairs));
+  if (correlation <= chance) return 1;
+  const double bounded = std::min(correlation, kMaxCorrelation);
+  return std::sqrt((1 + bounded) / (1 - bounded));
 }
 
-/// The largest coefficients of a combination of named quantities, as text.
-std::string combination_text(const CalibrationModel& model, const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXd hundredths = (100 * coefficients).array().round().matrix();
-  std::vector<int> order(static_cast<size_t>(coefficients.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return std::abs(hundredths[a]) > std::abs(hundredths[b]); });
-  const double least = kShownShare * std::abs(hundredths[order[0]]);
-  std::string text;
-  for (size_t n = 0; n < std::min(kShownParts, order.size()); ++n) {
-    const double c = hundredths[order[n]];
-    if (std::abs(c) < least) break;
-    text += n == 0 ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-    text += shown(std::abs(c) / 100) + " " + model.quantity_name(order[n]);
-  }
-  return text;
-}
-
-/// Computes the standard deviations of the estimates. Returns whether they would be small enough if
-/// the errors of successive samples were independent.
-bool find_observable(const Fit& fit, CalibrationResult& result) {
+/// The standard deviation of the combination of parameters that the samples tell worst, relative to
+/// that of a length, if the errors of successive samples are independent. Infinite where nothing is
+/// told. The pose of each sample is eliminated by an orthogonal projection, which is the Schur
+/// complement of bundle adjustment as a square root: it stays accurate where the information matrix
+/// is singular and its inverse does not exist.
+double largest_sd(const Fit& fit) {
+  // Singular values below this share of the largest one are rounding errors.
+  constexpr double kRank = 1e-10;
   const CalibrationModel& model = fit.model;
-  Observability observability(model.size());
-  for (size_t k = 0; k < fit.lengths_m.size(); ++k) {
+  const Eigen::Index left = fit.redundant(), samples = fit.errors_m.rows();
+  Eigen::MatrixXd root =
+      Eigen::MatrixXd::Zero(std::max<Eigen::Index>(model.size(), left * samples), model.size());
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    const auto i = static_cast<size_t>(k);
     CalibrationModel::Derivatives d;
-    model.length_errors_m(fit.bundle.parameters, fit.lengths_m[k], fit.bundle.poses[k], &d);
-    observability.add(d.by_twist, d.by_parameter, fit.weights[static_cast<Eigen::Index>(k)]);
+    model.length_errors_m(fit.bundle.parameters, fit.lengths_m[i], fit.bundle.poses[i], &d);
+    const Eigen::MatrixXd unexplained =
+        singular_values(d.by_twist.transpose()).directions.rightCols(left);
+    root.middleRows(left * k, left) =
+        std::sqrt(fit.weights[k]) * unexplained.transpose() * d.by_parameter;
   }
-  Observability::Directions directions = observability.directions();
-  directions.sd *= result.length_noise_m;
-  const bool motion_suffices = directions.sd.maxCoeff() <= kMaxCalibrationSd_m;
-  directions.sd *= correlation_factor(fit.errors_m, fit.weights, fit.redundant());
-  const Eigen::MatrixXd quantities = model.quantities();
-  for (Eigen::Index i = 0; i < directions.sd.size(); ++i)
-    if (directions.sd[i] > kMaxCalibrationSd_m)
-      result.undetermined.push_back(
-          {directions.sd[i], combination_text(model, quantities * directions.directions.col(i))});
-
-  const Eigen::VectorXd sd = standard_deviations(directions, quantities);
-  result.home_offset_sd_m.head(model.strings()) = sd.head(model.strings());
-  if (model.scale_row() >= 0) result.scale_sd = sd[model.scale_row()] / model.mean_length_m();
-  if (model.exit_row() >= 0)
-    for (int i = 0; i < model.strings(); ++i)
-      result.exit_sd_m.col(i) = sd.segment<3>(model.exit_row() + 3 * i);
-  return motion_suffices;
+  const Eigen::VectorXd told = singular_values(root).values;
+  const double least = told[told.size() - 1];
+  return least > kRank * told[0] ? 1 / least : std::numeric_limits<double>::infinity();
 }
 
 void describe_parameters(const Fit& fit, CalibrationResult& result) {
@@ -147,18 +146,11 @@ void describe_motion(const std::vector<Pose>& poses, CalibrationResult& result) 
   result.turned_rad = turns.sizes() / 2;
 }
 
-void describe_errors(const Fit& fit, CalibrationResult& result) {
-  const auto samples = static_cast<double>(fit.errors_m.rows());
-  result.samples = static_cast<int>(fit.errors_m.rows());
-  result.residual_m = fit.errors_m.norm() / std::sqrt(samples * fit.model.strings());
-  result.string_residual_m.head(fit.model.strings()) =
-      fit.errors_m.colwise().norm().transpose() / std::sqrt(samples);
-}
-
 /// Whether half of the samples have larger errors than are tolerable in a tick, or the last ones do
 /// not fit.
 bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
-  const double typical_m = median(fit.norms_m) / std::sqrt(fit.model.strings());
+  Eigen::VectorXd norms_m = fit.norms_m;
+  const double typical_m = median(norms_m.begin(), norms_m.end()) / std::sqrt(fit.model.strings());
   const Eigen::Index last = (outliers.size() + kLastParts - 1) / kLastParts;
   return typical_m > PoseSolver::kMaxResidual_m || outliers.tail(last).mean() > 0.5;
 }
@@ -181,29 +173,20 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
 
   CalibrationResult result;
   result.estimated = settings;
-  result.length_noise_m = fit.noise_m(rounding_m);
-  const bool motion_suffices = find_observable(fit, result);
-  if (motion_suffices) remove_bias(result.length_noise_m, rounding_m, fit);
-  result.home_offset_uncertainty_m = offset_uncertainty_m(model, lengths_m, fit.bundle, fit.weights,
-                                                          result.length_noise_m, rounding_m);
-  // Quantities that the motion does not determine get no value.
-  result.home_offset_uncertainty_m =
-      result.home_offset_uncertainty_m.cwiseMax(result.home_offset_sd_m);
+  result.samples = static_cast<int>(fit.errors_m.rows());
+  result.residual_m = fit.errors_m.norm() / std::sqrt(static_cast<double>(fit.errors_m.size()));
   describe_parameters(fit, result);
   describe_motion(fit.bundle.poses, result);
+  const double sd_m = fit.noise_m(rounding_m) * largest_sd(fit);
   const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();
-  result.outlier_share = outliers.mean();
-  describe_errors(fit, result);
-
-  if (contradicts(fit, outliers)) {
+  if (contradicts(fit, outliers))
     result.status = CalibrationStatus::kContradiction;
-  } else if (!motion_suffices) {
+  else if (!(sd_m <= kMaxCalibrationSd_m))
     result.status = CalibrationStatus::kUndetermined;
-  } else if (!result.undetermined.empty()) {
+  else if (!(sd_m * correlation_factor(fit) <= kMaxCalibrationSd_m))
     result.status = CalibrationStatus::kContradiction;
-  } else {
+  else
     result.status = CalibrationStatus::kSolved;
-  }
   return result;
 }
 
@@ -214,6 +197,7 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
   result.status = CalibrationStatus::kSolved;
   result.exit_m = profile.geometry.exit_m;
   result.samples = static_cast<int>(counts.rows());
+  double squares_m2 = 0;
   for (int i = 0; i < model.strings(); ++i) {
     const double m_per_count = profile.drives[static_cast<size_t>(i)].metres_per_count;
     const Eigen::VectorXd held = counts.col(i);
@@ -223,17 +207,11 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
           "calibration: the grip was not held still: the length of string " + shown(i) +
           " changed by " + shown(1e3 * range_m) + " mm, must be less than " +
           shown(1e3 * kMaxHeldRange_m) + " mm");
-    const double mean = held.mean();
-    const double variance = (held.array() - mean).square().mean();
-    result.home_offset_sd_m[i] = m_per_count * std::sqrt(variance + 1.0 / 12);
-    result.string_residual_m[i] = m_per_count * std::sqrt(variance);
+    squares_m2 += (m_per_count * (held.array() - held.mean())).square().mean();
   }
   const Eigen::VectorXd mean = counts.colwise().mean();
   result.home_offset_m = -model.paid_out_m(mean);
-  result.residual_m = result.string_residual_m.norm() / std::sqrt(model.strings());
-  result.home_offset_uncertainty_m.head(model.strings())
-      .setConstant(std::numeric_limits<double>::infinity());
-  result.length_noise_m = result.home_offset_sd_m.head(model.strings()).mean();
+  result.residual_m = std::sqrt(squares_m2 / model.strings());
   result.cleared_at = pose_at_zero_count(profile.geometry, result.home_offset_m);
   return result;
 }
@@ -258,28 +236,19 @@ Profile calibrated_profile(const Profile& profile, const CalibrationResult& resu
   Profile calibrated = profile;
   calibrated.geometry.exit_m = result.exit_m;
   const auto count = static_cast<size_t>(profile.geometry.count);
-  CalibrationRecord record;
-  record.samples = result.samples;
-  record.residual_m = result.residual_m;
   for (size_t i = 0; i < count; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     calibrated.drives[i].home_offset_m = result.home_offset_m[k];
     calibrated.drives[i].metres_per_count *= result.scale;
-    record.home_offset_sd_m.push_back(result.home_offset_sd_m[k]);
   }
   const std::string note =
       shown(result.samples) + " samples, residual " + shown(1e6 * result.residual_m) + " um";
   replace_provenance("home_offset_m", how, note, calibrated.provenance);
-  if (result.estimated.free_scale) {
-    record.scale_sd = result.scale_sd;
+  if (result.estimated.free_scale)
     replace_provenance("metres_per_count", how, note, calibrated.provenance);
-  }
-  if (result.estimated.free_exits) {
-    for (int i = 0; i < profile.geometry.count; ++i)
-      record.exit_sd_m.push_back(result.exit_sd_m.col(i));
+  if (result.estimated.free_exits)
     replace_provenance("geometry", how, "exits; " + note, calibrated.provenance);
-  }
-  calibrated.calibration = record;
+  calibrated.calibration = CalibrationRecord{result.samples, result.residual_m};
   return calibrated;
 }
 

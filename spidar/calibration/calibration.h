@@ -6,7 +6,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -28,19 +27,11 @@ struct CalibrationSettings {
 
 enum class CalibrationStatus {
   kSolved,
-  /// The motion does not determine everything that was asked for; see `undetermined`.
+  /// The motion does not determine everything that was asked for.
   kUndetermined,
   /// No values make the lengths agree, or their remaining errors are not noise: the geometry or the
   /// scale is wrong, a string slips, or the counters were cleared too far from the centre.
   kContradiction,
-};
-
-/// Direction in the space of the estimated parameters that the samples hardly determine.
-struct UndeterminedCombination {
-  /// Standard deviation along this direction; infinite if no length depends on it.
-  double sd_m = 0;
-  /// The largest coefficients, for example "0.71 offset 2 − 0.71 offset 6".
-  std::string text;
 };
 
 struct CalibrationResult {
@@ -55,37 +46,19 @@ struct CalibrationResult {
   /// because that would be a different choice of D.
   std::array<Eigen::Vector3d, kMaxStrings> exit_m{};
 
-  /// Standard deviations (infinite when undetermined, zero when not asked for): of the lengths at
-  /// zero count, the scale, and the exits. They account for errors that successive samples share,
-  /// such as those of a wrong geometry. All assume that the other numbers of the profile are exact.
-  StringVector home_offset_sd_m = StringVector::Zero();
-  double scale_sd = 0;
-  Eigen::Matrix<double, 3, kMaxStrings> exit_sd_m =
-      Eigen::Matrix<double, 3, kMaxStrings>::Zero();  ///< a column for each string
-  /// Expected root mean square error of the lengths at zero count if those numbers are not exact:
-  /// exits and points on the grip to 1 mm in each coordinate, the scale of each string to 0.5 %,
-  /// including its stretch. It is smaller if the remaining errors of the lengths indicate that.
-  /// Infinite when undetermined, and after calibrate_at_centre(), which cannot estimate it.
-  StringVector home_offset_uncertainty_m = StringVector::Zero();
-
   /// The pose of the grip at which the counters were zero.
   Pose cleared_at;
 
-  int samples = 0;            ///< used; successive samples that agree are averaged
-  double residual_m = 0;      ///< root mean square length error over samples and strings, including
-                              ///< outliers; PoseResult::residual_m is the same for one sample
-  double length_noise_m = 0;  ///< standard deviation of one length, without outliers
-  double outlier_share = 0;   ///< share of samples whose strings contradict each other
-  StringVector string_residual_m = StringVector::Zero();  ///< root mean square error of each string
+  int samples = 0;        ///< used; successive samples that agree are averaged
+  double residual_m = 0;  ///< root mean square length error over samples and strings, including
+                          ///< outliers; PoseResult::residual_m is the same for one sample
   /// How far the grip was moved and turned: half the range for each axis of D.
   Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();
-
-  std::vector<UndeterminedCombination> undetermined;  ///< the worst first
 };
 
-/// Largest permitted standard deviation of a combination, equal to the error of a length that
-/// PoseSolver treats as a fault. Combinations with a larger one are `undetermined`.
+/// Largest permitted standard deviation of any combination of what is estimated, equal to the error
+/// of a length that PoseSolver treats as a fault.
 inline constexpr double kMaxCalibrationSd_m = 50e-6;
 
 /// Minimum number of samples, both for a moved and for a held grip.
@@ -102,8 +75,7 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
                             const CalibrationSettings& settings = {});
 
 /// Calibrates only the offsets, from a grip that is held still at the centre without rotation.
-/// Their standard deviation is that of the counts; it does not include how accurately the hand
-/// found the centre.
+/// They are as accurate as the hand finds the centre.
 ///
 /// Throws std::invalid_argument as calibrate(), with any number of strings, and when a count moves
 /// by more than kMaxHeldRange_m.
@@ -112,9 +84,8 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
 /// Tremor of a hand that holds still is smaller than this.
 inline constexpr double kMaxHeldRange_m = 3e-3;
 
-/// Returns the profile with the result, its standard deviations, residual and provenance. `how`
-/// describes the provenance, for example "moved for 20 s". Throws std::invalid_argument unless the
-/// status is kSolved.
+/// Returns the profile with the result, its residual and provenance. `how` describes the provenance,
+/// for example "moved for 20 s". Throws std::invalid_argument unless the status is kSolved.
 Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
                            const std::string& how);
 

@@ -91,18 +91,4 @@ Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& paramet
   return error_m;
 }
 
-Eigen::MatrixXd CalibrationModel::quantities() const {
-  Eigen::MatrixXd meaning = Eigen::MatrixXd::Zero(exits_at_ + exit_directions_.rows(), size());
-  meaning.topLeftCorner(exits_at_, exits_at_).setIdentity();
-  meaning.bottomRightCorner(exit_directions_.rows(), exit_directions_.cols()) = exit_directions_;
-  return meaning;
-}
-
-std::string CalibrationModel::quantity_name(int row) const {
-  if (row < strings()) return "offset " + std::to_string(row);
-  if (row == scale_at_) return "scale";
-  const int exit = row - exits_at_;
-  return "exit " + std::to_string(exit / 3) + " " + "xyz"[exit % 3];
-}
-
 }  // namespace spidar

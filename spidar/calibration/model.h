@@ -50,15 +50,6 @@ class CalibrationModel {
   Eigen::VectorXd length_errors_m(const Eigen::VectorXd& parameters, const StringVector& paid_out_m,
                                   const Pose& pose, Derivatives* derivatives) const;
 
-  /// What the parameters mean, one row each: offset of each string, scale minus one times length,
-  /// and x, y, z of each exit; the last two if they are free.
-  Eigen::MatrixXd quantities() const;
-  std::string quantity_name(int row) const;
-  int scale_row() const { return scale_at_; }  ///< −1: not free
-  int exit_row() const { return exit_directions_.cols() > 0 ? exits_at_ : -1; }
-
-  double mean_length_m() const { return mean_length_m_; }
-
  private:
   StringGeometry geometry_;
   StringVector home_length_m_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidarctl conformance` found, as a text to send in.
+/// What `spidarctl selftest` and `conformance` found: for people, for programs, and to send in.
 #pragma once
 
 #include <iosfwd>
@@ -9,10 +9,18 @@
 
 #include "spidar/conformance/delay_test.h"
 #include "spidar/conformance/observed_device.h"
+#include "spidar/conformance/report_text.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/session/board_list.h"
 
 namespace spidar {
+
+/// On standard error: what to do with the hand before unclear motors are pulled again.
+void tell_to_hold_still(const WiringReport& report);
+
+void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
+                  const WiringReport& report);
+Json wiring_json(const Profile& profile, const WiringAnswers& answers, const WiringReport& report);
 
 struct Conformance {
   BoardInfo board;

@@ -2,13 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/conformance/hold.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/loop_time.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {
@@ -27,17 +22,21 @@ std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns)
          "; check cable and power";
 }
 
-void LossWatch::see(ExchangeStatus status, const std::string& name, const LinkHealth& health) {
+template <typename Value, typename Reading>
+void Hold<Value, Reading>::watch(ExchangeStatus status) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
   errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
   if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
-    throw DeviceError(loss_text(name, health.last_fault, late_ns));
+    throw DeviceError(loss_text(name(), health().last_fault, late_ns));
 }
 
+template class Hold<StringVector, DeviceReading>;
+template class Hold<Eigen::Vector3d, GripReading>;
+
 StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
-    : device_(device), profile_(profile), pace_(std::move(pace)) {
+    : Hold(std::move(pace)), device_(device), profile_(profile) {
   device_.open();
 }
 
@@ -45,42 +44,18 @@ StringHold::~StringHold() {
   device_.close();
 }
 
-/// Returns false when there is no new reading.
-bool StringHold::exchange() {
-  const ExchangeStatus status = device_.exchange(to_volts(tension_N_, profile_), reading_);
-  watch_.see(status, device_.name(), device_.health());
-  return status == ExchangeStatus::kOk;
-}
-
-bool StringHold::go(const StringVector& tension_N, double seconds) {
-  const StringVector from_N = tension_N_;
-  const StringVector to_N =
+ExchangeStatus StringHold::put_out(const StringVector& tension_N) noexcept {
+  const StringVector possible_N =
       tension_N.cwiseMax(StringVector::Zero()).cwiseMin(profile_.max_tension_N());
-  const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
-  for (int64_t tick = 1; tick <= ticks; ++tick) {
-    if (!pace_()) return false;
-    const double share = static_cast<double>(tick) / static_cast<double>(ticks);
-    tension_N_ = from_N + share * (to_N - from_N);
-    exchange();
-  }
-  return true;
-}
-
-bool StringHold::stay(double seconds, const std::function<bool(const DeviceReading&)>& seen) {
-  // Half a tick, for the rounding errors of a long sum.
-  for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
-    if (!pace_()) return false;
-    if (exchange() && seen && !seen(reading_)) return true;
-  }
-  return true;
+  return device_.exchange(to_volts(possible_N, profile_), reading_);
 }
 
 void StringHold::release() {
-  const StringVector from_N = tension_N_;
+  const StringVector from_N = value_;
   constexpr int kTicks = static_cast<int>(HapticLoop::kRelease_s / kTick_s + 0.5);
   for (int left = kTicks - 1; left >= 0; --left) {
     pace_();
-    tension_N_ = from_N * left / kTicks;
+    value_ = from_N * left / kTicks;
     exchange();
   }
 }
@@ -89,7 +64,7 @@ void StringHold::reverse_motor(int string) {
   profile_.drives[static_cast<size_t>(string)].motor_sign *= -1;
 }
 
-ForceHold::ForceHold(Grip& grip, Pace pace) : grip_(grip), pace_(std::move(pace)) {
+ForceHold::ForceHold(Grip& grip, Pace pace) : Hold(std::move(pace)), grip_(grip) {
   command_.dt_s = kTick_s;
   grip_.open();
 }
@@ -98,35 +73,10 @@ ForceHold::~ForceHold() {
   grip_.close();
 }
 
-/// Returns false when there is no new reading.
-bool ForceHold::exchange() {
+ExchangeStatus ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {
   command_.now_ns += kTick_ns;
-  const ExchangeStatus status = grip_.exchange(command_);
-  watch_.see(status, grip_.name(), grip_.health());
-  return status == ExchangeStatus::kOk;
-}
-
-bool ForceHold::go(const Eigen::Vector3d& force_N, double seconds) {
-  const Eigen::Vector3d from_N = command_.wrench.force_N;
-  const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
-  command_.power = 1;
-  command_.fresh = true;
-  for (int64_t tick = 1; tick <= ticks; ++tick) {
-    if (!pace_()) return false;
-    const double share = static_cast<double>(tick) / static_cast<double>(ticks);
-    command_.wrench.force_N = from_N + share * (force_N - from_N);
-    exchange();
-  }
-  return true;
-}
-
-bool ForceHold::stay(double seconds, const std::function<bool(const GripReading&)>& seen) {
-  // Half a tick, for the rounding errors of a long sum.
-  for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
-    if (!pace_()) return false;
-    if (exchange() && seen && !seen(grip_.reading())) return true;
-  }
-  return true;
+  command_.wrench.force_N = force_N;
+  return grip_.exchange(command_);
 }
 
 }  // namespace spidar

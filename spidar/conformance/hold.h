@@ -3,15 +3,19 @@
 /// Sets string tensions, or the force of a grip, directly, millisecond by millisecond.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include "core/grip/string_geometry.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
+#include "spidar/loop/loop_time.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -19,25 +23,69 @@ namespace spidar {
 /// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
 
-/// Finds out from the results of exchanges that a device is lost, and why.
-class LossWatch {
- public:
-  /// To be called after every exchange. Throws DeviceError, which says what happened, when the
-  /// device is lost, or has not answered for too long.
-  void see(ExchangeStatus status, const std::string& name, const LinkHealth& health);
-
- private:
-  int errors_in_a_row_ = 0;
-  int64_t last_ns_ = 0;  // when the latest exchange ended
-};
-
 /// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
 /// or its guardian ended, that is what the text names. `late_ns`: since the exchange before.
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
 
-/// Keeps a device open during its lifetime. Tensions change linearly. Every function throws
-/// DeviceError when the device is lost.
-class StringHold {
+/// What the holds of strings and of a grip have in common. The value changes linearly. Every
+/// function throws DeviceError, which says what happened, when the device is lost, or has not
+/// answered for too long.
+template <typename Value, typename Reading>
+class Hold {
+ public:
+  /// Goes to this value within the given time. Returns false when ended early.
+  bool go(const Value& value, double seconds) {
+    const Value from = value_;
+    const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
+    for (int64_t tick = 1; tick <= ticks; ++tick) {
+      if (!pace_()) return false;
+      const double share = static_cast<double>(tick) / static_cast<double>(ticks);
+      value_ = from + share * (value - from);
+      exchange();
+    }
+    return true;
+  }
+
+  /// Holds the value for the given time, which may be infinite. Calls `seen` with every reading and
+  /// ends when it returns false. Returns false when the pace ended it early.
+  bool stay(double seconds, const std::function<bool(const Reading&)>& seen = {}) {
+    // Half a tick, for the rounding errors of a long sum.
+    for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
+      if (!pace_()) return false;
+      if (exchange() && seen && !seen(reading())) return true;
+    }
+    return true;
+  }
+
+ protected:
+  explicit Hold(Pace pace) : pace_(std::move(pace)) {}
+  ~Hold() = default;
+
+  virtual ExchangeStatus put_out(const Value& value) noexcept = 0;
+  virtual const Reading& reading() const noexcept = 0;
+  virtual LinkHealth health() const noexcept = 0;
+  virtual const std::string& name() const noexcept = 0;
+
+  /// Returns false when there is no new reading.
+  bool exchange() {
+    const ExchangeStatus status = put_out(value_);
+    watch(status);
+    return status == ExchangeStatus::kOk;
+  }
+
+  const Pace pace_;
+  Value value_ = Value::Zero();
+
+ private:
+  /// Throws DeviceError.
+  void watch(ExchangeStatus status);
+
+  int errors_in_a_row_ = 0;
+  int64_t last_ns_ = 0;  // when the latest exchange ended
+};
+
+/// Keeps a device open during its lifetime, and its strings at tensions in newtons.
+class StringHold final : public Hold<StringVector, DeviceReading> {
  public:
   /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(Device& device, const Profile& profile, Pace pace);
@@ -46,36 +94,25 @@ class StringHold {
   StringHold(const StringHold&) = delete;
   StringHold& operator=(const StringHold&) = delete;
 
-  /// Ramps to these tensions, in newtons from zero to each string's largest, within the given time.
-  /// Returns false when ended early.
-  bool go(const StringVector& tension_N, double seconds);
-
-  /// Holds the tensions for the given time, which may be infinite. Calls `seen` with every reading
-  /// and ends when it returns false. Returns false when the pace ended it early.
-  bool stay(double seconds, const std::function<bool(const DeviceReading&)>& seen = {});
-
   /// Ramps to zero; does not end early.
   void release();
 
   /// Reverses the sign of this string's volts. Its tension must be zero.
   void reverse_motor(int string);
 
-  const StringVector& tension_N() const noexcept { return tension_N_; }
-
  private:
-  bool exchange();
+  ExchangeStatus put_out(const StringVector& tension_N) noexcept override;
+  const DeviceReading& reading() const noexcept override { return reading_; }
+  LinkHealth health() const noexcept override { return device_.health(); }
+  const std::string& name() const noexcept override { return device_.name(); }
 
   Device& device_;
   Profile profile_;
-  const Pace pace_;
-  StringVector tension_N_ = StringVector::Zero();
   DeviceReading reading_;
-  LossWatch watch_;
 };
 
-/// Keeps a grip open during its lifetime. What StringHold is for strings. Every function throws
-/// DeviceError when the device is lost.
-class ForceHold {
+/// Keeps a grip open during its lifetime, and a force on it. The force is switched on by go().
+class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.
   ForceHold(Grip& grip, Pace pace);
@@ -84,21 +121,20 @@ class ForceHold {
   ForceHold(const ForceHold&) = delete;
   ForceHold& operator=(const ForceHold&) = delete;
 
-  /// Switches forces on, and goes to this one at a constant rate within the given time. Returns
-  /// false when ended early.
-  bool go(const Eigen::Vector3d& force_N, double seconds);
-
-  /// Holds the force for the given time. Calls `seen` with every reading and ends when it returns
-  /// false. Returns false when the pace ended it early.
-  bool stay(double seconds, const std::function<bool(const GripReading&)>& seen = {});
+  bool go(const Eigen::Vector3d& force_N, double seconds) {
+    command_.power = 1;
+    command_.fresh = true;
+    return Hold::go(force_N, seconds);
+  }
 
  private:
-  bool exchange();
+  ExchangeStatus put_out(const Eigen::Vector3d& force_N) noexcept override;
+  const GripReading& reading() const noexcept override { return grip_.reading(); }
+  LinkHealth health() const noexcept override { return grip_.health(); }
+  const std::string& name() const noexcept override { return grip_.name(); }
 
   Grip& grip_;
-  const Pace pace_;
   GripCommand command_;
-  LossWatch watch_;
 };
 
 }  // namespace spidar

@@ -3,7 +3,6 @@
 #include "spidar/conformance/lag_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -102,7 +101,6 @@ constexpr double kPart_s = 0.00025;
 constexpr double kPartShare = 0.1;
 /// Number of subdivisions between the two neighbours of the best part.
 constexpr int kFiner = 20;
-constexpr int kIterations = 8;
 
 struct Weighed {
   double rate_rad_s = 0;
@@ -126,90 +124,65 @@ Complex drive(double rate_rad_s, double part_s, double lag_s) {
   return std::exp(-j * (rate_rad_s * (lag_s - part_s))) / (1.0 + j * (rate_rad_s * part_s));
 }
 
-Complex dynamics(double rate_rad_s, const GripParameters& grip) {
-  return {grip[2] - grip[0] * rate_rad_s * rate_rad_s, grip[1] * rate_rad_s};
-}
-
-double cost_of(const std::vector<Weighed>& lines, const LagCandidate& candidate) {
-  double cost = 0;
-  for (const Weighed& line : lines) {
-    const Complex model = drive(line.rate_rad_s, candidate.part_s, candidate.lag_s) /
-                          dynamics(line.rate_rad_s, candidate.grip);
-    cost += std::norm(line.weight * (line.response - model));
-  }
-  return cost;
-}
-
-/// Initial estimate of the grip for a given lag, by linear least squares on the inverse response.
-/// It is only a start, because inversion changes the distribution of the noise.
-GripParameters start_of(const std::vector<Weighed>& lines, double part_s, double lag_s) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  GripParameters right = GripParameters::Zero();
-  for (const Weighed& line : lines) {
-    const double w = line.rate_rad_s;
-    const Complex inverse = drive(w, part_s, lag_s) / line.response;
-    const double weight = line.weight * std::norm(line.response);
-    const GripParameters real(-w * w, 0, 1), imaginary(0, w, 0);
-    normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
-    right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
-  }
-  return normal.ldlt().solve(right);
-}
-
-/// Gauss–Newton iteration over lag and grip.
-void refine(const std::vector<Weighed>& lines, LagCandidate& candidate) {
-  const Complex j(0, 1);
-  for (int n = 0; n < kIterations; ++n) {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    // Scales the unknowns to similar size, so that the matrix is well conditioned.
-    const Eigen::Vector4d unit(0.1, 1, 100, 1e-3);
-    for (const Weighed& line : lines) {
-      const double w = line.rate_rad_s;
-      const Complex bottom = dynamics(w, candidate.grip);
-      const Complex model = drive(w, candidate.part_s, candidate.lag_s) / bottom;
-      const std::array<Complex, 4> slope = {model * w * w / bottom, -model * j * w / bottom,
-                                            -model / bottom, -j * w * model};
-      Eigen::Vector4d real, imaginary;
-      for (int i = 0; i < 4; ++i) {
-        real[i] = line.weight * slope[static_cast<size_t>(i)].real() * unit[i];
-        imaginary[i] = line.weight * slope[static_cast<size_t>(i)].imag() * unit[i];
-      }
-      const Complex rest = line.weight * (line.response - model);
-      normal += real * real.transpose() + imaginary * imaginary.transpose();
-      right += real * rest.real() + imaginary * rest.imag();
+/// The best grip for a given lag, and its cost. The response is not linear in mass, damping and
+/// stiffness, its inverse is: linear least squares on that, in which the first pass weighs errors
+/// by the measured response, and the others by the response of the grip that was found (Sanathanan
+/// and Koerner 1963).
+LagCandidate best_grip(const std::vector<Weighed>& lines, double part_s, double lag_s) {
+  constexpr int kPasses = 3;
+  LagCandidate found{part_s, lag_s};
+  std::vector<Complex> model(lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) model[i] = lines[i].response;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    GripParameters right = GripParameters::Zero();
+    for (size_t i = 0; i < lines.size(); ++i) {
+      const double w = lines[i].rate_rad_s;
+      const Complex through = drive(w, part_s, lag_s);
+      const Complex inverse = through / lines[i].response;
+      const double weight = lines[i].weight * std::abs(model[i] * lines[i].response / through);
+      const GripParameters real(-w * w, 0, 1), imaginary(0, w, 0);
+      normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
+      right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
     }
-    const Eigen::Matrix4d covariance = normal.inverse();
-    candidate.error_s = unit[3] * std::sqrt(std::max(0.0, covariance(3, 3)));
-    const Eigen::Vector4d step = unit.cwiseProduct(covariance * right);
-    // Halves the step until the cost does not increase.
-    const LagCandidate before = candidate;
-    for (double share = 1; share > 1e-3; share /= 2) {
-      candidate.grip = before.grip + share * step.head<3>();
-      candidate.lag_s = before.lag_s + share * step[3];
-      candidate.cost = cost_of(lines, candidate);
-      if (candidate.cost <= before.cost) break;
-      candidate = before;
+    found.grip = normal.ldlt().solve(right);
+    found.cost = 0;
+    for (size_t i = 0; i < lines.size(); ++i) {
+      const double w = lines[i].rate_rad_s;
+      model[i] = drive(w, part_s, lag_s) /
+                 Complex(found.grip[2] - found.grip[0] * w * w, found.grip[1] * w);
+      found.cost += std::norm(lines[i].weight * (lines[i].response - model[i]));
     }
-    if (std::abs(candidate.lag_s - before.lag_s) < 1e-8) return;
   }
+  if (!(found.grip[0] > 0)) found.cost = kNone;
+  return found;
 }
 
 /// The best fit with this first-order part. Its cost is kNone if there is no valid one.
 LagCandidate best_with(const std::vector<Weighed>& lines, double part_s) {
-  LagCandidate best;
+  constexpr double kFinest_s = 1e-7;
   const double shortest_s = part_s + kShortestDelay_s;
-  for (double lag_s = shortest_s; lag_s <= kScanTo_s; lag_s += kScan_s) {
-    LagCandidate candidate;
-    candidate.part_s = part_s;
-    candidate.lag_s = lag_s;
-    candidate.grip = start_of(lines, part_s, lag_s);
-    candidate.cost = cost_of(lines, candidate);
-    if (candidate.cost < best.cost && candidate.grip[0] > 0) best = candidate;
-  }
+  LagCandidate best;
   best.part_s = part_s;
-  if (std::isfinite(best.cost)) refine(lines, best);
-  if (!(best.lag_s >= shortest_s) || !(best.grip[0] > 0)) best.cost = kNone;
+  for (double lag_s = shortest_s; lag_s <= kScanTo_s; lag_s += kScan_s) {
+    const LagCandidate candidate = best_grip(lines, part_s, lag_s);
+    if (candidate.cost < best.cost) best = candidate;
+  }
+  // A parabola through the costs around the best one, again and again. A lag that is off by its
+  // standard error costs one more.
+  for (double step_s = kScan_s / 2; std::isfinite(best.cost) && step_s > kFinest_s; step_s /= 4) {
+    const double below = best_grip(lines, part_s, best.lag_s - step_s).cost;
+    const double above = best_grip(lines, part_s, best.lag_s + step_s).cost;
+    const double bend = below - 2 * best.cost + above;
+    if (!std::isfinite(bend) || !(bend > 0)) break;
+    const double error_s = step_s * std::sqrt(2 / bend);
+    const double change_s = std::clamp(0.5 * step_s * (below - above) / bend, -step_s, step_s);
+    const LagCandidate candidate = best_grip(lines, part_s, best.lag_s + change_s);
+    if (candidate.cost <= best.cost) best = candidate;
+    best.error_s = error_s;
+    if (error_s > step_s) break;
+  }
+  if (!(best.lag_s >= shortest_s)) best.cost = kNone;
   return best;
 }
 

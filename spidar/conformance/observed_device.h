@@ -3,7 +3,9 @@
 /// A device, or a grip, whose exchanges are measured.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -55,8 +57,15 @@ class ObservedDevice final : public Device {
  public:
   explicit ObservedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}
 
-  void open() override;
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
+  void open() override {
+    device_->open();
+    seen_.begin(device_->description());
+  }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    const ExchangeStatus status = seen_.timed([&] { return device_->exchange(volts, reading); });
+    if (status == ExchangeStatus::kOk) look_at(reading);
+    return status;
+  }
   void close() noexcept override { device_->close(); }
   std::string description() const override { return device_->description(); }
   LinkHealth health() const noexcept override { return device_->health(); }
@@ -65,7 +74,22 @@ class ObservedDevice final : public Device {
   const Observation& seen() const noexcept { return seen_; }
 
  private:
-  void look_at(const DeviceReading& reading) noexcept;
+  void look_at(const DeviceReading& reading) noexcept {
+    if (seen_.answered == 1) {
+      seen_.smallest = seen_.largest = reading.count;
+      seen_.inputs = reading.inputs;
+      last_ = reading;
+    }
+    for (size_t i = 0; i < kMaxStrings; ++i) {
+      const int32_t count = reading.count[i];
+      seen_.smallest[i] = std::min(seen_.smallest[i], count);
+      seen_.largest[i] = std::max(seen_.largest[i], count);
+      const int64_t step = std::abs(int64_t{count} - last_.count[i]);
+      seen_.largest_step[i] = std::max(seen_.largest_step[i], step);
+    }
+    seen_.changed_inputs |= reading.inputs ^ seen_.inputs;
+    last_ = reading;
+  }
 
   const std::unique_ptr<Device> device_;
   Observation seen_;

@@ -61,13 +61,10 @@ struct Provenance {
   std::string note;  ///< how it was derived, or what contradicts it; may be empty
 };
 
-/// Standard deviations of calibrated numbers; empty for what was not calibrated.
+/// How well calibrated numbers fit.
 struct CalibrationRecord {
   int samples = 0;
-  double residual_m = 0;                   ///< root mean square length error of all samples
-  std::vector<double> home_offset_sd_m;    ///< one for each string
-  std::optional<double> scale_sd;          ///< of metres_per_count, relative, common to all strings
-  std::vector<Eigen::Vector3d> exit_sd_m;  ///< one for each string, x, y, z
+  double residual_m = 0;  ///< root mean square length error of all samples
 };
 
 struct Profile {

@@ -77,11 +77,6 @@ Values per_string(const TomlField& field, int count) {
   return values;
 }
 
-/// The values of an optional field: zero when it is missing.
-Values optional_per_string(const TomlField& in, const char* key, int count) {
-  return in.has(key) ? per_string(in[key], count) : Values{};
-}
-
 Signs signs(const TomlField& field, int count) {
   check_length(field, count);
   Signs values{};
@@ -138,23 +133,27 @@ void read_strings(const TomlField& in, Profile& profile) {
                  "continuous_tension_N", "heating_time_s", "motor_sign", "encoder_sign",
                  "home_offset_m"});
   const int count = profile.geometry.count;
-  const Values min_N = per_string(in["min_tension_N"], count);
-  const Values max_N = per_string(in["max_tension_N"], count);
-  const Values N_per_V = per_string(in["newtons_per_volt"], count);
-  const Values m_per_count = per_string(in["metres_per_count"], count);
+  const auto read = [&](const char* key, double StringDrive::*member) {
+    const Values values = per_string(in[key], count);
+    for (size_t i = 0; i < static_cast<size_t>(count); ++i) profile.drives[i].*member = values[i];
+  };
+  read("min_tension_N", &StringDrive::min_tension_N);
+  read("max_tension_N", &StringDrive::max_tension_N);
+  read("newtons_per_volt", &StringDrive::newtons_per_volt);
+  read("metres_per_count", &StringDrive::metres_per_count);
+  if (in.has("heating_time_s")) read("heating_time_s", &StringDrive::heating_time_s);
+  for (StringDrive& drive : profile.drives)
+    drive.continuous_tension_N = std::max(drive.min_tension_N, drive.max_tension_N / 2);
+  if (in.has("continuous_tension_N"))
+    read("continuous_tension_N", &StringDrive::continuous_tension_N);
   const Signs motor_sign = signs(in["motor_sign"], count);
   const Signs encoder_sign = signs(in["encoder_sign"], count);
   const Values home_offset_m = home_offsets(in, profile.geometry);
-  const Values continuous_N = optional_per_string(in, "continuous_tension_N", count);
-  const Values heating_s = optional_per_string(in, "heating_time_s", count);
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    profile.drives[i] = {min_N[i],      max_N[i],        N_per_V[i],      m_per_count[i],
-                         motor_sign[i], encoder_sign[i], home_offset_m[i]};
     StringDrive& drive = profile.drives[i];
-    drive.continuous_tension_N = in.has("continuous_tension_N")
-                                     ? continuous_N[i]
-                                     : std::max(drive.min_tension_N, drive.max_tension_N / 2);
-    if (in.has("heating_time_s")) drive.heating_time_s = heating_s[i];
+    drive.motor_sign = motor_sign[i];
+    drive.encoder_sign = encoder_sign[i];
+    drive.home_offset_m = home_offset_m[i];
     check_drive(in, i, drive, profile.dac_max_V);
   }
 }
@@ -202,24 +201,10 @@ double drive_lag_s(const TomlField& field) {
   return lag_s;
 }
 
-CalibrationRecord read_calibration(const TomlField& in, int count) {
-  in.allow_only({"samples", "residual_m", "home_offset_sd_m", "scale_sd", "exit_sd_m"});
-  CalibrationRecord record;
-  record.samples = in["samples"].integer(1, std::numeric_limits<int>::max());
-  record.residual_m = not_negative(in["residual_m"]);
-  const TomlField offsets = in["home_offset_sd_m"];
-  check_length(offsets, count);
-  for (size_t i = 0; i < offsets.size(); ++i)
-    record.home_offset_sd_m.push_back(not_negative(offsets[i]));
-  if (in.has("scale_sd")) record.scale_sd = not_negative(in["scale_sd"]);
-  if (!in.has("exit_sd_m")) return record;
-  const TomlField exits = in["exit_sd_m"];
-  check_length(exits, count);
-  for (size_t i = 0; i < exits.size(); ++i) {
-    record.exit_sd_m.push_back(point(exits[i], Eigen::Array3d::Ones()));
-    for (size_t axis = 0; axis < 3; ++axis) not_negative(exits[i][axis]);
-  }
-  return record;
+CalibrationRecord read_calibration(const TomlField& in) {
+  in.allow_only({"samples", "residual_m"});
+  return {in["samples"].integer(1, std::numeric_limits<int>::max()),
+          not_negative(in["residual_m"])};
 }
 
 }  // namespace
@@ -245,8 +230,7 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   if (profile.drive_lag_known) profile.drive_lag_s = drive_lag_s(root["drive_lag_s"]);
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
-  if (root.has("calibration"))
-    profile.calibration = read_calibration(root["calibration"], profile.geometry.count);
+  if (root.has("calibration")) profile.calibration = read_calibration(root["calibration"]);
   if (root.has("source")) profile.provenance = read_sources(root["source"]);
   return profile;
 }

@@ -73,17 +73,6 @@ void write_strings(std::ostream& out, const Profile& profile) {
   write("home_offset_m", &StringDrive::home_offset_m);
 }
 
-void write_calibration(std::ostream& out, const CalibrationRecord& record) {
-  const std::vector<double>& offsets = record.home_offset_sd_m;
-  out << "\n[calibration]  # standard deviations\nsamples = " << record.samples
-      << "\nresidual_m = " << number(record.residual_m)
-      << "\nhome_offset_sd_m = " << listed(offsets.size(), [&](size_t i) { return offsets[i]; })
-      << '\n';
-  if (record.scale_sd) out << "scale_sd = " << number(*record.scale_sd) << '\n';
-  if (!record.exit_sd_m.empty())
-    write_points(out, "exit_sd_m", record.exit_sd_m, record.exit_sd_m.size());
-}
-
 }  // namespace
 
 std::string profile_text(const Profile& profile) {
@@ -98,7 +87,9 @@ std::string profile_text(const Profile& profile) {
   write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
   write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));
   write_strings(out, profile);
-  if (profile.calibration) write_calibration(out, *profile.calibration);
+  if (profile.calibration)
+    out << "\n[calibration]\nsamples = " << profile.calibration->samples
+        << "\nresidual_m = " << number(profile.calibration->residual_m) << '\n';
   for (const Provenance& row : profile.provenance) {
     out << "\n[[source]]\nfields = [\"" << row.field << "\"]\n";
     write_text(out, "source", row.source);

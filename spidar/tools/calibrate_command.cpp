@@ -12,14 +12,14 @@
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/samples.h"
+#include "spidar/conformance/conformance_report.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/conformance/wiring_text.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/simulation/grip_model.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tools/calibrate_report.h"
 #include "spidar/tools/device_command.h"
 #include "spidar/tools/hand_motion.h"
 
@@ -72,7 +72,6 @@ class Bench {
       BoardSettings as_counted;
       as_counted.count_zero = CountZero::kNever;
       device_ = make_device(options.device, profile, as_counted);
-      miswire(options, profile, device_);
       return;
     }
     Profile real = profile;
@@ -86,7 +85,6 @@ class Bench {
     auto simulated = std::make_unique<SimulatedDevice>(real, SimulatedDevice::Time::kClock);
     hand_ = simulated.get();
     device_ = std::move(simulated);
-    miswire(options, profile, device_);
   }
 
   Device& device() { return *device_; }
@@ -180,6 +178,73 @@ std::string how(const CalibrateOptions& options) {
                         : "spidarctl calibrate: grip moved for " + shown(options.move_s()) + " s";
 }
 
+std::string triple(const Eigen::Vector3d& value, const char* pattern) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) text += (axis ? " " : "") + formatted(pattern, value[axis]);
+  return text;
+}
+
+struct StatusText {
+  const char* name;
+  const char* advice;
+};
+
+StatusText text_of(CalibrationStatus status) {
+  switch (status) {
+    case CalibrationStatus::kSolved:
+      return {"solved", ""};
+    case CalibrationStatus::kUndetermined:
+      return {"undetermined",
+              "This motion does not determine everything that was asked for. Move further, turn "
+              "the grip about every axis as well, take longer, or ask for less with --free.\n"};
+    case CalibrationStatus::kContradiction:
+      return {"contradiction",
+              "The lengths contradict each other or the profile. Check that no string slips or is "
+              "off its pulley and that the profile is correct, try --free exits,scale, or start "
+              "closer to the centre.\n"};
+  }
+  return {};
+}
+
+void print_result(const Profile& profile, const CalibrationResult& result, const std::string& how) {
+  constexpr double kDegrees = 180 / M_PI;
+  const auto [status, advice] = text_of(result.status);
+  std::cout << profile.name << ": " << how << ", " << result.samples << " samples: " << status
+            << "\n  counters zero at  " << triple(1e3 * result.cleared_at.position_m, "%.2f")
+            << " mm, turned by "
+            << triple(kDegrees * rotation_vector(result.cleared_at.orientation), "%.2f")
+            << " deg\n  residual          " << formatted("%.2f um rms", 1e6 * result.residual_m)
+            << "\n  grip moved        " << triple(1e3 * result.moved_m, "%.1f")
+            << " mm each way, turned " << triple(kDegrees * result.turned_rad, "%.1f") << " deg\n";
+  std::cout << "\n  string  offset mm\n";
+  for (int i = 0; i < profile.geometry.count; ++i)
+    std::cout << formatted("  %6d  %9.4f\n", i, 1e3 * result.home_offset_m[i]);
+  if (result.estimated.free_scale) std::cout << formatted("\n  scale   %.6f\n", result.scale);
+  if (result.estimated.free_exits) std::cout << "\n  exit    x y z mm\n";
+  for (int i = 0; result.estimated.free_exits && i < profile.geometry.count; ++i)
+    std::cout << formatted("  %4d    %s\n", i,
+                           triple(1e3 * result.exit_m[static_cast<size_t>(i)], "%8.3f").c_str());
+  std::cout << (*advice ? "\n" : "") << advice;
+}
+
+Json result_json(const Profile& profile, const CalibrationResult& result, const std::string& how) {
+  const int strings = profile.geometry.count;
+  Json json{{"profile", profile.name},
+            {"how", how},
+            {"status", text_of(result.status).name},
+            {"samples", result.samples},
+            {"residual_m", result.residual_m},
+            {"home_offset_m", to_json(result.home_offset_m.head(strings))},
+            {"cleared_at_m", to_json(result.cleared_at.position_m)},
+            {"cleared_at_rad", to_json(rotation_vector(result.cleared_at.orientation))},
+            {"moved_m", to_json(result.moved_m)},
+            {"turned_rad", to_json(result.turned_rad)}};
+  if (result.estimated.free_scale) json["scale"] = result.scale;
+  for (size_t i = 0; result.estimated.free_exits && i < static_cast<size_t>(strings); ++i)
+    json["exit_m"].push_back(to_json(result.exit_m[i]));
+  return json;
+}
+
 int calibrate_command(const CalibrateOptions& options) {
   check_together(options);
   const BoardInfo board = board_info(options.device);
@@ -213,7 +278,7 @@ int calibrate_command(const CalibrateOptions& options) {
   if (options.json)
     std::cout << json_text(result_json(profile, result, how(options)));
   else
-    print_result(std::cout, profile, result, how(options));
+    print_result(profile, result, how(options));
   if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
   if (options.output) {
     save_profile(calibrated_profile(profile, result, how(options)), options.output.path);
@@ -248,7 +313,6 @@ void add_calibrate(Program& program) {
       ->delimiter(',')
       ->expected(6)
       ->allow_extra_args(false);
-  add_sim_wiring(app, options);
   app.footer(
       "First the wiring is tested as selftest does, with pulls of 0.5 N, because counts of a\n"
       "device that is wired differently mean something else. Then the strings are held taut; no\n"

@@ -4,7 +4,6 @@
 #include <functional>
 #include <future>
 #include <iostream>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -14,7 +13,6 @@
 #include "spidar/conformance/hold.h"
 #include "spidar/conformance/observed_device.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/conformance/wiring_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/replace_file.h"
 #include "spidar/realtime/monotonic.h"
@@ -29,7 +27,6 @@ struct ConformanceOptions : DeviceOptions {
   double seconds = 10;
   double newton = 0.5;
   OutputFile report;
-  std::optional<double> sim_lag_ms;
   DelayTestSettings shaking;
   bool no_pull = false, no_shake = false;
   bool yes = false;
@@ -46,15 +43,6 @@ bool may_pull(const ConformanceOptions& options, const ChosenDevice& chosen) {
                             " N for " + shown(std::round(options.shaking.most_seconds())) + " s"
                       : "") +
                  "? The grip will move. If you answer no, the motors stay at zero.");
-}
-
-/// Makes the drives lag, whatever the profile says. Throws UsageError when the device is real.
-void simulate_lag(const ConformanceOptions& options, ChosenDevice& chosen) {
-  if (!is_simulated(options.device))
-    throw UsageError("--sim-lag is for simulated devices only, not for " + options.device);
-  Profile lagging = chosen.profile;
-  lagging.drive_lag_s = 1e-3 * *options.sim_lag_ms;
-  chosen.device = make_device(options.device, lagging);
 }
 
 /// False when interrupted.
@@ -137,8 +125,6 @@ int report(const ConformanceOptions& options, Conformance& found, const std::fun
 }
 
 int test_strings(const ConformanceOptions& options, ChosenDevice& chosen) {
-  if (options.sim_lag_ms) simulate_lag(options, chosen);
-  miswire(options, chosen.profile, chosen.device);
   const bool pulls = may_pull(options, chosen);
   catch_signals();
   ObservedDevice device(std::move(chosen.device));
@@ -154,8 +140,6 @@ int test_strings(const ConformanceOptions& options, ChosenDevice& chosen) {
 
 /// Of a joystick or mouse, the exchanges only.
 int test_force(const ConformanceOptions& options, ChosenDevice& chosen) {
-  if (options.sim_lag_ms) require_strings(chosen.board, "--sim-lag");
-  if (!options.sim_wiring.empty()) require_strings(chosen.board, "--sim-wiring");
   catch_signals();
   ObservedGrip grip(std::move(chosen.grip));
   Conformance found{chosen.board, chosen.profile, grip.seen(), {}, {}, {}, {}, {}};
@@ -190,10 +174,6 @@ void add_conformance(Program& program) {
       ->check(number(DelayTestSettings::kFewestPeriods, 60, " s"));
   app.add_flag("--no-shake", options.no_shake, "do not measure the lag of the drives");
   add_yes(app, options.yes);
-  add_sim_wiring(app, options);
-  app.add_option("--sim-lag", options.sim_lag_ms,
-                 "simulated device: its drives lag by this (default: drive_lag_s of the profile)")
-      ->check(number(0, 30, " ms"));
   app.footer(
       "Tests a board and writes a report that you can send in. The report contains the\n"
       "identification of the board, the results of a thousand exchanges a second while you move\n"

@@ -18,7 +18,6 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/tools/miswired_device.h"
 
 namespace spidar {
 namespace {
@@ -40,13 +39,6 @@ Profile to_read_only(const BoardInfo& board) {
 void add_device(CLI::App& app, DeviceOptions& options) {
   app.add_option("DEVICE", options.device, "a name that spidarctl list prints")->required();
   app.add_option("--profile", options.profile, "profile of the device, a name or a file");
-}
-
-void add_sim_wiring(CLI::App& app, DeviceOptions& options) {
-  app.add_option("--sim-wiring", options.sim_wiring,
-                 "simulated device: has these wiring faults, for example "
-                 "\"swap-motors:1,2;reverse-encoder:4\"; also swap-encoders, swap-strings, "
-                 "reverse-motor, cut-motor, cut-encoder");
 }
 
 void add_json(CLI::App& app, bool& json) {
@@ -105,19 +97,6 @@ void require_strings(const BoardInfo& board, const std::string& command) {
 bool can_reverse(const std::string& device, Profile profile) {
   profile.drives[0].motor_sign = -1;
   return can_drive(device, profile);
-}
-
-void miswire(const DeviceOptions& options, const Profile& profile,
-             std::unique_ptr<Device>& device) {
-  if (options.sim_wiring.empty()) return;
-  if (!is_simulated(options.device))
-    throw UsageError("--sim-wiring is for simulated devices only, not for " + options.device);
-  try {
-    device = make_miswired(std::move(device),
-                           parse_miswiring(options.sim_wiring, profile.geometry.count));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--sim-wiring: ") + error.what());
-  }
 }
 
 void catch_signals() {

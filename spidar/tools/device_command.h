@@ -54,13 +54,11 @@ void add_calibrate(Program& program);
 /// Arguments of every command that opens a device.
 struct DeviceOptions {
   std::string device;
-  std::string profile;     ///< empty: the default profile of the board
-  std::string sim_wiring;  ///< wiring faults of a simulated device; empty: none
+  std::string profile;  ///< empty: the default profile of the board
 };
 
 /// Adds DEVICE and --profile.
 void add_device(CLI::App& app, DeviceOptions& options);
-void add_sim_wiring(CLI::App& app, DeviceOptions& options);
 void add_json(CLI::App& app, bool& json);
 /// --yes, for commands that pull or push.
 void add_yes(CLI::App& app, bool& yes);
@@ -112,10 +110,6 @@ void require_strings(const BoardInfo& board, const std::string& command);
 /// Whether the device can output negative volts. Boards that output positive volts only refuse such
 /// a profile.
 bool can_reverse(const std::string& device, Profile profile);
-
-/// Wires a simulated device as --sim-wiring says. Throws UsageError when that is no wiring, or the
-/// device is not simulated.
-void miswire(const DeviceOptions& options, const Profile& profile, std::unique_ptr<Device>& device);
 
 /// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(), so that the strings are released
 /// before the program ends.

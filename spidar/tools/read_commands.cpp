@@ -115,7 +115,7 @@ FoundBoard read(ChosenDevice& chosen) {
   FoundBoard found;
   const bool read = chosen.grip ? read_position(chosen, found) : read_strings(chosen, found);
   if (!read && !interrupted())
-    throw DeviceError(chosen.name() + ": no reading was received; check cable and power");
+    throw DeviceError(loss_text(chosen.name(), found.health.last_fault, 0));
   return found;
 }
 

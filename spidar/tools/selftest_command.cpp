@@ -4,9 +4,9 @@
 #include <iostream>
 #include <string>
 
+#include "spidar/conformance/conformance_report.h"
 #include "spidar/conformance/stick_test.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/conformance/wiring_text.h"
 #include "spidar/profiles/profile_writer.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/tools/device_command.h"
@@ -90,7 +90,6 @@ int selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
-  miswire(options, chosen.profile, chosen.device);
   options.output.check();
   if (!may_move(options.device, options.yes,
                 "Pull the strings of " + chosen.name() +
@@ -128,7 +127,6 @@ void add_selftest(Program& program) {
                    "and strings whose motor and encoder are at another channel");
   add_yes(app, options.yes);
   add_json(app, options.json);
-  add_sim_wiring(app, options);
   app.footer(
       "Pulls one string after the other, for a second each, or longer if the hand moves. From the\n"
       "responses of the encoders, it determines which motor and which encoder are connected to\n"

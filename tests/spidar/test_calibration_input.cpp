@@ -73,9 +73,8 @@ TEST(CalibrationInput, SevenStringsDo) {
   clear_counters_at(wrong_start(random, 0.02, 0.3), device);
   const CalibrationResult result = calibrate(profile, moved_counts(device, 2000, 0.01, random, 0));
   ASSERT_EQ(result.status, CalibrationStatus::kSolved);
-  const StringVector error_m = zero_length_errors_m(profile, device, result);
-  for (int i = 0; i < 7; ++i)
-    EXPECT_LT(std::abs(error_m[i]), 5 * result.home_offset_sd_m[i]) << "string " << i;
+  EXPECT_LT(zero_length_errors_m(profile, device, result).cwiseAbs().maxCoeff(),
+            kMaxCalibrationSd_m);
 }
 
 TEST(CalibrationInput, GripThatMovesIsNotHeldAtTheCentre) {

@@ -62,9 +62,6 @@ void expect_same(const Profile& a, const Profile& b) {
   if (!a.calibration) return;
   EXPECT_EQ(a.calibration->samples, b.calibration->samples);
   EXPECT_EQ(a.calibration->residual_m, b.calibration->residual_m);
-  EXPECT_EQ(a.calibration->home_offset_sd_m, b.calibration->home_offset_sd_m);
-  EXPECT_EQ(a.calibration->scale_sd, b.calibration->scale_sd);
-  EXPECT_EQ(a.calibration->exit_sd_m, b.calibration->exit_sd_m);
 }
 
 std::string load_error(const std::string& path, const std::string& text) {
@@ -111,13 +108,10 @@ TEST(ProfileWriter, CalibrationComesBack) {
   result.samples = 1234;
   result.residual_m = 1.0 / 3e5;
   result.scale = 1 + uniform(random, 0.01);
-  result.scale_sd = 1.0 / 3e4;
   result.estimated = {true, true};
   for (size_t i = 0; i < 8; ++i) {
     result.exit_m[i] = profile.geometry.exit_m[i] + uniform_vector(random, 1e-3);
-    result.exit_sd_m.col(static_cast<Eigen::Index>(i)) = uniform_vector(random, 1e-5).cwiseAbs();
     result.home_offset_m[static_cast<Eigen::Index>(i)] = uniform(random, 0.02);
-    result.home_offset_sd_m[static_cast<Eigen::Index>(i)] = std::abs(uniform(random, 1e-5));
   }
   Profile once = calibrated_profile(profile, result, "first \"try\"\twith\nodd characters");
   const Profile twice = calibrated_profile(once, result, "second try");
@@ -180,11 +174,7 @@ TEST(ProfileWriter, BadCalibrationIsRefusedByName) {
   EXPECT_NE(load_error(folder.file("a.toml"), profile_text(profile)).find("home_offset_m[2]"),
             std::string::npos);
   profile.drives[2].home_offset_m = 0;
-  profile.calibration = CalibrationRecord{10, 1e-6, std::vector<double>(7, 1e-6), {}, {}};
-  EXPECT_NE(load_error(folder.file("b.toml"), profile_text(profile))
-                .find("calibration.home_offset_sd_m: has 7 entries, must have 8"),
-            std::string::npos);
-  profile.calibration = CalibrationRecord{10, -1e-6, std::vector<double>(8, 1e-6), {}, {}};
+  profile.calibration = CalibrationRecord{10, -1e-6};
   EXPECT_NE(load_error(folder.file("c.toml"), profile_text(profile)).find("residual_m"),
             std::string::npos);
 }

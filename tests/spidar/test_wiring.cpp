@@ -5,16 +5,17 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "spidar/conformance/conformance_report.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tools/miswired_device.h"
+#include "tests/support/miswired_device.h"
 
 namespace spidar::test::wiring_test {
 namespace {
@@ -40,75 +41,12 @@ bool at_once() {
   return true;
 }
 
-/// A simulated device whose hand shifts once while a certain motor pulls, or should pull.
-class ShiftingHand final : public Device {
- public:
-  struct Shift {
-    int motor = 0;
-    double pull_V = 0;  ///< the motor's volts at half of its pull
-    int after = 0;      ///< milliseconds of its pull
-    int lasts = 0;      ///< milliseconds; 0: for ever
-    Pose to;
-  };
-
-  ShiftingHand(const Profile& profile, const std::string& faults, const Shift& shift)
-      : shift_(shift) {
-    auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
-    sim_ = sim.get();
-    device_ = make_miswired(std::move(sim), parse_miswiring(faults, profile.geometry.count));
-  }
-
-  void open() override { device_->open(); }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
-    const double volt = std::fabs(volts.volt[static_cast<size_t>(shift_.motor)]);
-    if (volt > shift_.pull_V) ++pulled_ms_;
-    if (pulled_ms_ > shift_.after) {
-      const bool back = shift_.lasts > 0 && shifted_ms_++ >= shift_.lasts;
-      sim_->set_hand(back ? Pose{} : shift_.to);
-    }
-    return device_->exchange(volts, reading);
-  }
-  void close() noexcept override { device_->close(); }
-  const std::string& name() const noexcept override { return device_->name(); }
-
- private:
-  const Shift shift_;
-  SimulatedDevice* sim_ = nullptr;
-  std::unique_ptr<Device> device_;
-  int pulled_ms_ = 0;
-  int shifted_ms_ = 0;
-};
-
-/// By 1 to 3 mm anywhere, at any time of a pull, for a while or for ever.
-ShiftingHand::Shift any_shift(const Profile& profile, std::mt19937& random) {
-  std::uniform_real_distribution<double> size_m(0.001, 0.003);
-  std::normal_distribution<double> normal;
-  ShiftingHand::Shift shift;
-  shift.motor = std::uniform_int_distribution<int>(0, profile.geometry.count - 1)(random);
-  StringVector half_N = StringVector::Zero();
-  half_N[shift.motor] = profile.min_tension_N()[shift.motor] + 0.5 * WiringTestSettings{}.pull_N;
-  shift.pull_V = std::fabs(to_volts(half_N, profile).volt[static_cast<size_t>(shift.motor)]);
-  shift.after = std::uniform_int_distribution<int>(0, 200)(random);
-  shift.lasts = std::uniform_int_distribution<int>(0, 1)(random) *
-                std::uniform_int_distribution<int>(50, 500)(random);
-  const Eigen::Vector3d to(normal(random), normal(random), normal(random));
-  shift.to.position_m = size_m(random) * to.normalized();
-  return shift;
-}
-
-WiringReport test_with(const Profile& profile, const std::string& faults,
-                       const ShiftingHand::Shift& shift) {
-  ShiftingHand device(profile, faults, shift);
-  return judge_wiring(profile, ask_wiring(device, profile, at_once));
-}
-
 WiringReport test_of(const Profile& profile, const std::string& faults, bool try_reversed = true) {
   auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
-  const auto device =
-      make_miswired(std::move(sim), parse_miswiring(faults, profile.geometry.count));
+  MiswiredDevice device(std::move(sim), faults);
   WiringTestSettings settings;
   settings.try_reversed = try_reversed;
-  const WiringAnswers answers = ask_wiring(*device, profile, at_once, settings);
+  const WiringAnswers answers = ask_wiring(device, profile, at_once, settings);
   EXPECT_TRUE(answers.complete);
   return judge_wiring(profile, answers);
 }
@@ -154,28 +92,6 @@ TEST(Wiring, EveryExchangeOfTwoIsFound) {
   }
 }
 
-// A hand's tremor, as rows and columns of random counts: a tenth of a pull's own answer.
-TEST(Wiring, FaultsAreFoundThroughTremor) {
-  const Profile profile = load_profile("spidar-g6x3-v2-r");
-  SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  WiringAnswers answers = ask_wiring(device, profile, at_once);
-  const double own = answers.counts.diagonal().cwiseAbs().minCoeff();
-  for (unsigned seed = 0; seed < 50; ++seed) {
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
-    std::normal_distribution<double> tremor(0, 0.1 * own);
-    WiringAnswers shaken = answers;
-    for (double& count : shaken.counts.reshaped()) count += tremor(random);
-    EXPECT_TRUE(judge_wiring(profile, shaken).as_profile())
-        << faults_of(judge_wiring(profile, shaken));
-    shaken.counts.row(3) *= -1;
-    shaken.counts.row(1).swap(shaken.counts.row(6));
-    // Encoders 1 and 6 have the same sign in this profile.
-    EXPECT_EQ(faults_of(judge_wiring(profile, shaken)),
-              "encoder 1 reads 6; encoder 3 reversed; encoder 6 reads 1; ");
-  }
-}
-
 TEST(Wiring, ReversedAndCutWiresAreFound) {
   const Profile profile = load_profile("spidar-gcc");
   const std::pair<const char*, const char*> cases[] = {
@@ -199,29 +115,6 @@ TEST(Wiring, ReversedAndCutWiresAreFound) {
   EXPECT_EQ(faults_of(test_of(profile, "reverse-motor:0", false)), "motor 0 pulls -1; ");
 }
 
-TEST(Wiring, AShiftingHandNeverMakesAFaultyMotorPass) {
-  for (const std::string name : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-i7"}) {
-    const Profile profile = load_profile(name);
-    for (unsigned seed = 0; seed < 160; ++seed) {
-      std::mt19937 random(seed);
-      const ShiftingHand::Shift shift = any_shift(profile, random);
-      const std::string fault =
-          (seed % 2 ? "cut-motor:" : "reverse-motor:") + std::to_string(shift.motor);
-      const WiringReport report = test_with(profile, fault, shift);
-      EXPECT_FALSE(report.as_profile()) << name << ", " << fault << ", seed " << seed;
-    }
-  }
-}
-
-TEST(Wiring, AHandThatShiftsOnceNeverMakesAMotorFail) {
-  const Profile profile = load_profile("spidar-gcc");
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    std::mt19937 random(seed);
-    const WiringReport report = test_with(profile, "", any_shift(profile, random));
-    EXPECT_TRUE(report.as_profile()) << "seed " << seed << ": " << faults_of(report);
-  }
-}
-
 TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   Profile profile = load_profile("spidar-gcc");
   profile.drives[3].home_offset_m = 0.001;
@@ -229,6 +122,13 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   const std::string wiring = "swap-strings:1,2;reverse-motor:5;reverse-encoder:6";
   const WiringReport report = test_of(profile, wiring);
   ASSERT_TRUE(report.fixable()) << faults_of(report);
+  std::ostringstream text;
+  print_wiring(text, profile, {}, report);
+  for (const char* line :
+       {"\n        1  pulls string 2       reads string 2 ",
+        "\n        5  reversed             ok ", "\n        6  ok                   reversed ",
+        "\nwiring: not as in the profile\n"})
+    EXPECT_NE(text.str().find(line), std::string::npos) << line << text.str();
   const Profile rewired = rewired_profile(profile, report, "test");
   EXPECT_EQ(rewired.geometry.exit_m[1], profile.geometry.exit_m[2]);
   EXPECT_EQ(rewired.geometry.grip_m[2], profile.geometry.grip_m[1]);
@@ -239,8 +139,8 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   EXPECT_EQ(rewired.provenance.back().evidence, Evidence::kMeasured);
   // The new profile's answers, as the device with that wiring gives them.
   auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
-  const auto device = make_miswired(std::move(sim), parse_miswiring(wiring, 8));
-  const WiringReport again = judge_wiring(rewired, ask_wiring(*device, rewired, at_once));
+  MiswiredDevice device(std::move(sim), wiring);
+  const WiringReport again = judge_wiring(rewired, ask_wiring(device, rewired, at_once));
   EXPECT_TRUE(again.as_profile()) << faults_of(again);
 }
 
@@ -301,19 +201,6 @@ TEST(Wiring, LostDeviceEndsTheTest) {
   EXPECT_THROW(ask_wiring(device, profile, fail_at(ExchangeStatus::kLost)), DeviceError);
   device.set_fault(ExchangeStatus::kOk);
   EXPECT_THROW(ask_wiring(device, profile, fail_at(ExchangeStatus::kTimeout)), DeviceError);
-}
-
-TEST(Miswiring, BadFaultsAreNamed) {
-  for (const std::string text :
-       {"x", "swap-motors:1", "swap-motors:1,1", "swap-motors:1,8", "reverse-motor:-1",
-        "reverse-motor:1,2", "swap-motors:1;2", "cut-motor:", "turn-motor:1"}) {
-    try {
-      parse_miswiring(text, 8);
-      ADD_FAILURE() << text << " is taken";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("channels are 0 to 7"), std::string::npos);
-    }
-  }
 }
 
 }  // namespace spidar::test::wiring_test

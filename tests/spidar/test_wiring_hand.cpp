@@ -11,7 +11,7 @@
 
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/tools/miswired_device.h"
+#include "tests/support/miswired_device.h"
 
 namespace spidar::test::wiring_hand_test {
 namespace {
@@ -33,7 +33,7 @@ class UnrulyHand final : public Device {
       : random_(seed), pause_s_(1 / mean_s) {
     auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
     sim_ = sim.get();
-    device_ = make_miswired(std::move(sim), parse_miswiring(faults, profile.geometry.count));
+    device_ = std::make_unique<MiswiredDevice>(std::move(sim), faults);
     next_ms_ = pause_ms();
   }
 
@@ -91,7 +91,7 @@ TEST(Wiring, AnUnrulyHandDoesNotMakeAGoodDeviceFail) {
 TEST(Wiring, AnUnrulyHandNeverMakesABadDevicePass) {
   constexpr const char* kFaults[] = {"cut-motor:",   "reverse-motor:",   "cut-encoder:",
                                      "swap-motors:", "reverse-encoder:", "swap-encoders:"};
-  for (unsigned seed = 0; seed < 36; ++seed) {
+  for (unsigned seed = 0; seed < 72; ++seed) {
     const Profile profile = load_profile(kThree[seed % 3]);
     const unsigned channel = seed / 6 % static_cast<unsigned>(profile.geometry.count);
     std::string fault = kFaults[seed % 6] + std::to_string(channel);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A device that is wired wrongly.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "spidar/device.h"
+
+namespace spidar::test {
+
+/// `faults` are separated by semicolons; channels count from zero: `swap-motors:I,J`,
+/// `swap-encoders:I,J`, `swap-strings:I,J` (both), `reverse-motor:I`, `reverse-encoder:I`,
+/// `cut-motor:I`, `cut-encoder:I`.
+class MiswiredDevice final : public Device {
+ public:
+  MiswiredDevice(std::unique_ptr<Device> device, const std::string& faults)
+      : device_(std::move(device)) {
+    for (size_t i = 0; i < channel_.size(); ++i) channel_[i] = {i, i, 1, 1};
+    std::istringstream in(faults);
+    for (std::string fault; std::getline(in, fault, ';');) apply(fault);
+  }
+
+  void open() override { device_->open(); }
+  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    MotorVolts wired;
+    for (size_t i = 0; i < channel_.size(); ++i)
+      wired.volt[channel_[i].motor] = channel_[i].motor_sign * volts.volt[i];
+    DeviceReading right;
+    const ExchangeStatus status = device_->exchange(wired, right);
+    if (status != ExchangeStatus::kOk) return status;
+    reading = right;
+    for (size_t i = 0; i < channel_.size(); ++i)
+      reading.count[i] = channel_[i].encoder_sign * right.count[channel_[i].encoder];
+    return status;
+  }
+  void close() noexcept override { device_->close(); }
+  const std::string& name() const noexcept override { return device_->name(); }
+
+ private:
+  /// What is connected to a channel of the board.
+  struct Channel {
+    size_t motor = 0, encoder = 0;         // the strings whose they are
+    int motor_sign = 1, encoder_sign = 1;  // −1: wires reversed; 0: cut
+  };
+
+  void apply(const std::string& fault) {
+    const size_t colon = fault.find(':');
+    const std::string kind = fault.substr(0, colon);
+    Channel& one = channel_.at(std::stoul(fault.substr(colon + 1)));
+    const bool motor = kind.find("motor") != std::string::npos;
+    if (kind.find("swap") == 0) {
+      Channel& other = channel_.at(std::stoul(fault.substr(fault.find(',') + 1)));
+      if (kind != "swap-encoders") std::swap(one.motor, other.motor);
+      if (kind != "swap-motors") std::swap(one.encoder, other.encoder);
+    } else {
+      (motor ? one.motor_sign : one.encoder_sign) *= kind.find("cut") == 0 ? 0 : -1;
+    }
+  }
+
+  const std::unique_ptr<Device> device_;
+  std::array<Channel, kMaxStrings> channel_;
+};
+
+}  // namespace spidar::test
