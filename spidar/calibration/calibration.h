@@ -84,8 +84,9 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
 /// Tremor of a hand that holds still is smaller than this.
 inline constexpr double kMaxHeldRange_m = 3e-3;
 
-/// Returns the profile with the result, its residual and provenance. `how` describes the provenance,
-/// for example "moved for 20 s". Throws std::invalid_argument unless the status is kSolved.
+/// Returns the profile with the result, its residual and provenance. `how` describes the
+/// provenance, for example "moved for 20 s". Throws std::invalid_argument unless the status is
+/// kSolved.
 Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
                            const std::string& how);
 

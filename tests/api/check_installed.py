@@ -133,7 +133,7 @@ def check_plugin(it, bus):
     play = ["gst-launch-1.0", "-q", "videotestsrc", "num-buffers=10", "pattern=ball", "!", "spidarmotion"]
     run([*play, "device=sim", f"profile={PROFILE}", "!", "fakesink"], it.with_plugin)
     board = {**it.with_plugin, "LD_PRELOAD": bus, "SPIDAR_EMULATED_BUS": "sh4"}
-    with_board = [*play, "device=usb", "profile=spidar-g6x3-v2-r", "!", "fakesink"]
+    with_board = [*play, "device=usb", "profile=spidar-g6x3-v2-r", "on-device-error=error", "!", "fakesink"]
     run(with_board, board)
     guardian = next(it.folder.glob("*/**/spidar-guardian"))
     away = guardian.with_name("away")

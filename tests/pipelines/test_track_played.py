@@ -193,7 +193,7 @@ class BadTracks(TrackPlayedCase):
                                "spidarsink {}",
                  "spidarmotion": "videotestsrc num-buffers=2 ! spidarmotion {} ! fakesink"}
         for element, line in lines.items():
-            for prop, said in (("device=no-such-device", "error: unknown device"),
+            for prop, said in (("device=no-such-device", "warning: unknown device"),
                                ("haptic-trace=/dev/full", "warning: The haptic trace can no longer be written")):
                 run = subprocess.run(["gst-launch-1.0", *line.format(prop).split()], capture_output=True, text=True,
                                      env=dict(os.environ, GST_DEBUG="2", GST_DEBUG_NO_COLOR="1"), check=False)
