@@ -104,9 +104,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
 }
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
-/// textured blocks are lost. A block is textured when its pixels differ from their mean by as much
-/// as a doubtful match, and lost when its best match shows something else. In a picture that moves,
-/// however fast, some blocks still match.
+/// textured blocks are lost. In a picture that moves, however fast, some blocks still match.
 bool BlockField::is_cut() const {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
@@ -120,14 +118,20 @@ bool BlockField::is_cut() const {
       // Even if all that are left were lost.
       if (!(lost + left > kLostAtCut * (with_texture + left))) return false;
       --left;
-      const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
-      if (within < kDoubtful_grey * kBlockArea_px) continue;
-      ++with_texture;
-      const int found = matches_[static_cast<size_t>(row * grid_.columns + column)].difference;
-      lost += found > kFoundElsewhere * within;
+      const Match match = match_of(static_cast<size_t>(row * grid_.columns + column));
+      with_texture += match != Match::kPlain;
+      lost += match == Match::kLost;
     }
   }
   return lost > kLostAtCut * with_texture;
+}
+
+BlockField::Match BlockField::match_of(size_t block) const {
+  const int column = static_cast<int>(block) % grid_.columns;
+  const int row = static_cast<int>(block) / grid_.columns;
+  const int within = difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
+  if (within < kDoubtful_grey * kBlockArea_px) return Match::kPlain;
+  return matches_[block].difference > kFoundElsewhere * within ? Match::kLost : Match::kFound;
 }
 
 /// Searches a picture of a quarter of the resolution, in which each block covers four by four of
@@ -196,12 +200,12 @@ void BlockField::refine(size_t index) {
   };
   const float ex = clamp(-(b * xd - block.xy * yd) / determinant);
   const float ey = clamp(-(a * yd - block.xy * xd) / determinant);
+  const float left = dd + 2 * (ex * xd + ey * yd) + ex * ex * block.xx + 2 * ex * ey * block.xy +
+                     ey * ey * block.yy;
   block.x_px = static_cast<float>(x_px) + 0.5f * static_cast<float>(kBlock_px - now_.width());
   block.y_px = static_cast<float>(y_px) + 0.5f * static_cast<float>(kBlock_px - now_.height());
   block.moved_x_px = ex - static_cast<float>(match.dx);
   block.moved_y_px = ey - static_cast<float>(match.dy);
-  const float left = dd + 2 * (ex * xd + ey * yd) + ex * ex * block.xx + 2 * ex * ey * block.xy +
-                     ey * ey * block.yy;
   block.residual = std::max(0.0f, left);
   block.difference = match.difference;
 }

@@ -3,6 +3,8 @@
 /// How each part of the picture moves, from one frame to the next.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -76,6 +78,13 @@ class BlockField {
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
   /// Pixels of the base to one pixel of the picture.
   double scale() const { return pixels_to_one(scale_); }
+
+  enum class Match : uint8_t {
+    kPlain,  ///< its pixels differ from their mean by less than a doubtful match
+    kFound,
+    kLost,  ///< its best match shows something else
+  };
+  Match match_of(size_t block) const;
 
   /// Block of the previous picture from which block `index` has come: the nearest one of the grid.
   size_t origin_of(size_t index) const;

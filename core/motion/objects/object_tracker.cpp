@@ -11,9 +11,6 @@
 namespace spidar {
 namespace {
 
-/// An object exists once it has been seen with a total of kBornAfterBlocks blocks, so that a small
-/// one must be seen more often. A single frame counts for less: noise does not move twice alike.
-constexpr int kBornAfterBlocks = 8;
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
 constexpr double kReach = 0.75;
@@ -27,17 +24,11 @@ constexpr double kStillMoves = 0.5;
 
 /// Share of its usual blocks that an object at rest still has where it was.
 constexpr double kRemainingShare = 0.5;
-/// With less of its usual blocks than this, only a rim of an object is visible.
-constexpr double kRimShare = 0.5;
 /// What was clearly no layer of the scene in so many frames may become more like one: in one or
 /// two, a layer may look like an object.
 constexpr int kProvenAfterFrames = 3;
 
 }  // namespace
-
-bool ObjectTracker::Life::is_born() const {
-  return blocks_seen >= kBornAfterBlocks;
-}
 
 ObjectTracker::ObjectTracker() {
   lives_.reserve(kMostObjects);
@@ -51,15 +42,6 @@ void ObjectTracker::reset() {
   owners_.clear();
   lives_.clear();
   objects_.clear();
-}
-
-/// As alike_px(), but with how far off the motion of a block may be.
-bool ObjectTracker::is_same_motion(const Life& life, const Region& region,
-                                   const FieldInFrame& frame) const {
-  const Eigen::Vector2d expected_px = life.velocity_px_s * frame.interval_s;
-  const double fastest_px = std::max(expected_px.norm(), region.relative_px.norm());
-  return (region.relative_px - expected_px).norm() <
-         kAlikeShare * fastest_px + static_cast<double>(kMostOff_px);
 }
 
 /// The object to which most blocks of the region belonged; null when most belonged to none.
@@ -85,7 +67,7 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
   Life* best = nullptr;
   double nearest_px = 0;
   for (Life& life : lives_) {
-    if (life.is_seen() || !life.is_born() || !is_same_motion(life, region, frame)) continue;
+    if (life.is_seen() || !life.is_born() || !life.moves_like(region, frame.interval_s)) continue;
     const Eigen::Vector2d sides_px = life.expected.sides_px + region.high_px - region.low_px;
     const Eigen::Vector2d apart_px = (life.expected.position_px - region.position_px).cwiseAbs();
     if ((apart_px.array() >= kReach * sides_px.array()).any()) continue;
@@ -117,8 +99,7 @@ bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
 bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
-  const bool is_rim =
-      region.blocks < kRimShare * life->expected.blocks && remains_there(*life, remains_of(*life));
+  const bool is_rim = life->is_rim(region) && remains_there(*life, remains_of(*life));
   return !life->is_layer && !is_rim;
 }
 
@@ -137,7 +118,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     const Region& region = regions[k];
     Life* life = owner_of(static_cast<int16_t>(k));
     if (life && life->is_seen()) {
-      if (is_same_motion(*life, region, frame)) {
+      if (life->moves_like(region, frame.interval_s)) {
         region_keys_[k] = life->key;
         continue;
       }
@@ -146,7 +127,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     if (!life || !life->is_born()) {
       Life* back = region.blocks < kLeastBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
-      if (back || (life && !is_same_motion(*life, region, frame))) life = back;
+      if (back || (life && !life->moves_like(region, frame.interval_s))) life = back;
     }
     if (!is_enough(region, life)) continue;
     if (!life) {
@@ -198,9 +179,26 @@ double ObjectTracker::noise_around(const Life& life) {
   return parallax_.sigma_px(life.region.relative_px);
 }
 
+/// Whether something else is in the place of most of an object: what is visible is a rim, and most
+/// of its blocks are not found in the picture before. Their motions are those of errors.
+bool ObjectTracker::has_vanished(const Life& life, const FieldInFrame& frame) const {
+  if (!life.is_rim(life.region)) return false;
+  int lost = 0;
+  int found = 0;
+  for (size_t i = 0; i < owners_.size(); ++i) {
+    if (owners_[i] != life.key) continue;
+    const BlockField::Match match = frame.field.match_of(i);
+    lost += match == BlockField::Match::kLost;
+    found += match == BlockField::Match::kFound;
+  }
+  return lost > found;
+}
+
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const ObjectMotion found = measure(life, frame);
-  const Eigen::Vector2d velocity_px_s = life.region.relative_px / frame.interval_s;
+  const Eigen::Vector2d velocity_px_s = has_vanished(life, frame)
+                                            ? life.expected.velocity_px_s
+                                            : life.region.relative_px / frame.interval_s;
   if (life.blocks_seen == 0) life.velocity_px_s = velocity_px_s;
   // What an error explains is smoothed away, which delays the rest by a frame or two.
   const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
@@ -209,9 +207,9 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const double newest = both_px2 > 0 ? news_px * news_px / both_px2 : 1;
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
-  expect(life, frame);
+  life.expect(frame.interval_s);
   life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
-  life.blocks_seen += std::min(life.region.blocks, kBornAfterBlocks - 1);
+  life.blocks_seen += std::min(life.region.blocks, Life::kBornAfterBlocks - 1);
   life.object.has_left = false;
   place(life, frame);
   MovingObject& object = life.object;
@@ -240,13 +238,6 @@ ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
   return remains;
 }
 
-/// Whether an object that was in sight until now has moved out of the picture.
-bool ObjectTracker::has_left(const Life& life, const FieldInFrame& frame) const {
-  const Eigen::Vector2d on_screen_px =
-      life.expected.velocity_px_s * frame.interval_s + life.region.background_px;
-  return life.region.border_blocks > 0 && life.region.position_px.dot(on_screen_px) > 0;
-}
-
 /// The object rests where it is, unless its blocks together still move nearer to its motion than to
 /// rest, although none of them does so clearly.
 void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame& frame) {
@@ -269,7 +260,7 @@ void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame&
 /// with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
-  if (life.since_s == 0) object.has_left = has_left(life, frame);
+  if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
   const Remains remains = remains_of(life);
   object.tracks = background_->is_known ? remains.textured : 0;
   if (object.tracks > 0 && remains_there(life, remains)) {
@@ -280,35 +271,13 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
     object.tracks = 0;
   }
   life.since_s += frame.interval_s;
-  go_on_unseen(life, frame);
+  life.go_on_unseen(frame.interval_s);
   life.region.position_px = life.expected.position_px;
   life.velocity_px_s = life.expected.velocity_px_s;
   object.growth_1_s = 0;
   object.roll_rad_s = 0;
   object.prominence = 0;
   place(life, frame);
-}
-
-void ObjectTracker::go_on_unseen(Life& life, const FieldInFrame& frame) const {
-  life.expected.position_px +=
-      life.expected.velocity_px_s * frame.interval_s + life.region.background_px;
-}
-
-/// Remembers what is needed if the object goes out of sight. Its usual number of blocks rises at
-/// once and falls slowly.
-void ObjectTracker::expect(Life& life, const FieldInFrame& frame) const {
-  const double blocks = life.region.blocks;
-  const double forgotten = std::min(1.0, frame.interval_s / kForgotten_s);
-  Expected& expected = life.expected;
-  expected.blocks = std::max(blocks, expected.blocks + forgotten * (blocks - expected.blocks));
-  // Only a rim is visible: the rest of the object is hidden.
-  if (blocks < kRimShare * expected.blocks) {
-    go_on_unseen(life, frame);
-    return;
-  }
-  expected.position_px = life.region.position_px;
-  expected.velocity_px_s = life.velocity_px_s;
-  expected.sides_px = life.region.high_px - life.region.low_px;
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,

@@ -19,6 +19,7 @@
 #include "core/motion/layers/salience.h"
 #include "core/motion/objects/error_bound.h"
 #include "core/motion/objects/moving_object.h"
+#include "core/motion/objects/object_life.h"
 #include "core/motion/objects/object_motion.h"
 
 namespace spidar {
@@ -69,46 +70,12 @@ class ObjectTracker {
   /// Forgets everything, after a cut or a seek.
   void reset();
 
-  /// Longer than what usually hides an object, and than most pauses in its motion.
-  static constexpr double kForgotten_s = 0.5;
+  static constexpr double kForgotten_s = ObjectLife::kForgotten_s;
   static constexpr size_t kMostObjects = 16;
 
  private:
-  enum class State : uint8_t {
-    kSeen,    ///< a region of this frame shows it
-    kRests,   ///< most of it is where it was, and nothing there clearly moves
-    kHidden,  ///< nothing shows it
-  };
-
-  /// Place, motion and size in the last frame in which most of an object was visible. When only a
-  /// rim of it is left, the rim does not tell any of these.
-  struct Expected {
-    double blocks = 0;  ///< when nothing hides it
-    Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
-    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
-    Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
-  };
-
-  struct Life {
-    uint32_t key = 0;     ///< in the order of creation, > 0
-    MovingObject object;  ///< its id is 0 until it has been in a result
-    Region region;        ///< in the last frame in which it was seen
-    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
-    Expected expected;
-    State state = State::kSeen;
-    double since_s = 0;  ///< for how long it has been at rest or hidden
-    LayerEvidence evidence;
-    int blocks_seen = 0;    ///< in all frames together, see kBornAfterBlocks
-    int proven = 0;         ///< frames in which it was clearly no layer of the scene
-    bool is_layer = false;  ///< looks more like a part of the scene than like an object
-
-    bool is_seen() const { return state == State::kSeen; }
-    bool is_born() const;
-    void turn(State next) {
-      if (state != next) since_s = 0;
-      state = next;
-    }
-  };
+  using Life = ObjectLife;
+  using State = ObjectLife::State;
 
   /// Blocks on which an object was before, and which now do not clearly move by themselves.
   struct Remains {
@@ -120,17 +87,14 @@ class ObjectTracker {
   void claim(const FieldInFrame& frame);
   Life* owner_of(int16_t region);
   Life* expected_at(const Region& region, const FieldInFrame& frame);
-  bool is_same_motion(const Life& life, const Region& region, const FieldInFrame& frame) const;
   static bool remains_there(const Life& life, const Remains& remains);
   bool is_enough(const Region& region, const Life* life) const;
   uint32_t create(const Region& region);
+  bool has_vanished(const Life& life, const FieldInFrame& frame) const;
   void observe(Life& life, const FieldInFrame& frame);
   Remains remains_of(const Life& life) const;
-  bool has_left(const Life& life, const FieldInFrame& frame) const;
   void stay(Life& life, const Remains& remains, const FieldInFrame& frame);
   void miss(Life& life, const FieldInFrame& frame);
-  void expect(Life& life, const FieldInFrame& frame) const;
-  void go_on_unseen(Life& life, const FieldInFrame& frame) const;
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is known of an object that is followed from frame to frame.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "core/motion/layers/regions.h"
+#include "core/motion/layers/salience.h"
+#include "core/motion/objects/moving_object.h"
+
+namespace spidar {
+
+struct ObjectLife {
+  enum class State : uint8_t {
+    kSeen,    ///< a region of this frame shows it
+    kRests,   ///< most of it is where it was, and nothing there clearly moves
+    kHidden,  ///< nothing shows it
+  };
+
+  /// Place, motion and size in the last frame in which most of an object was visible. When only a
+  /// rim of it is left, the rim does not tell any of these.
+  struct Expected {
+    double blocks = 0;  ///< when nothing hides it
+    Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
+  };
+
+  /// An object exists once it has been seen with a total of so many blocks, so that a small one
+  /// must be seen more often. A single frame counts for less: noise does not move twice alike.
+  static constexpr int kBornAfterBlocks = 8;
+  /// Longer than what usually hides an object, and than most pauses in its motion.
+  static constexpr double kForgotten_s = 0.5;
+
+  uint32_t key = 0;     ///< in the order of creation, > 0
+  MovingObject object;  ///< its id is 0 until it has been in a result
+  Region region;        ///< in the last frame in which it was seen
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
+  Expected expected;
+  State state = State::kSeen;
+  double since_s = 0;  ///< for how long it has been at rest or hidden
+  LayerEvidence evidence;
+  int blocks_seen = 0;    ///< in all frames together, see kBornAfterBlocks
+  int proven = 0;         ///< frames in which it was clearly no layer of the scene
+  bool is_layer = false;  ///< looks more like a part of the scene than like an object
+
+  bool is_seen() const { return state == State::kSeen; }
+  bool is_born() const { return blocks_seen >= kBornAfterBlocks; }
+  void turn(State next);
+
+  /// Whether the region moves as the object did: as alike_px() has it, but with how far off the
+  /// motion of a block may be.
+  bool moves_like(const Region& other, double interval_s) const;
+  /// Whether a region of its blocks is only a rim of it.
+  bool is_rim(const Region& visible) const;
+  /// Whether it has moved out of the picture after it was in sight until now.
+  bool has_left(double interval_s) const;
+  /// Moves the place at which it is expected on.
+  void go_on_unseen(double interval_s);
+  /// Remembers what is needed if it goes out of sight. Its usual number of blocks rises at once and
+  /// falls slowly.
+  void expect(double interval_s);
+};
+
+}  // namespace spidar
