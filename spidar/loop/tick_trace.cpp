@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 #include <cstring>
-#include <fcntl.h>
 #include <initializer_list>
 #include <string_view>
 #include <unistd.h>
@@ -89,10 +88,10 @@ void append_row(const TickRecord& record, std::string& csv) {
   csv += '\n';
 }
 
-TickTrace::TickTrace(const std::string& path) : file_(open_output(path.c_str(), O_TRUNC)) {
-  if (file_ < 0) {
-    throw TraceError("cannot write the haptic trace \"" + path + "\": " + output_reason(errno));
-  }
+TickTrace::TickTrace(const std::string& path) {
+  std::string reason;
+  file_ = open_own_output(path.c_str(), reason);
+  if (file_ < 0) throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
   pending_.reserve(kFlush_bytes + kMaxRow_bytes);
   pending_.append(trace_header()).append("\n");
 }

@@ -55,7 +55,7 @@ class TickTrace {
   const TraceStatus& status() const noexcept { return status_; }
 
  private:
-  int file_;
+  int file_ = -1;
   std::string pending_;
   uint64_t pending_rows_ = 0;
   uint64_t last_tick_ = 0;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,6 +44,28 @@ inline int open_output(const char* path, int flags) noexcept {
 inline std::string output_reason(int error) {
   return error == ELOOP ? "it is a link, and what it leads to is not overwritten"
                         : std::strerror(error);
+}
+
+/// As open_output(), but the file is emptied and locked until it is closed, so that two traces do
+/// not overwrite each other. Devices and pipes may have several writers, and some network file
+/// systems have no locks. Returns −1 with the reason in words.
+inline int open_own_output(const char* path, std::string& reason) {
+  const int opened = open_output(path, 0);
+  struct stat status {};
+  if (opened < 0) {
+    reason = output_reason(errno);
+    return -1;
+  }
+  if (fstat(opened, &status) != 0 || !S_ISREG(status.st_mode)) return opened;
+  if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    reason = "another element or program is writing it; each needs its own file";
+  } else if (ftruncate(opened, 0) != 0) {
+    reason = std::strerror(errno);
+  } else {
+    return opened;
+  }
+  close(opened);
+  return -1;
 }
 
 }  // namespace spidar

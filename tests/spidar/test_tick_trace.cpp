@@ -124,6 +124,12 @@ TEST(TickTrace, UnwritablePathIsNamedWithTheReason) {
   EXPECT_NE(message(missing).find(missing.string()), std::string::npos);
   EXPECT_NE(message(missing).find("No such file or directory"), std::string::npos);
   EXPECT_NE(message(folder.path).find("Is a directory"), std::string::npos);
+  const fs::path shared = folder.path / "shared.csv";
+  {
+    const TickTrace first(shared);
+    EXPECT_NE(message(shared).find("each needs its own file"), std::string::npos);
+  }
+  EXPECT_EQ(message(shared), "");  // the first one has closed it
 }
 
 TEST(TickTrace, AFileBehindALinkIsNotOverwritten) {

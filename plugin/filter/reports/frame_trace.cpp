@@ -8,8 +8,6 @@
 #include <initializer_list>
 #include <string_view>
 #include <strings.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <utility>
 
 #include "core/analysis/analysis_json.h"
@@ -36,18 +34,6 @@ void append(std::string& row, Number value) {
   row.append(text, end.ptr).push_back(',');
 }
 
-/// Empties the file, which is this trace's until it is closed. Empty string, or the reason why that
-/// is not possible. Devices and pipes may have several writers, and some network file systems have
-/// no locks.
-std::string claim(int opened) {
-  struct stat status {};
-  if (fstat(opened, &status) != 0 || !S_ISREG(status.st_mode)) return {};
-  if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    return "another element or program is writing it; each needs its own file";
-  }
-  return ftruncate(opened, 0) == 0 ? std::string() : std::strerror(errno);
-}
-
 }  // namespace
 
 std::string FrameTrace::open(const std::string& path) {
@@ -56,11 +42,12 @@ std::string FrameTrace::open(const std::string& path) {
   if (!is_json_ && !ends_with(path, ".csv")) {
     return "its name ends neither in .csv nor in .jsonl, which says what to write";
   }
-  const int opened = open_output(path.c_str(), 0);
-  if (opened < 0) return output_reason(errno);
-  std::string reason = claim(opened);
-  if (reason.empty() && !(file_ = fdopen(opened, "w"))) reason = std::strerror(errno);
-  if (!reason.empty()) {
+  std::string reason;
+  const int opened = open_own_output(path.c_str(), reason);
+  if (opened < 0) return reason;
+  file_ = fdopen(opened, "w");
+  if (!file_) {
+    reason = std::strerror(errno);
     ::close(opened);
     return reason;
   }
