@@ -146,7 +146,9 @@ TEST(Calibration, HeldStillDeterminesTooLittle) {
     const CalibrationResult result = calibrate(
         profile, counts_of(profile, 500, kPeriod_s, random, noise, [](double) { return Pose{}; }));
     EXPECT_EQ(result.status, CalibrationStatus::kUndetermined) << noise;
-    if (noise == 0) EXPECT_EQ(result.samples, 1);
+    if (noise == 0) {
+      EXPECT_EQ(result.samples, 1);
+    }
   }
 }
 
