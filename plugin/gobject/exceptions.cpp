@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/gobject/exceptions.h"
 
+#include "plugin/gobject/category.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/session/profile_choice.h"
@@ -18,6 +19,9 @@ void post_exception(GstElement* element, GstMessageType kind, const std::excepti
     code = is_device ? static_cast<gint>(GST_RESOURCE_ERROR_OPEN_READ_WRITE)
                      : static_cast<gint>(GST_LIBRARY_ERROR_FAILED);
   }
+  // As the macros of GStreamer that post a message also log it.
+  GST_CAT_WARNING_OBJECT(category_of(element), element, "%s: %s",
+                         kind == GST_MESSAGE_ERROR ? "error" : "warning", error.what());
   gst_element_message_full(element, kind, domain, code, g_strdup(error.what()),
                            g_strdup(details.c_str()), __FILE__, GST_FUNCTION, __LINE__);
 }
