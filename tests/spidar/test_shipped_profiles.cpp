@@ -236,27 +236,4 @@ TEST(ShippedProfiles, NoneIsUntestedAndTheDefaultIsAmongThem) {
   EXPECT_EQ(shipped, tested);
 }
 
-// Where the strings hardly tell one of the six coordinates, the rounding of the counts moves the
-// pose by a millimetre and more, as a string at fault would, and Gauss–Newton needs more steps.
-TEST(ShippedProfiles, NoStringIsAtFaultWhereTheGripIsFarFromTheCentre) {
-  for (const std::string name : {"spidar-g6x", "spidar-g6x3-v2-l", "spidar-g6x5-l", "spidar-i05"}) {
-    const Profile profile = load_profile(name);
-    const double count_m = profile.max_pose_residual_m();
-    RandomMotion random(7);
-    for (int run = 0; run < 200; ++run) {
-      const Eigen::Vector3d far_m = 0.09 * random.direction();
-      const Eigen::Vector3d axis = random.direction();
-      PoseSolver solver(profile.geometry, count_m);
-      for (int ms = 0; ms < 1000; ++ms) {
-        const double share = std::sin(M_PI * 1e-3 * ms);  // there and back
-        const Pose pose{share * far_m, Eigen::Quaterniond(Eigen::AngleAxisd(0.3 * share, axis))};
-        StringVector lengths_m = string_lengths_m(profile.geometry, pose);
-        for (double& length_m : lengths_m) length_m = std::round(length_m / count_m) * count_m;
-        ASSERT_EQ(solver.solve(lengths_m).faulty_string, -1)
-            << name << ", run " << run << " at " << ms << " ms";
-      }
-    }
-  }
-}
-
 }  // namespace spidar::test::shipped_profiles_test
