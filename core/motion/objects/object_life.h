@@ -3,10 +3,13 @@
 /// What is known of an object that is followed from frame to frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include <Eigen/Core>
 
+#include "core/field/block_field.h"
+#include "core/motion/layers/moving_blocks.h"
 #include "core/motion/layers/regions.h"
 #include "core/motion/layers/salience.h"
 #include "core/motion/objects/moving_object.h"
@@ -32,6 +35,8 @@ struct ObjectLife {
   /// An object exists once it has been seen with a total of so many blocks, so that a small one
   /// must be seen more often. A single frame counts for less: noise does not move twice alike.
   static constexpr int kBornAfterBlocks = 8;
+  /// With less of its usual blocks than this, only a rim of an object is visible.
+  static constexpr double kRimShare = 0.5;
   /// Longer than what usually hides an object, and than most pauses in its motion.
   static constexpr double kForgotten_s = 0.5;
 
@@ -49,20 +54,44 @@ struct ObjectLife {
 
   bool is_seen() const { return state == State::kSeen; }
   bool is_born() const { return blocks_seen >= kBornAfterBlocks; }
-  void turn(State next);
+  void turn(State next) {
+    if (state != next) since_s = 0;
+    state = next;
+  }
 
   /// Whether the region moves as the object did: as alike_px() has it, but with how far off the
   /// motion of a block may be.
-  bool moves_like(const Region& other, double interval_s) const;
+  bool moves_like(const Region& other, double interval_s) const {
+    const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
+    const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
+    return (other.relative_px - expected_px).norm() <
+           kAlikeShare * fastest_px + static_cast<double>(kMostOff_px);
+  }
   /// Whether a region of its blocks is only a rim of it.
-  bool is_rim(const Region& visible) const;
+  bool is_rim(const Region& visible) const { return visible.blocks < kRimShare * expected.blocks; }
   /// Whether it has moved out of the picture after it was in sight until now.
-  bool has_left(double interval_s) const;
+  bool has_left(double interval_s) const {
+    const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
+    return region.border_blocks > 0 && region.position_px.dot(on_screen_px) > 0;
+  }
   /// Moves the place at which it is expected on.
-  void go_on_unseen(double interval_s);
+  void go_on_unseen(double interval_s) {
+    expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
+  }
   /// Remembers what is needed if it goes out of sight. Its usual number of blocks rises at once and
   /// falls slowly.
-  void expect(double interval_s);
+  void expect(double interval_s) {
+    const double blocks = region.blocks;
+    const double forgotten = std::min(1.0, interval_s / kForgotten_s);
+    expected.blocks = std::max(blocks, expected.blocks + forgotten * (blocks - expected.blocks));
+    if (is_rim(region)) {  // the rest of it is hidden
+      go_on_unseen(interval_s);
+      return;
+    }
+    expected.position_px = region.position_px;
+    expected.velocity_px_s = velocity_px_s;
+    expected.sides_px = region.high_px - region.low_px;
+  }
 };
 
 }  // namespace spidar
