@@ -3,14 +3,12 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/spidar_motion.h"
-#include "plugin/provider/device_provider.h"
 #include "plugin/tracks/spidar_extract.h"
 #include "plugin/tracks/spidar_sink.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&
-         GST_ELEMENT_REGISTER(spidarextract, plugin) && GST_ELEMENT_REGISTER(spidarsink, plugin) &&
-         GST_DEVICE_PROVIDER_REGISTER(spidardeviceprovider, plugin);
+         GST_ELEMENT_REGISTER(spidarextract, plugin) && GST_ELEMENT_REGISTER(spidarsink, plugin);
 }
 
 #define PACKAGE "gst-spidar"
