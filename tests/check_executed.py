@@ -15,8 +15,6 @@ LAYERS = ("core", "plugin", "spidar")
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 ONE_OF_TWO = "the other one of two is in this build"
 EXCUSED = {
-    "plugin/filter/frame/analytics_meta.cpp": ONE_OF_TWO,
-    "plugin/filter/frame/analytics_meta_none.cpp": ONE_OF_TWO,
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,
 }
 

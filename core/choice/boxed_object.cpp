@@ -47,40 +47,30 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame
 }
 
 const MovingObject* BoxedObject::see(const ChoiceFrame& frame) {
-  /// Its track first, then the object itself, then the largest one.
-  enum class Rank { kNone, kOther, kSameObject, kSameTrack };
-  Rank best_rank = Rank::kNone;
-  const MovingObject* best = nullptr;
-  uint64_t track = 0;
+  const MovingObject* best = nullptr;  // the object itself, else the largest one
   missing_s_ += frame.interval_s;
   waited_s_ += frame.interval_s;
-  const bool holds = (id_ != 0 || track_ != 0) && missing_s_ <= kHold_s;
+  const bool holds = id_ != 0 && missing_s_ <= kHold_s;
   for (size_t i = 0; frame.boxes && i < frame.boxes->size(); ++i) {
     const PictureBox& box = (*frame.boxes)[i];
     if (name_[0] && box.name != name_) continue;
     has_box_ = true;
     const MovingObject* const object = at_box(box, frame);
     if (!object) continue;
-    const Rank rank = track_ != 0 && box.track == track_ ? Rank::kSameTrack
-                      : object->id == id_                ? Rank::kSameObject
-                                                         : Rank::kOther;
-    if (rank == Rank::kOther && holds) continue;
-    if (rank < best_rank || (rank == best_rank && object->area_px2 <= best->area_px2)) continue;
-    best_rank = rank;
+    const bool is_same = object->id == id_;
+    if (!is_same && (holds || (best && object->area_px2 <= best->area_px2))) continue;
     best = object;
-    track = box.track;
+    if (is_same) break;
   }
   if (best) {
     id_ = best->id;
-    track_ = track;
     missing_s_ = 0;
     has_found_ = true;
     return best;
   }
   if (!holds) return nullptr;
-  const auto known =
-      std::find_if(frame.objects.begin(), frame.objects.end(),
-                   [&](const MovingObject& object) { return id_ != 0 && object.id == id_; });
+  const auto known = std::find_if(frame.objects.begin(), frame.objects.end(),
+                                  [&](const MovingObject& object) { return object.id == id_; });
   return known == frame.objects.end() ? nullptr : &*known;
 }
 

@@ -11,7 +11,7 @@ namespace spidar {
 
 /// Boxes say what is meant, objects how it moves. A detector misses things in some frames, so that
 /// the object stays for a moment without a box. Of several, the largest is taken; it stays for as
-/// long as there is a box around it, or one with the same track around another object.
+/// long as there is a box around it.
 class BoxedObject {
  public:
   /// By boxes of this name, or by all when it is empty. It outlives the frames up to the next
@@ -41,8 +41,7 @@ class BoxedObject {
   const MovingObject* at_box(const PictureBox& box, const ChoiceFrame& frame) const;
 
   const char* name_ = "";
-  uint32_t id_ = 0;     ///< of the object; 0: none
-  uint64_t track_ = 0;  ///< of its box
+  uint32_t id_ = 0;  ///< of the object; 0: none
   double missing_s_ = 0;
   double waited_s_ = 0;  ///< since begin(), until the first one was found
   bool has_found_ = false;

@@ -21,7 +21,6 @@ namespace spidar {
 /// the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
 struct PictureBox {
   std::string name;             ///< of what is in it, "face"
-  uint64_t track = 0;           ///< the same in all frames of one thing; 0: not known
   Eigen::Vector2d place{0, 0};  ///< the corner that is nearer to (0, 0)
   Eigen::Vector2d far_corner{1, 1};
 };

@@ -4,7 +4,6 @@
 
 #include <atomic>
 
-#include "plugin/feel/feel_caps.h"
 #include "plugin/gobject/downstream.h"
 
 using spidar::Ref;
@@ -17,20 +16,14 @@ struct _GstSpidarFeelBin {
   GstBin parent;
 
   gchar* properties;
-  GstCaps* felt;   // what spidarmotion accepts
-  GstCaps* shown;  // the same in any size
   // The elements of the bin, in this order.
   GstElement* before;
-  GstElement*
-      middle;  // accepts the caps of spidarmotion in any size; kept while it is not in the bin
+  GstElement* middle;  // accepts what spidarmotion accepts; kept while that is in its place
   GstElement* after;
-  // The spidarmotion that has the device; nullptr: nothing is felt. It is in the place of the
-  // middle while it is in the bin. Read by the streaming thread and written in state changes,
+  // The spidarmotion that has the device; nullptr: nothing is felt. The first data that come put it
+  // in the place of the middle. Read by the streaming thread and written in state changes,
   // atomically.
   GstElement* motion;
-  // Of the streaming thread:
-  const GstElement* considered;  // the `motion` for which it was last decided what is in the bin
-  bool said;                     // why it is not
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
@@ -129,7 +122,9 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
 /// Without asking the elements upstream to negotiate again: `to` accepts what was accepted before.
 /// theoradec fails when it has to during a seek.
 static void link_quietly(GstElement* from, GstElement* to) {
-  gst_element_link_pads_full(from, "src", to, "sink", kLinkQuietly);
+  constexpr auto kQuietly =
+      static_cast<GstPadLinkCheck>(GST_PAD_LINK_CHECK_DEFAULT | GST_PAD_LINK_CHECK_NO_RECONFIGURE);
+  gst_element_link_pads_full(from, "src", to, "sink", kQuietly);
 }
 
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
@@ -148,55 +143,19 @@ static bool has(GstSpidarFeelBin* self, GstElement* element) {
   return gst_object_has_as_parent(GST_OBJECT(element), GST_OBJECT(self));
 }
 
-/// Puts spidarmotion into the bin if it accepts `caps`, and takes it out if it does not. Called in
-/// the streaming thread, before the data reach `before`.
-static void consider(GstSpidarFeelBin* self, GstElement* motion, const GstCaps* caps) {
-  self->considered = motion;
-  if (!motion) return;
-  const bool fits = spidar::fits_size(caps, self->felt);
-  if (fits != has(self, motion))
-    replace_element(self, fits ? self->middle : motion, fits ? motion : self->middle);
-  if (fits || self->said) return;
-  self->said = true;
-  g_printerr("spidar-feel: %s\n", spidar::say_sizes(caps, self->felt).c_str());
-}
-
-/// The probe stays on the pad: data may flow at any time, also while the bin begins to play.
-static GstPadProbeReturn before_data(GstPad* pad, GstPadProbeInfo* info, gpointer data) {
+/// Puts spidarmotion into the bin, before the data reach `before`. The probe stays on the pad: data
+/// may flow at any time, also while the bin begins to play.
+static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer data) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
   auto* motion = static_cast<GstElement*>(g_atomic_pointer_get(&self->motion));
-  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-    GstEvent* event = GST_PAD_PROBE_INFO_EVENT(info);
-    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
-    GstCaps* caps = nullptr;
-    gst_event_parse_caps(event, &caps);
-    consider(self, motion, caps);
-  } else if (motion != self->considered) {
-    GstCaps* caps = gst_pad_get_current_caps(pad);
-    if (caps) consider(self, motion, caps);
-    gst_clear_caps(&caps);
-  }
+  const bool is_event = (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0;
+  if (is_event && GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_CAPS)
+    return GST_PAD_PROBE_OK;
+  if (motion && !has(self, motion)) replace_element(self, self->middle, motion);
   return GST_PAD_PROBE_OK;
 }
 
-/// Answers for spidarmotion like for the middle. Otherwise an element before the bin would find
-/// that frames of another size do not fit, before their caps reach the bin.
-static GstPadProbeReturn answer_query(GstPad*, GstPadProbeInfo* info, gpointer data) {
-  GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
-  GstQuery* query = GST_PAD_PROBE_INFO_QUERY(info);
-  if (GST_QUERY_TYPE(query) != GST_QUERY_CAPS) return GST_PAD_PROBE_OK;
-  GstCaps* filter = nullptr;
-  gst_query_parse_caps(query, &filter);
-  const Ref<GstCaps> wanted(
-      filter ? gst_caps_intersect_full(filter, self->shown, GST_CAPS_INTERSECT_FIRST)
-             : gst_caps_ref(self->shown));
-  const Ref<GstPad> pad(gst_element_get_static_pad(self->after, "sink"));
-  const Ref<GstCaps> accepted(gst_pad_query_caps(pad.get(), wanted.get()));
-  gst_query_set_caps_result(query, accepted.get());
-  return GST_PAD_PROBE_HANDLED;
-}
-
-/// After an element was replaced, `before` negotiates and sends caps and segment again. When a seek
+/// After the middle was replaced, `before` negotiates and sends caps and segment again. When a seek
 /// flushes the bin meanwhile, that fails, and the player would stop with an error. The frame is one
 /// that the seek drops anyway. The flush has marked the pad of the bin before it reaches the
 /// elements in it.
@@ -230,8 +189,6 @@ static void stop_feeling(GstSpidarFeelBin* self) {
   if (has(self, self->motion)) replace_element(self, self->motion, self->middle);
   const Ref<GstElement> motion(self->motion);
   g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
-  self->considered = nullptr;
-  self->said = false;
   gst_element_set_state(motion.get(), GST_STATE_NULL);
   leave_device(self);
 }
@@ -250,8 +207,6 @@ static void gst_spidar_feel_bin_finalize(GObject* object) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(object);
   if (self->middle) gst_element_set_state(self->middle, GST_STATE_NULL);
   gst_clear_object(&self->middle);
-  gst_clear_caps(&self->felt);
-  gst_clear_caps(&self->shown);
   g_free(self->properties);
   G_OBJECT_CLASS(gst_spidar_feel_bin_parent_class)->finalize(object);
 }
@@ -267,10 +222,13 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
       "spidarmotion for players that offer no way to add a filter", "The gst-spidar authors");
 }
 
-static void add_probe(GstSpidarFeelBin* self, const char* name, int what,
-                      GstPadProbeCallback callback) {
-  const Ref<GstPad> pad(gst_element_get_static_pad(self->before, name));
-  gst_pad_add_probe(pad.get(), static_cast<GstPadProbeType>(what), callback, self, nullptr);
+/// What spidarmotion accepts; nullptr when the element does not exist.
+static GstCaps* motion_caps() {
+  const Ref<GstElementFactory> factory(gst_element_factory_find("spidarmotion"));
+  if (!factory) return nullptr;
+  const GList* pads = gst_element_factory_get_static_pad_templates(factory.get());
+  // Both pads have the same.
+  return gst_static_pad_template_get_caps(static_cast<GstStaticPadTemplate*>(pads->data));
 }
 
 static GstPad* add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const char* name) {
@@ -281,7 +239,7 @@ static GstPad* add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const 
 }
 
 GstElement* gst_spidar_feel_bin_new(const char* properties) {
-  GstCaps* caps = spidar::motion_caps();
+  GstCaps* caps = motion_caps();
   GstElement* before = gst_element_factory_make("videoconvert", nullptr);
   GstElement* middle = gst_element_factory_make("capsfilter", nullptr);
   GstElement* after = gst_element_factory_make("videoconvert", nullptr);
@@ -292,17 +250,14 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
     self->before = before;
     self->middle = GST_ELEMENT(gst_object_ref_sink(middle));
     self->after = after;
-    self->felt = gst_caps_ref(caps);
-    self->shown = spidar::in_any_size(caps);
-    g_object_set(middle, "caps", self->shown, nullptr);
+    g_object_set(middle, "caps", caps, nullptr);
     gst_bin_add_many(GST_BIN(self), before, middle, after, nullptr);
     gst_element_link_many(before, middle, after, nullptr);
-    add_probe(self, "sink",
-              GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER |
-                  GST_PAD_PROBE_TYPE_BUFFER_LIST,
-              before_data);
-    add_probe(self, "src", GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM | GST_PAD_PROBE_TYPE_PUSH,
-              answer_query);
+    const Ref<GstPad> pad(gst_element_get_static_pad(before, "sink"));
+    constexpr auto kData =
+        static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM |
+                                     GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST);
+    gst_pad_add_probe(pad.get(), kData, before_data, self, nullptr);
     GstPad* sink = add_ghost_pad(self, before, "sink");
     gst_pad_set_chain_function(sink, chain);
     gst_pad_set_chain_list_function(sink, chain_list);
@@ -317,19 +272,4 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
   }
   gst_clear_caps(&caps);
   return result;
-}
-
-gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self) {
-  GST_STATE_LOCK(self);
-  const gboolean felt = self->motion != nullptr;
-  GST_STATE_UNLOCK(self);
-  return felt;
-}
-
-gboolean gst_spidar_feel_bin_passes(GstSpidarFeelBin* self, GstCaps* caps) {
-  GstCaps* accepted = nullptr;
-  g_object_get(self->middle, "caps", &accepted, nullptr);
-  const gboolean passes = gst_caps_is_subset(caps, accepted);
-  gst_caps_unref(accepted);
-  return passes;
 }

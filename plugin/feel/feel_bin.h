@@ -10,8 +10,7 @@ G_BEGIN_DECLS
 #define GST_TYPE_SPIDAR_FEEL_BIN (gst_spidar_feel_bin_get_type())
 /// videoconvert ! spidarmotion ! videoconvert, where spidarmotion is there only once the video has
 /// begun to play: what looks at films without playing them (thumbnails, tags) opens no device. A
-/// device that cannot be opened is a warning, and the video plays without it. Frames of a size that
-/// spidarmotion does not accept pass without it, while it keeps the device at rest. Of several in a
+/// device that cannot be opened is a warning, and the video plays without it. Of several in a
 /// process the first that plays has the device, until it leaves PAUSED for READY.
 G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN, GstBin)
 
@@ -20,13 +19,3 @@ G_END_DECLS
 /// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
 /// element is missing, which is printed. A floating reference.
 GstElement* gst_spidar_feel_bin_new(const char* properties);
-
-/// Whether the bin has opened the device.
-gboolean gst_spidar_feel_bin_is_felt(GstSpidarFeelBin* self);
-
-/// Whether the bin passes frames of these caps without conversion.
-gboolean gst_spidar_feel_bin_passes(GstSpidarFeelBin* self, GstCaps* caps);
-
-/// Like GST_PAD_LINK_CHECK_DEFAULT, without an event GST_EVENT_RECONFIGURE.
-constexpr auto kLinkQuietly =
-    static_cast<GstPadLinkCheck>(GST_PAD_LINK_CHECK_DEFAULT | GST_PAD_LINK_CHECK_NO_RECONFIGURE);

@@ -5,11 +5,9 @@
  * @title: spidarfeel
  * @short_description: lets the videos of any player be felt
  *
- * Gives every playbin and playbin3 that shows video and has no video-filter one with #spidarmotion,
- * and puts the same filter into every uridecodebin, uridecodebin3, decodebin and decodebin3 outside
- * of players and timelines whose raw video goes to a video sink. The program spidar-feel runs a
- * player with it. `SPIDAR_FEEL` in the environment has properties of #spidarmotion, a line
- * NAME=VALUE each.
+ * Gives every playbin and playbin3 that shows video and has no video-filter one with #spidarmotion.
+ * The program spidar-feel runs a player with it. `SPIDAR_FEEL` in the environment has properties of
+ * #spidarmotion, a line NAME=VALUE each.
  *
  * The device is opened when a video begins to play, not before, and closed when it is stopped.
  *
@@ -21,7 +19,6 @@
 #include <gst/gsttracer.h>
 
 #include "plugin/feel/feel_bin.h"
-#include "plugin/feel/feel_decoder.h"
 #include "plugin/gobject/ref.h"
 
 struct GstSpidarFeelTracer {
@@ -56,29 +53,11 @@ static void set_filter(GstElement* element) {
 static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED && is_playbin(element)) set_filter(element);
-  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING) spidar::feel_decoder(element);
-}
-
-static void after_link(GstTracer*, GstClockTime, GstPad* source, GstPad* sink,
-                       GstPadLinkReturn result) {
-  if (result == GST_PAD_LINK_OK) spidar::feel_linked_pad(source, sink);
-}
-
-static void after_unlink(GstTracer*, GstClockTime, GstPad* source, GstPad*, gboolean unlinked) {
-  if (unlinked) spidar::free_unlinked_target(source);
-}
-
-static void after_removal_of_pad(GstTracer*, GstClockTime, GstElement* element, GstPad* pad) {
-  spidar::forget_removed_pad(element, pad);
 }
 
 static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {
   gst_tracing_register_hook(GST_TRACER(self), "element-change-state-pre",
                             G_CALLBACK(before_state_change));
-  gst_tracing_register_hook(GST_TRACER(self), "pad-link-post", G_CALLBACK(after_link));
-  gst_tracing_register_hook(GST_TRACER(self), "pad-unlink-post", G_CALLBACK(after_unlink));
-  gst_tracing_register_hook(GST_TRACER(self), "element-remove-pad",
-                            G_CALLBACK(after_removal_of_pad));
 }
 
 static void gst_spidar_feel_tracer_class_init(GstSpidarFeelTracerClass*) {}

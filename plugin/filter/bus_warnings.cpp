@@ -69,6 +69,12 @@ void BusWarnings::check_frame(const FrameReport& report) {
           ("A frame has less memory than its picture needs; it is passed on but not felt."),
           ("The strides and offsets of its GstVideoMeta do not fit it."));
       break;
+    case FrameProblem::kWrongSize:
+      GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
+                          ("Frames with a side below %d or above %d pixels are only shown.",
+                           FrameLuma::kSmallestSide, FrameLuma::kLargestSide),
+                          ("A videoscale before the element makes them smaller or larger."));
+      break;
     case FrameProblem::kSmallHalf:
       GST_ELEMENT_WARNING(
           element_, STREAM, FORMAT,
@@ -158,6 +164,8 @@ const char* words_of(FrameProblem problem) {
       return "it has less memory than its picture needs";
     case FrameProblem::kNotShown:
       return "it is outside the segment or cropped to nothing";
+    case FrameProblem::kWrongSize:
+      return "one of its sides is too short or too long";
     case FrameProblem::kSmallHalf:
       return "the half of it that is picture is too small";
   }

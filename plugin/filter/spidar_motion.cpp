@@ -67,11 +67,8 @@ using spidar::MotionDisplay;
 using spidar::MotionEngine;
 using spidar::MotionProperties;
 
-#define CAPS_OF(formats)                                      \
-  "video/x-raw, format = (string) " formats                   \
-  ", width = (int) [ 16, 8192 ], height = (int) [ 16, 8192 ]" \
-  ", framerate = (fraction) [ 0, max ]"
-#define CAPS CAPS_OF(SPIDAR_VIDEO_FORMATS) "; " CAPS_OF(SPIDAR_UNPACKED_FORMATS)
+#define CAPS \
+  GST_VIDEO_CAPS_MAKE(SPIDAR_VIDEO_FORMATS) "; " GST_VIDEO_CAPS_MAKE(SPIDAR_UNPACKED_FORMATS)
 
 static GstStaticPadTemplate motion_sink_template =
     GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));

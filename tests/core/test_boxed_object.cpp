@@ -30,12 +30,11 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
 }
 
 /// Around the middle, in px from the middle of the frame.
-PictureBox box(const char* name, const Vector2d& middle_px, const Vector2d& size_px,
-               uint64_t track = 0) {
+PictureBox box(const char* name, const Vector2d& middle_px, const Vector2d& size_px) {
   const auto place = [](const Vector2d& px) {
     return Vector2d(0.5 + px.x() / kWidth, 0.5 + px.y() / kHeight);
   };
-  return {name, track, place(middle_px - size_px / 2), place(middle_px + size_px / 2)};
+  return {name, place(middle_px - size_px / 2), place(middle_px + size_px / 2)};
 }
 
 const Vector2d kLeft(-100, 0), kRight(100, 0), kSize(40, 80);
@@ -120,14 +119,6 @@ TEST(BoxedObject, ADetectorMayMissFramesButNotTheThing) {
   watcher.see(two(), {box("", kRight, kSize)});
   EXPECT_EQ(watcher.see_for(BoxedObject::kHold_s - kFrame_s, two(), {}), 2u);
   EXPECT_EQ(watcher.see_for(2 * kFrame_s, two(), {}), 0u);
-}
-
-TEST(BoxedObject, ATrackLeadsToTheObjectEvenWhenThatGotAnotherId) {
-  Watcher watcher("box");
-  const PictureBox left = box("", kLeft, kSize, 7), right = box("", kRight, kSize, 8);
-  watcher.see({object(1, kLeft, kSize)}, {left});
-  EXPECT_EQ(watcher.see({object(2, kRight, 2 * kSize), object(3, kLeft, kSize)}, {right, left}),
-            3u);
 }
 
 TEST(BoxedObject, SaysWhetherBoxesOrObjectsAreMissingAndNotAtOnce) {

@@ -77,13 +77,21 @@ TEST(Frames, SmallestAndOddSizesPass) {
   }
 }
 
-TEST(Frames, SizesOutsideTheLimitsAreNotNegotiated) {
+TEST(Frames, OtherSizesPassAndOneWarningSaysThatTheyAreNotFelt) {
   ElementHarness h;
-  for (const auto& [width, height] : {std::pair{15, 64}, {64, 15}, {8193, 64}}) {
-    GstCaps* caps = make_caps("GRAY8", width, height);
-    EXPECT_FALSE(gst_pad_query_accept_caps(GST_PAD_PEER(h.harness()->srcpad), caps));
-    gst_caps_unref(caps);
+  GstClockTime pts = 0;
+  for (const auto& [width, height] :
+       {std::pair{1, 1}, {15, 64}, {64, 15}, {8193, 64}, {64, 8193}}) {
+    SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+    h.set_caps(make_caps("GRAY8", width, height));
+    EXPECT_EQ(h.push_moved(0, 0, pts += kFrame), GST_FLOW_OK);
   }
+  EXPECT_TRUE(h.motions().empty());
+  ASSERT_EQ(h.warnings().size(), 1u);
+  EXPECT_EQ(h.warnings()[0], "Frames with a side below 16 or above 8192 pixels are only shown.");
+  h.set_caps(make_caps("GRAY8", 320, 240));
+  EXPECT_EQ(h.push_moved(0, 0, pts += kFrame), GST_FLOW_OK);
+  EXPECT_EQ(h.motions().size(), 1u);
 }
 
 TEST(Frames, OnlySystemMemoryIsNegotiated) {

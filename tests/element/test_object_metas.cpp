@@ -9,7 +9,6 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/analytics_meta.h"
 #include "plugin/filter/frame/object_metas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
@@ -167,8 +166,7 @@ TEST_F(ObjectMetas, AreReadAsTheyAreWritten) {
     }
   }
   EXPECT_EQ(others, 1);
-  // Those of GstAnalyticsRelationMeta come in addition.
-  EXPECT_EQ(ours, kHasAnalytics ? 4 : 2);
+  EXPECT_EQ(ours, 2);
   gst_buffer_unref(out);
 }
 

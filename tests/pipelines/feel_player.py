@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""A simple player without any knowledge of haptics: feel_player.py PLAYBIN FILM STEP... PLAYBIN is playbin or playbin3,
-or a decoder, whose video is linked to a sink when its pad appears: decodebin, decodebin3, uridecodebin, uridecodebin3.
+"""A simple player without any knowledge of haptics: feel_player.py PLAYBIN FILM STEP... PLAYBIN is playbin or playbin3.
 Steps are
-  own-filter, own-sink    uses a video-filter, or a sink with spidarmotion device=none, of its own; own-filter needs playbin
-  window                  uses a sink that accepts what a window accepts, without a converter; needs playbin
-  refuse                  lets its sink refuse all caps from now on; needs a decoder
-  slow-pads               takes 200 ms with each new pad from now on, which then has a frame; needs a decoder
+  own-filter, own-sink    uses a video-filter, or a sink with spidarmotion device=none, of its own
+  window                  uses a sink that accepts what a window accepts, without a converter
   preroll, play, pause, ready, stop, seek (to the beginning)
   other                   uses a second player from now on
   frames=N, wait=MS       waits until N more frames were shown; for MS milliseconds
@@ -79,47 +76,6 @@ class Playbin:
         self.pipeline.set_property("video-sink", window)
 
 
-class Decoder:
-    def __init__(self, name, film):
-        source = f"{name} uri={Gst.filename_to_uri(film)}" if name.startswith("uri") else f"filesrc location={film} ! {name}"
-        self.pipeline = Gst.parse_launch(f"{source} name=decoder identity name=video ! videoconvert name=convert ! "
-                                         "fakevideosink name=screen")
-        self.decoder, self.video, self.convert, self.screen = map(self.pipeline.get_by_name,
-                                                                  ("decoder", "video", "convert", "screen"))
-        self.decoder.connect("pad-added", self.link)
-        watch(self.screen.get_child_by_index(0))
-
-    def link(self, _decoder, pad):
-        # decodebin3 adds its pads before they have caps.
-        caps = pad.query_caps(None)
-        if not caps.is_any() and not caps.is_empty() and caps.get_structure(0).get_name() == "video/x-raw":
-            pad.link(self.video.get_static_pad("sink"))
-
-    def own_sink(self):
-        motion = Gst.parse_launch("spidarmotion device=none")
-        self.pipeline.add(motion)
-        self.convert.unlink(self.screen)
-        self.convert.link(motion)
-        motion.link(self.screen)
-
-    def refuse(self):
-        """Its sink refuses all caps when it is asked, but takes the frames that come."""
-        gst = ctypes.CDLL("libgstreamer-1.0.so.0")
-        none = Gst.Caps.new_empty()
-
-        def answer(_pad, info):
-            if info.get_query().type != Gst.QueryType.CAPS:
-                return Gst.PadProbeReturn.OK
-            # A query that Python refers to as well could not be written.
-            gst.gst_query_set_caps_result(ctypes.c_void_p(info.data), ctypes.c_void_p(hash(none)))
-            return Gst.PadProbeReturn.HANDLED
-
-        self.video.get_static_pad("sink").add_probe(Gst.PadProbeType.QUERY_DOWNSTREAM, answer)
-
-    def slow_pads(self):
-        self.decoder.connect("pad-added", lambda *_: time.sleep(.2))
-
-
 def wait_for_end(pipeline):
     message = pipeline.get_bus().timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.EOS | Gst.MessageType.ERROR)
     if message.type == Gst.MessageType.ERROR:
@@ -128,7 +84,7 @@ def wait_for_end(pipeline):
 
 
 def main(name, film, *steps):
-    players = [(Playbin if name.startswith("playbin") else Decoder)(name, film) for _ in range(2)]
+    players = [Playbin(name, film) for _ in range(2)]
     player = players[0]
     for step in steps:
         word, _, number = step.partition("=")

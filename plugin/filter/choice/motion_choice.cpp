@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "plugin/filter/frame/analytics_meta.h"
 #include "plugin/gobject/category.h"
 
 #undef GST_CAT_DEFAULT
@@ -122,8 +121,8 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("%s, line %d: no frame comes with a box%s%s.", name, rule.line,
            rule.name[0] ? " called " : "", rule.name.data()),
           ("A detector or tracker before this element attaches boxes to the frames, as "
-           "GstVideoRegionOfInterestMeta%s. Nothing is felt until one comes, or %s.",
-           kHasAnalytics ? " or GstAnalyticsRelationMeta" : "", end.c_str()));
+           "GstVideoRegionOfInterestMeta. Nothing is felt until one comes, or %s.",
+           end.c_str()));
       break;
     case ChoiceState::kBoxAtRest:
       GST_ELEMENT_WARNING(

@@ -118,9 +118,10 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
 
 bool LiveSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
   if (!follows(frame, running_ns, report)) return false;
-  if (!holds_picture(frame.video)) {
+  const bool has_size = FrameLuma::takes(frame.video.info);
+  if (!has_size || !holds_picture(frame.video)) {
     restart();
-    report.problem = FrameProblem::kTooSmall;
+    report.problem = has_size ? FrameProblem::kTooSmall : FrameProblem::kWrongSize;
     return false;
   }
   const int64_t shown_ns = schedule_.at_sink_ns(running_ns);

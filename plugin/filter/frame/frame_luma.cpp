@@ -136,6 +136,11 @@ bool holds_picture(const GstVideoFrame& frame) {
   return true;
 }
 
+bool FrameLuma::takes(const GstVideoInfo& info) {
+  const auto fits = [](int side) { return side >= kSmallestSide && side <= kLargestSide; };
+  return fits(GST_VIDEO_INFO_WIDTH(&info)) && fits(GST_VIDEO_INFO_HEIGHT(&info));
+}
+
 ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const VisiblePart& shown) {
   const GstVideoFormatInfo* const format = frame.info.finfo;
   const GstVideoFormatInfo* const wide = gst_video_format_get_info(format->unpack_format);

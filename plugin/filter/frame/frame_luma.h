@@ -79,8 +79,10 @@ bool holds_picture(const GstVideoFrame& frame);
 /// its flags whether it is interlaced.
 class FrameLuma {
  public:
-  /// In pixels; the caps allow no less, a crop may leave less.
+  /// In pixels; a crop may leave less.
   static constexpr int kSmallestSide = 16;
+  static constexpr int kLargestSide = 8192;
+  static bool takes(const GstVideoInfo& info);
 
   /// The view is valid until the next call and for as long as the frame is mapped. Empty (no data)
   /// when the crop leaves too little.

@@ -21,7 +21,8 @@ enum class FrameProblem {
   kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs
-  kNotShown,          ///< outside the segment, or cropped to nothing
+  kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
+  kWrongSize,         ///< more or less than FrameLuma takes
   kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "plugin/filter/frame/analytics_meta.h"
 #include "plugin/filter/frame/frame_luma.h"
 
 namespace spidar {
@@ -37,8 +36,7 @@ ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width,
       (middle_px - object.size_px / 2).array().floor().max(0.0).min(size_px);
   const Eigen::Array2d to_px =
       (middle_px + object.size_px / 2).array().ceil().max(0.0).min(size_px);
-  return {kObjectName,          object.id, from_px.x(), from_px.y(), (to_px - from_px).x(),
-          (to_px - from_px).y()};
+  return {kObjectName, from_px.x(), from_px.y(), (to_px - from_px).x(), (to_px - from_px).y()};
 }
 
 GstStructure* motion_of_object(const MovingObject& object, bool felt, int width, int height) {
@@ -61,11 +59,10 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
              buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
     const auto& region = *reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
     // Trackers store corners left of the picture or above it as negative numbers.
-    boxes.push_back({text_of(region.roi_type), 0, static_cast<double>(static_cast<gint>(region.x)),
+    boxes.push_back({text_of(region.roi_type), static_cast<double>(static_cast<gint>(region.x)),
                      static_cast<double>(static_cast<gint>(region.y)),
                      static_cast<double>(region.w), static_cast<double>(region.h)});
   }
-  read_analytics_meta(buffer, boxes);
   boxes.erase(
       std::remove_if(boxes.begin(), boxes.end(),
                      [](const ObjectBox& box) { return box.width <= 0 || box.height <= 0; }),
@@ -76,12 +73,10 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
                          int width, int height) {
   remove_ours(buffer);
-  std::vector<ObjectBox> boxes;
   for (const MovingObject& object : scene.objects) {
     if (object.tracks == 0) continue;
     const ObjectBox box = box_of(object, report.part, width, height);
     if (box.width <= 0 || box.height <= 0) continue;
-    boxes.push_back(box);
     GstVideoRegionOfInterestMeta* const region = gst_buffer_add_video_region_of_interest_meta(
         buffer, kObjectName, static_cast<guint>(box.x), static_cast<guint>(box.y),
         static_cast<guint>(box.width), static_cast<guint>(box.height));
@@ -89,7 +84,6 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const Sce
     gst_video_region_of_interest_meta_add_param(
         region, motion_of_object(object, object.id == report.frame.felt_object, width, height));
   }
-  attach_analytics_meta(buffer, boxes);
 }
 
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
@@ -106,7 +100,7 @@ std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
   for (ObjectBox& box : found) {
     const Eigen::Vector2d a = place(box.x, box.y);
     const Eigen::Vector2d b = place(box.x + box.width, box.y + box.height);
-    boxes->push_back({std::move(box.name), box.track, a.cwiseMin(b), a.cwiseMax(b)});
+    boxes->push_back({std::move(box.name), a.cwiseMin(b), a.cwiseMax(b)});
   }
   return boxes;
 }

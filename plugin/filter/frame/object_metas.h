@@ -22,19 +22,18 @@ namespace spidar {
 /// In pixels of the frame that has it; it may lie partly outside.
 struct ObjectBox {
   std::string name;  ///< of what is in it, "face"
-  uint64_t track;    ///< the same in all frames of one thing; 0: not known
   double x, y, width, height;
 };
 
-/// Of GstVideoRegionOfInterestMeta, and of GstAnalyticsRelationMeta where GStreamer has it. Those
-/// without a size are left out. Ids of regions count them within a frame, and are no tracks.
+/// Of GstVideoRegionOfInterestMeta. Those without a size are left out. Their ids count them within
+/// a frame, so that they do not tell which is which in the next one.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
 /// The name of our objects.
 constexpr const char* kObjectName = "spidar-object";
 
-/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Regions that
-/// another spidarmotion has attached are replaced; its detections stay.
+/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Those that
+/// another spidarmotion has attached are replaced.
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
                          int width, int height);
 
