@@ -123,12 +123,12 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   on_device_error = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
 
-  const FrameReport* report = nullptr;
+  FrameReport* report = nullptr;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     settings = settings_now(self, *frame, touch);
     take_track(self, frame->info);
     report = &self->engine->process({*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch});
-    self->display->show(*report, display, settings, *frame);
+    self->display->show(*report, display, settings.axes, *frame);
   });
   if (!processed) {
     // The application may leave the pipeline in PLAYING.

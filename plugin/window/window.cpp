@@ -47,7 +47,7 @@ class Window::Session {
 
   void close();
   bool wants_frame() const { return is_asking_ && !is_full_; }
-  bool give(const GstVideoFrame& frame, FrameFacts facts);
+  bool give(const GstVideoFrame& frame, FrameReport report);
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
   void say(ToWindow message);
 
@@ -99,7 +99,7 @@ std::shared_ptr<PictureSlots> Window::Session::slots_for(const GstVideoFrame& fr
   return slots_->is_there() ? slots_ : nullptr;
 }
 
-bool Window::Session::give(const GstVideoFrame& frame, FrameFacts facts) {
+bool Window::Session::give(const GstVideoFrame& frame, FrameReport report) {
   std::shared_ptr<PictureSlots> slots;
   std::optional<uint32_t> slot;
   {
@@ -116,7 +116,7 @@ bool Window::Session::give(const GstVideoFrame& frame, FrameFacts facts) {
   const bool is_copied = slots->copy(frame, *slot);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_copied) {
-    frames_.push_back({slots, {slots->description().id, *slot, std::move(facts)}});
+    frames_.push_back({slots, {slots->description().id, *slot, std::move(report)}});
   } else {
     slots->give_back(*slot);
   }
@@ -324,8 +324,8 @@ bool Window::wants_frame() const {
   return session_->wants_frame();
 }
 
-bool Window::give(const GstVideoFrame& frame, FrameFacts facts) {
-  return session_->give(frame, std::move(facts));
+bool Window::give(const GstVideoFrame& frame, FrameReport report) {
+  return session_->give(frame, std::move(report));
 }
 
 std::string Window::take_picture(const std::string& path, std::chrono::milliseconds timeout) {

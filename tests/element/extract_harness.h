@@ -39,9 +39,8 @@ inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
   FrameReport report;
   report.frame.running_ns = static_cast<int64_t>(pts);
   report.frame.interval_ns = kExtractedFrame;
-  SceneView scene;
-  scene.wrench = wrench;
-  attach_motion_meta(frame, report, scene, 16, 16);
+  report.frame.wrench = wrench;
+  attach_motion_meta(frame, report, 16, 16);
   return frame;
 }
 

@@ -26,10 +26,10 @@ bool is_dark(const Pixel& pixel) {
   return pixel[0] < 128 && pixel[1] < 128 && pixel[2] < 128;
 }
 
-SceneView one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwner::kUnknown) {
-  SceneView scene;
-  scene.tracks.push_back({1, from, to, owner, 0, false});
-  return scene;
+FrameReport one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwner::kUnknown) {
+  FrameReport report;
+  report.tracks.push_back({1, from, to, owner, 0, false});
+  return report;
 }
 
 TEST(Overlay, IsDrawnIntoEveryFormat) {
@@ -74,26 +74,27 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
     EXPECT_TRUE(canvas.is_drawn(32, 16)) << "the last pixel of an odd frame";
     for (const Eigen::Vector2d& place :
          {Eigen::Vector2d(0, 0), {1, 1}, {1e9, -1e9}, {static_cast<double>(none), 0.5}}) {
-      TouchMark touch;
+      FrameReport report;
+      TouchMark& touch = report.touch_mark.emplace();
       touch.touching = true;
       touch.finger = touch.proxy = place;
       touch.force_N = {3, 3, 3};
-      canvas.draw({}, 1, 3, touch);
+      canvas.draw(report);
     }
     EXPECT_TRUE(canvas.guards_hold());
   }
 }
 
 TEST(Overlay, TracksAreDrawnOnlyWhenAskedFor) {
-  SceneView scene = one_track({10, 20}, {34, 20});
-  scene.lost.push_back({50, 10});
+  FrameReport report = one_track({10, 20}, {34, 20});
+  report.lost.push_back({50, 10});
   MovingObject object;
   object.tracks = 5;
   object.size_px = {20, 10};
-  scene.objects.push_back(object);
+  report.frame.objects.push_back(object);
   for (const bool has_tracks : {false, true}) {
     Canvas canvas("RGB", 64, 48);
-    canvas.draw(scene, 1, 3, std::nullopt, {}, has_tracks);
+    canvas.draw(report, 1, has_tracks);
     EXPECT_EQ(canvas.is_drawn(16, 20), has_tracks);
     EXPECT_EQ(canvas.is_drawn(50, 10), has_tracks);
     EXPECT_TRUE(canvas.is_drawn(32, 19)) << "the upper side of the object's box";
@@ -122,9 +123,9 @@ TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
 
 TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
   Canvas canvas("RGB", 641, 481);
-  SceneView scene;
-  scene.wrench.force_N = {0, 3, 0};  // up, the most there is
-  canvas.draw(scene);
+  FrameReport report;
+  report.frame.wrench.force_N = {0, 3, 0};  // up, the most there is
+  canvas.draw(report);
   // Tail at (320, 240), a fifth of 481 lines long, 6 px wide; the border is a quarter of that. The
   // head begins four widths before the tip and is as wide there.
   const int tip_y = 240 - 96, neck_y = tip_y + 24;
@@ -138,25 +139,27 @@ TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
 
   for (const auto& [force_N, max_force_N] : {std::pair{0.0, 3.0}, {3.0, 0.0}}) {
     Canvas none("RGB", 641, 481);
-    scene.wrench.force_N = {0, force_N, 0};
-    none.draw(scene, 1, max_force_N);
+    report.frame.wrench.force_N = {0, force_N, 0};
+    report.controller.max_force_N = max_force_N;
+    none.draw(report);
     EXPECT_FALSE(none.is_drawn(320, 240)) << force_N << " of " << max_force_N;
   }
 }
 
 TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
   Canvas canvas("RGB", 641, 481);
-  SceneView scene;
-  scene.objects.resize(3);
+  FrameReport report;
+  report.frame.objects.resize(3);
   for (uint32_t i = 0; i < 3; ++i) {
-    MovingObject& object = scene.objects[i];
+    MovingObject& object = report.frame.objects[i];
     object.id = i + 1;
     object.tracks = i == 2 ? 0 : 5;  // the last one is out of sight
     object.position_px = {-200 + 200.0 * i, 60};
     object.size_px = {80, 40};
   }
-  scene.wrench.force_N = {3, 0, 0};
-  canvas.draw(scene, 1, 3, std::nullopt, {1});
+  report.frame.wrench.force_N = {3, 0, 0};
+  report.felt = {1};
+  canvas.draw(report);
   // The boxes are around (120, 300), (320, 300) and (520, 300).
   EXPECT_EQ(canvas.at(80, 310), kOrange);
   EXPECT_EQ(canvas.at(78, 310), kBlackPixel) << "2 px wide, in 4 px of black";
@@ -174,10 +177,10 @@ TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
 std::vector<std::tuple<int, int, Pixel>> newtons(const PictureTurn& turn) {
   constexpr int kSide = 481, kMiddle = kSide / 2;
   Canvas canvas("RGB", kSide, kSide);
-  SceneView scene;
-  scene.turn = turn;
-  scene.wrench.force_N = {1, 0, 0};  // "1.0 N", beyond an arrow of 481 / 5 / 3 = 32 px
-  canvas.draw(scene);
+  FrameReport report;
+  report.turn = turn;
+  report.frame.wrench.force_N = {1, 0, 0};  // "1.0 N", beyond an arrow of 481 / 5 / 3 = 32 px
+  canvas.draw(report);
   std::vector<std::tuple<int, int, Pixel>> found;
   int left = kSide, top = kSide;
   for (int y = 0; y < kSide; ++y) {
@@ -206,10 +209,11 @@ TEST(Overlay, NewtonsStandBeyondTheTipOfTheArrowUprightAsItIsShown) {
 }
 
 TEST(Overlay, ShowsFingerProxyAndTheForceOfTheContact) {
-  TouchMark touch;
+  FrameReport report;
+  TouchMark& touch = report.touch_mark.emplace();
   touch.finger = {0.25, 0.5};  // the middle between pixels 159 and 160, and 239 and 240
   Canvas canvas("RGB", 640, 480);
-  canvas.draw({}, 1, 3, touch);
+  canvas.draw(report);
   // A ring of 11 px, a quarter of that thick, with a border of as much on either side.
   EXPECT_FALSE(canvas.is_drawn(160, 239)) << "within the ring";
   EXPECT_EQ(canvas.at(159 + 7, 239), kBlackPixel);
@@ -221,7 +225,7 @@ TEST(Overlay, ShowsFingerProxyAndTheForceOfTheContact) {
   touch.touching = true;
   touch.proxy = {0.75, 0.5};
   touch.force_N = {3, 0, 3};  // to the right, and towards the viewer, each the most there is
-  canvas.draw({}, 1, 3, touch);
+  canvas.draw(report);
   // A disc of 9 px with a border of an eighth of 11 px, over an arrow of a fifth of 480 lines.
   EXPECT_EQ(canvas.at(480, 240), kOrange);
   EXPECT_EQ(canvas.at(480, 239 - 7), kOrange);

@@ -245,9 +245,9 @@ TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
   // A ring for the finger of 11 px (see test_overlay), in pixels twice as wide as high.
   Canvas canvas("RGB", 320, 480);
   canvas.set_pixel_aspect(2, 1);
-  TouchMark touch;
-  touch.finger = {0.5, 0.5};
-  canvas.draw({}, 1, 3, touch);
+  FrameReport touched;
+  touched.touch_mark.emplace().finger = {0.5, 0.5};
+  canvas.draw(touched);
   int across = 0, down = 0;
   for (int x = 0; x < 320; ++x) across += canvas.is_drawn(x, 239);
   for (int y = 0; y < 480; ++y) down += canvas.is_drawn(159, y);
@@ -257,9 +257,9 @@ TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
   // The force to the upper right points there as it is shown.
   Canvas arrow("RGB", 320, 480);
   arrow.set_pixel_aspect(2, 1);
-  SceneView scene;
-  scene.wrench.force_N = {2, 2, 0};
-  arrow.draw(scene);
+  FrameReport report;
+  report.frame.wrench.force_N = {2, 2, 0};
+  arrow.draw(report);
   EXPECT_EQ(arrow.at(160 + 15, 240 - 30), (Pixel{255, 255, 255}));
   EXPECT_FALSE(arrow.is_drawn(160 + 30, 240 - 30));
 }

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/scene_view.h"
+#include "plugin/filter/frame/frame_report.h"
 #include "plugin/filter/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
@@ -39,12 +39,11 @@ class Canvas {
     GST_VIDEO_INFO_PAR_D(&info_) = height;
   }
 
-  void draw(const SceneView& scene, double scale = 1, double max_force_N = 3,
-            const std::optional<TouchMark>& touch = std::nullopt,
-            const std::vector<uint32_t>& felt = {}, bool has_tracks = true) {
+  void draw(FrameReport report, double scale = 1, bool has_tracks = true) {
     GstVideoFrame frame;
     ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
-    draw_overlay(scene, has_tracks, felt, visible_part(frame), scale, max_force_N, touch, frame);
+    report.visible = visible_part(frame);
+    draw_overlay(report, has_tracks, scale, frame);
     gst_video_frame_unmap(&frame);
     after_ = rgb();
   }

@@ -13,31 +13,31 @@ namespace spidar::test {
 
 inline FrameShown some_frame() {
   FrameShown frame{3, 7, {}};
-  FrameFacts& facts = frame.facts;
-  facts.running_ns = 1'234'567'890'123;
-  facts.film = {std::make_shared<const std::string>("/film.avi"), 5, 4, 9};
-  facts.interval_s = 0.04;
-  facts.analysis_ms = 0.6;
-  facts.visible = {1, 2, 320, 240};
-  facts.scene.tracks.push_back({1, {60, 80}, {68, 81}, TrackOwner::kObject, 4, true});
-  facts.scene.lost.push_back({3.5, 4.5});
+  FrameReport& report = frame.report;
+  report.frame.running_ns = 1'234'567'890'123;
+  report.film = {std::make_shared<const std::string>("/film.avi"), 5, 4, 9};
+  report.frame.interval_ns = 40 * 1'000'000;
+  report.took_ns = 600'000;
+  report.visible = {1, 2, 320, 240};
+  report.tracks.push_back({1, {60, 80}, {68, 81}, TrackOwner::kObject, 4, true});
+  report.lost.push_back({3.5, 4.5});
   MovingObject object;
   object.id = 4;
   object.position_px = {40, -20};
   object.size_px = {60, 61};
   object.tracks = 12;
-  facts.scene.objects.push_back(object);
-  facts.scene.wrench.force_N = {1, 2, 3};
-  facts.scene.felt_object = 4;
-  facts.scene.is_free = false;
-  facts.scene.turn = PictureTurn(3, true);
-  facts.motion = MotionKind::kObjects;
-  facts.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
-  facts.speed_px_s = 321;
-  facts.click = 2;
-  facts.touch.on = true;
-  facts.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), PictureTurn(1)};
-  facts.touch.stiffness_N_m = 300;
+  report.frame.objects.push_back(object);
+  report.frame.wrench.force_N = {1, 2, 3};
+  report.frame.felt_object = 4;
+  report.felt = {4};
+  report.turn = PictureTurn(3, true);
+  report.motion = MotionKind::kObjects;
+  report.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
+  report.speed_px_s = 321;
+  report.click = 2;
+  report.touch.on = true;
+  report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), PictureTurn(1)};
+  report.touch.stiffness_N_m = 300;
   return frame;
 }
 

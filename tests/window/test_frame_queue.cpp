@@ -18,7 +18,7 @@ class Frames {
   void pass(int64_t running_ns) {
     WindowFrame frame;
     frame.picture = SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
-    frame.facts.running_ns = running_ns;
+    frame.report.frame.running_ns = running_ns;
     queue_.add(std::move(frame));
   }
   /// The running time of what is shown from now on; −1: of what was shown before.
@@ -26,7 +26,7 @@ class Frames {
     std::optional<WindowFrame> frame = queue_.show(running_ns);
     if (!frame) return -1;
     shown_ = std::move(*frame);
-    return shown_.facts.running_ns;
+    return shown_.report.frame.running_ns;
   }
 
   std::vector<int64_t> freed;  ///< the pictures that nobody keeps any more

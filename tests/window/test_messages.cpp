@@ -69,13 +69,13 @@ TEST(Messages, AreReadAsTheyWereWritten) {
 TEST(Messages, HaveWhatIsDrawn) {
   const auto frame = std::get<FrameShown>(*to_window(to_bytes(ToWindow(some_frame()))));
   EXPECT_EQ(frame.slot, 7u);
-  EXPECT_EQ(frame.facts.film.name(), "/film.avi");
-  EXPECT_EQ(frame.facts.scene.tracks.at(0).to.x_px, 68);
-  EXPECT_EQ(frame.facts.scene.objects.at(0).tracks, 12);
-  EXPECT_EQ(frame.facts.scene.turn.to_shown(Eigen::Vector2d(1, 0)),
+  EXPECT_EQ(frame.report.film.name(), "/film.avi");
+  EXPECT_EQ(frame.report.tracks.at(0).to.x_px, 68);
+  EXPECT_EQ(frame.report.frame.objects.at(0).tracks, 12);
+  EXPECT_EQ(frame.report.turn.to_shown(Eigen::Vector2d(1, 0)),
             PictureTurn(3, true).to_shown(Eigen::Vector2d(1, 0)));
-  EXPECT_EQ(frame.facts.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
-  EXPECT_EQ(frame.facts.speed_px_s, 321);
+  EXPECT_EQ(frame.report.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
+  EXPECT_EQ(frame.report.speed_px_s, 321);
   const auto state = std::get<ElementState>(*to_window(to_bytes(ToWindow(some_state()))));
   EXPECT_EQ(state.device->last.tension_N[3], 2.5);
   EXPECT_EQ(state.device->ticks.at(1).wanted_N, Eigen::Vector3d(7, 8, 9));

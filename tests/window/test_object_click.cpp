@@ -25,10 +25,10 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
 /// A picture of 200 × 100 px, shown at twice its size with its corner at (10, 20).
 const Rect kPicture{10, 20, 400, 200};
 
-FrameFacts facts() {
-  FrameFacts made;
+FrameReport report() {
+  FrameReport made;
   made.visible = {0, 0, 200, 100};
-  made.scene.objects = {object(1, {-50, 0}, {60, 60}), object(2, {-50, 0}, {20, 20}),
+  made.frame.objects = {object(1, {-50, 0}, {60, 60}), object(2, {-50, 0}, {20, 20}),
                         object(3, {50, 0}, {40, 40})};
   return made;
 }
@@ -42,21 +42,22 @@ Mouse mouse_at(const Vector2d& frame_px, bool down) {
 
 TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
   ObjectClick click;
-  EXPECT_FALSE(click.update(mouse_at({150, 50}, false), kPicture, facts()));
-  const std::optional<ObjectWish> wish = click.update(mouse_at({140, 60}, true), kPicture, facts());
+  EXPECT_FALSE(click.update(mouse_at({150, 50}, false), kPicture, report()));
+  const std::optional<ObjectWish> wish =
+      click.update(mouse_at({140, 60}, true), kPicture, report());
   ASSERT_TRUE(wish && wish->place);
   EXPECT_NEAR((*wish->place - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
   EXPECT_TRUE(click.holds());
-  EXPECT_FALSE(click.update(mouse_at({50, 50}, true), kPicture, facts())) << "still down";
+  EXPECT_FALSE(click.update(mouse_at({50, 50}, true), kPicture, report())) << "still down";
   EXPECT_TRUE(click.holds());
-  EXPECT_FALSE(click.update(mouse_at({50, 50}, false), kPicture, facts()));
+  EXPECT_FALSE(click.update(mouse_at({50, 50}, false), kPicture, report()));
   EXPECT_FALSE(click.holds());
 }
 
 TEST(ObjectClick, OnTheChosenOneLetsGo) {
-  FrameFacts chosen = facts();
+  FrameReport chosen = report();
   chosen.click = 1;
-  chosen.scene.felt_object = 3;
+  chosen.frame.felt_object = 3;
   ObjectClick click;
   const std::optional<ObjectWish> wish = click.update(mouse_at({150, 50}, true), kPicture, chosen);
   ASSERT_TRUE(wish);
@@ -73,35 +74,35 @@ TEST(ObjectClick, OnTheChosenOneLetsGo) {
 }
 
 TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {
-  ASSERT_NE(object_at(facts(), {0.25, 0.5}), nullptr);
-  EXPECT_EQ(object_at(facts(), {0.25, 0.5})->id, 2u);
-  EXPECT_EQ(object_at(facts(), {0.25, 0.7})->id, 1u);
-  EXPECT_EQ(object_at(facts(), {0.5, 0.5}), nullptr);
-  FrameFacts hidden = facts();
-  hidden.scene.objects[1].tracks = 0;
+  ASSERT_NE(object_at(report(), {0.25, 0.5}), nullptr);
+  EXPECT_EQ(object_at(report(), {0.25, 0.5})->id, 2u);
+  EXPECT_EQ(object_at(report(), {0.25, 0.7})->id, 1u);
+  EXPECT_EQ(object_at(report(), {0.5, 0.5}), nullptr);
+  FrameReport hidden = report();
+  hidden.frame.objects[1].tracks = 0;
   EXPECT_EQ(object_at(hidden, {0.25, 0.5})->id, 1u);
 }
 
 /// There the button moves the hand.
 TEST(ObjectClick, BesideObjectsAndWhereNoneAreKnownIsNone) {
-  FrameFacts touched = facts(), mean = facts();
+  FrameReport touched = report(), mean = report();
   touched.touch.on = true;
   mean.motion = MotionKind::kMean;
   Mouse taken = mouse_at({150, 50}, true), outside = taken, nowhere = taken;
   taken.taken = true;
   outside.at_px << 700, 60;
   nowhere.at_px.setConstant(std::numeric_limits<double>::quiet_NaN());
-  const auto none = [](const Mouse& mouse, const Rect& picture, const FrameFacts& of) {
+  const auto none = [](const Mouse& mouse, const Rect& picture, const FrameReport& of) {
     ObjectClick click;
     return !click.update(mouse, picture, of) && !click.holds();
   };
-  EXPECT_TRUE(none(mouse_at({100, 50}, true), kPicture, facts()));
+  EXPECT_TRUE(none(mouse_at({100, 50}, true), kPicture, report()));
   EXPECT_TRUE(none(mouse_at({150, 50}, true), kPicture, touched));
   EXPECT_TRUE(none(mouse_at({150, 50}, true), kPicture, mean));
-  EXPECT_TRUE(none(mouse_at({150, 50}, true), Rect{}, facts())) << "no picture yet";
-  EXPECT_TRUE(none(taken, kPicture, facts()));
-  EXPECT_TRUE(none(outside, kPicture, facts()));
-  EXPECT_TRUE(none(nowhere, kPicture, facts()));
+  EXPECT_TRUE(none(mouse_at({150, 50}, true), Rect{}, report())) << "no picture yet";
+  EXPECT_TRUE(none(taken, kPicture, report()));
+  EXPECT_TRUE(none(outside, kPicture, report()));
+  EXPECT_TRUE(none(nowhere, kPicture, report()));
 }
 
 }  // namespace

@@ -24,18 +24,18 @@ class Film {
   void play(double from_s, double to_s, const std::vector<uint32_t>& objects) {
     const auto end_ns = static_cast<int64_t>(to_s * 1e9);
     for (auto ns = static_cast<int64_t>(from_s * 1e9); ns < end_ns; ns += kFrame_ns) {
-      FrameFacts facts;
-      facts.film.stream_ns = ns;
-      facts.film.scene_ns = ns / (2 * kSecond) * 2 * kSecond;
-      facts.interval_s = 0.04;
+      FrameReport report;
+      report.film.stream_ns = ns;
+      report.film.scene_ns = ns / (2 * kSecond) * 2 * kSecond;
+      report.frame.interval_ns = 40 * 1'000'000;
       for (const uint32_t id : objects) {
         MovingObject object;
         object.id = id;
         object.tracks = 10;
-        facts.scene.objects.push_back(object);
+        report.frame.objects.push_back(object);
       }
-      facts.click = click;
-      choices_.see(facts);
+      report.click = click;
+      choices_.see(report);
     }
   }
   uint32_t click = 0;  ///< that the element knows of
@@ -190,20 +190,20 @@ TEST_F(Choices, NeedATimeInTheFilm) {
   EXPECT_TRUE(choices.edits().empty());
 }
 
-FrameFacts seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
-  FrameFacts facts;
-  facts.visible = {0, 0, 200, 100};
-  facts.film.stream_ns = static_cast<int64_t>(at_s * 1e9);
-  facts.film.scene_ns = static_cast<int64_t>(scene_s * 1e9);
+FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
+  FrameReport report;
+  report.visible = {0, 0, 200, 100};
+  report.film.stream_ns = static_cast<int64_t>(at_s * 1e9);
+  report.film.scene_ns = static_cast<int64_t>(scene_s * 1e9);
   for (const uint32_t id : objects) {
     MovingObject object;
     object.id = id;
     object.tracks = 10;
     object.position_px = {50 * at_s, -25};  // to the right, in the upper half
     object.size_px = {10, 10};
-    facts.scene.objects.push_back(object);
+    report.frame.objects.push_back(object);
   }
-  return facts;
+  return report;
 }
 
 TEST(Sightings, AreTheFirstOfTheScene) {
@@ -225,10 +225,10 @@ TEST(Sightings, AreTheFirstOfTheScene) {
 }
 
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
-  FrameFacts facts = seen(1, 0, {1});
-  facts.scene.turn = PictureTurn(1);
+  FrameReport report = seen(1, 0, {1});
+  report.turn = PictureTurn(1);
   Sightings sightings;
-  sightings.see(facts);
+  sightings.see(report);
   EXPECT_LT((sightings.find(1)->first_place - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 

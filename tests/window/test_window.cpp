@@ -105,9 +105,9 @@ TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
   gst_buffer_memset(buffer, 0, 160, GST_VIDEO_INFO_SIZE(&info));
   GstVideoFrame frame;
   ASSERT_TRUE(gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ));
-  FrameFacts facts;
-  facts.visible = visible_part(frame);
-  while (!window.give(frame, facts)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  FrameReport report;
+  report.visible = visible_part(frame);
+  while (!window.give(frame, report)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   gst_video_frame_unmap(&frame);
   gst_buffer_unref(buffer);
   EXPECT_NEAR(level_in(window), 160, 1);

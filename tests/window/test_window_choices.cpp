@@ -19,23 +19,23 @@ constexpr int64_t kMillisecond = 1'000'000;
 class WindowChoices : public WindowTest {
  protected:
   /// Of 320 × 240 px, with two objects whose middles are at a quarter and at three quarters.
-  static FrameFacts frame(int64_t ms, const char* path = "/film.avi") {
-    FrameFacts facts;
-    facts.running_ns = ms * kMillisecond;
-    facts.film.path = std::make_shared<const std::string>(path);
-    facts.film.stream_ns = ms * kMillisecond;
-    facts.film.scene_ns = 0;
-    facts.film.length_ns = 10'000 * kMillisecond;
-    facts.interval_s = 0.04;
+  static FrameReport frame(int64_t ms, const char* path = "/film.avi") {
+    FrameReport report;
+    report.frame.running_ns = ms * kMillisecond;
+    report.film.path = std::make_shared<const std::string>(path);
+    report.film.stream_ns = ms * kMillisecond;
+    report.film.scene_ns = 0;
+    report.film.length_ns = 10'000 * kMillisecond;
+    report.frame.interval_ns = 40 * 1'000'000;
     for (const uint32_t id : {1u, 2u}) {
       MovingObject object;
       object.id = id;
       object.tracks = 10;
       object.position_px = {id == 1 ? -80 : 80, 0};
       object.size_px = {60, 60};
-      facts.scene.objects.push_back(object);
+      report.frame.objects.push_back(object);
     }
-    return facts;
+    return report;
   }
   void play(const char* path = "/film.avi") {
     for (const int64_t ms : {0, 100, 300}) {
@@ -70,7 +70,7 @@ TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {
   EXPECT_EQ(first[0].second[0].from_ns, 0);
   EXPECT_EQ(first[0].second[0].to_ns, 340 * kMillisecond);
   EXPECT_EQ(first[0].second[0].place, Vector2d(0.75, 0.5));
-  FrameFacts cut = frame(400);
+  FrameReport cut = frame(400);
   cut.film.scene_ns = cut.film.stream_ns;
   give(window, cut);
   EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 400 * kMillisecond);

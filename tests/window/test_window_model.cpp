@@ -21,29 +21,29 @@ namespace {
 constexpr double kRounding = 1e-9;
 
 TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
-  FrameFacts facts;
+  FrameReport report;
   for (const uint32_t id : {3u, 5u, 8u}) {
     MovingObject object;
     object.id = id;
     object.tracks = id == 8 ? 0 : 10;  // the last one is out of sight
     object.relative_px_s = {10.0 * id, 1};
-    facts.scene.objects.push_back(object);
+    report.frame.objects.push_back(object);
   }
-  const auto felt = [&] { return felt_objects(facts.scene, facts.motion, facts.touch); };
-  facts.scene.felt_object = 5;
-  facts.motion = MotionKind::kObject;
+  const auto felt = [&] { return felt_objects(report); };
+  report.frame.felt_object = 5;
+  report.motion = MotionKind::kObject;
   EXPECT_EQ(felt(), std::vector<uint32_t>{5});
-  facts.motion = MotionKind::kObjects;
-  facts.scene.is_free = false;
+  report.motion = MotionKind::kObjects;
+  report.frame.choice.is_kept = true;
   EXPECT_EQ(felt(), std::vector<uint32_t>{5}) << "by a click";
-  facts.scene.felt_object = 0;
-  facts.scene.is_free = true;
+  report.frame.felt_object = 0;
+  report.frame.choice.is_kept = false;
   EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
-  facts.touch.on = true;
+  report.touch.on = true;
   EXPECT_TRUE(felt().empty()) << "only the surface is";
-  facts.touch.motion_share = 0.5;
+  report.touch.motion_share = 0.5;
   EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
-  facts.motion = MotionKind::kCamera;
+  report.motion = MotionKind::kCamera;
   EXPECT_TRUE(felt().empty());
 }
 

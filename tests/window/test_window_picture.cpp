@@ -16,11 +16,11 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
   ElementState state;
   state.settings = {{"arrow-scale", "", Setting::Kind::kNumber, 5, 0.1, 100, {}}};
   Window window(std::make_shared<FakeSource>(state));
-  FrameFacts facts;
+  FrameReport report;
   // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
-  facts.scene.tracks.push_back({1, {60, 80}, {68, 80}, TrackOwner::kObject, 1, false});
-  facts.scene.wrench.force_N = {0, -3, 0};  // down, the most there is
-  give(window, facts);
+  report.tracks.push_back({1, {60, 80}, {68, 80}, TrackOwner::kObject, 1, false});
+  report.frame.wrench.force_N = {0, -3, 0};  // down, the most there is
+  give(window, report);
   Screenshot shot = look(window);
   const PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {
@@ -103,10 +103,10 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
   device.last.playing = true;
   device.last.running_ns = 1'000'000'000;
   Window window(std::make_shared<FakeSource>(state));
-  FrameFacts facts;
+  FrameReport report;
   for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
-    facts.running_ns = running_ns;
-    give(window, facts, level);
+    report.frame.running_ns = running_ns;
+    give(window, report, level);
     look(window);
   }
   EXPECT_NEAR(level_in(window), 60, 1);
@@ -115,14 +115,14 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
 TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   auto source = std::make_shared<FakeSource>();
   Window window(source);
-  FrameFacts facts;
+  FrameReport report;
   MovingObject object;
   object.id = 3;
   object.tracks = 10;
   object.position_px = {40, -20};
   object.size_px = {60, 60};
-  facts.scene.objects.push_back(object);
-  give(window, facts);
+  report.frame.objects.push_back(object);
+  give(window, report);
   const PictureMap map = map_of(look(window));
   const auto click = [&](double x_px, double y_px) {
     Mouse mouse;
@@ -140,9 +140,9 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   ASSERT_EQ(places.size(), 1u);
   ASSERT_TRUE(places[0]);
   EXPECT_NEAR((*places[0] - Eigen::Vector2d(200.0 / 320, 90.0 / 240)).norm(), 0, 1e-9);
-  facts.click = 1;
-  facts.scene.felt_object = 3;
-  give(window, facts);
+  report.click = 1;
+  report.frame.felt_object = 3;
+  give(window, report);
   look(window);
   click(199.5, 89.5);
   places = source->wait_for_choices(2);

@@ -34,18 +34,18 @@ ElementState touching_state() {
   return state;
 }
 
-FrameFacts touched_facts(const StringGeometry& geometry) {
-  FrameFacts facts;
-  facts.touch.on = true;
-  facts.touch.map = {GripPointer(geometry)};
-  return facts;
+FrameReport touched_facts(const StringGeometry& geometry) {
+  FrameReport report;
+  report.touch.on = true;
+  report.touch.map = {GripPointer(geometry)};
+  return report;
 }
 
 TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
   const ElementState state = touching_state();
   Window window(std::make_shared<FakeSource>(state));
-  FrameFacts facts = touched_facts(state.device->geometry);
-  give(window, facts, 40);
+  FrameReport report = touched_facts(state.device->geometry);
+  give(window, report, 40);
   const Screenshot shot = look(window);
   const PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {

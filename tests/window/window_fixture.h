@@ -86,16 +86,16 @@ class WindowTest : public testing::Test {
     if (!display->runs()) GTEST_SKIP() << VirtualDisplay::kWhyNot;
   }
 
-  /// A grey frame of 320 × 240 with `facts`, once the window wants one.
-  static void give(Window& window, FrameFacts facts, int level = 128) {
+  /// A grey frame of 320 × 240 with `report`, once the window wants one.
+  static void give(Window& window, FrameReport report, int level = 128) {
     GstVideoInfo info;
     gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
     GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
     gst_buffer_memset(buffer, 0, static_cast<guint8>(level), GST_VIDEO_INFO_SIZE(&info));
     GstVideoFrame frame;
     gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
-    facts.visible = visible_part(frame);
-    while (!window.wants_frame() || !window.give(frame, facts)) {
+    report.visible = visible_part(frame);
+    while (!window.wants_frame() || !window.give(frame, report)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     gst_video_frame_unmap(&frame);

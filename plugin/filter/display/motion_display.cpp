@@ -15,47 +15,32 @@
 
 namespace spidar {
 
-void MotionDisplay::show(const FrameReport& report, const DisplayProperties& properties,
-                         const AnalyzerSettings& settings, GstVideoFrame& frame) {
-  hand_.see(report, GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame));
+void MotionDisplay::show(FrameReport& report, const DisplayProperties& properties,
+                         const AxisGains& gains, GstVideoFrame& frame) {
+  const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
+  hand_.see(report, width, height);
   const std::shared_ptr<Window> shown_in = window();
   const bool draws = properties.overlay != OverlayKind::kNone;
-  const bool shown = draws || properties.attach_meta || shown_in;
-  if (!report.analyzed || !shown) {
-    viewer_.reset();
+  if (!report.analyzed || !(draws || properties.attach_meta || shown_in)) {
+    owners_.reset();
     return;
   }
-  if (shown_in) follow_film(report);
-  const VisiblePart& visible = report.part;
-  const SceneView& scene = viewer_.see(report.frame, visible, report.turn);
-  // Before the overlay draws into the frame, because the window draws arrows of its own.
-  if (shown_in && shown_in->wants_frame()) {
-    FrameFacts facts;
-    facts.running_ns = report.frame.running_ns;
-    facts.film = film_;
-    facts.analysis_ms = 1e-6 * static_cast<double>(report.took_ns);
-    facts.interval_s = 1e-9 * static_cast<double>(report.frame.interval_ns);
-    facts.visible = visible;
-    facts.scene = scene;
-    facts.motion = settings.motion;
-    facts.controller = settings.controller;
-    facts.speed_px_s = controller_speed_px_s(scene.motion, settings.axes, visible.height);
-    facts.click = settings.kept.click;
-    facts.touch = report.touch;
-    shown_in->give(frame, std::move(facts));
+  owners_.find(report);
+  if (shown_in) {
+    follow_film(report);
+    report.film = film_;
+    report.speed_px_s = controller_speed_px_s(report.frame.motion, gains, report.visible.height);
   }
+  // Before the overlay draws into the frame, because the window draws arrows of its own.
+  if (shown_in && shown_in->wants_frame()) shown_in->give(frame, report);
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
-    attach_motion_meta(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
-                       GST_VIDEO_FRAME_HEIGHT(&frame));
-    attach_object_metas(frame.buffer, report, scene, GST_VIDEO_FRAME_WIDTH(&frame),
-                        GST_VIDEO_FRAME_HEIGHT(&frame));
+    attach_motion_meta(frame.buffer, report, width, height);
+    attach_object_metas(frame.buffer, report, width, height);
   }
   const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
-    const bool has_tracks = properties.overlay == OverlayKind::kTracks;
-    draw_overlay(scene, has_tracks, felt_objects(scene, settings.motion, report.touch), visible,
-                 properties.arrow_scale, settings.controller.max_force_N, report.touch_mark, frame);
+    draw_overlay(report, properties.overlay == OverlayKind::kTracks, properties.arrow_scale, frame);
   }
 }
 

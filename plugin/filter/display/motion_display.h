@@ -13,7 +13,7 @@
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/filter/engine/motion_engine.h"
-#include "plugin/filter/frame/scene_view.h"
+#include "plugin/filter/frame/track_owners.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 
@@ -29,12 +29,12 @@ class MotionDisplay {
   // --- streaming thread
 
   /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
-  /// on, and whose buffer is writable when metas are attached.
-  void show(const FrameReport& report, const DisplayProperties& properties,
-            const AnalyzerSettings& settings, GstVideoFrame& frame);
+  /// on, and whose buffer is writable when metas are attached. Fills in what is only shown.
+  void show(FrameReport& report, const DisplayProperties& properties, const AxisGains& gains,
+            GstVideoFrame& frame);
 
   /// Instead, of a frame that nobody looked at.
-  void skip() { viewer_.reset(); }
+  void skip() { owners_.reset(); }
 
   /// Another stream, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
@@ -61,7 +61,7 @@ class MotionDisplay {
   MotionChoice& choice_;
   SinkHand hand_;
   // Streaming thread.
-  SceneViewer viewer_;
+  TrackOwners owners_;
   FilmMoment film_;  // for the window
 
   mutable std::mutex mutex_;  // never held while a window opens or closes

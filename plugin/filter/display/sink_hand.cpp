@@ -14,7 +14,7 @@ void SinkHand::see(const FrameReport& report, int width, int height) {
   touched_ = true;
   map_ = report.touch.map;
   const double w = width, h = height;
-  const VisiblePart& part = report.part;
+  const VisiblePart& part = report.visible;
   picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
 }
 

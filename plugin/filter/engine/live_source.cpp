@@ -109,9 +109,12 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   report.limit = limit_of(report.frame, frame.settings.motion);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
-  report.part = visible_part(frame.video);
-  report.part.width = picture.width;
-  report.part.height = picture.height;
+  report.visible = visible_part(frame.video);
+  report.visible.width = picture.width;
+  report.visible.height = picture.height;
+  report.motion = frame.settings.motion;
+  report.controller = frame.settings.controller;
+  report.click = frame.settings.kept.click;
   report.took_ns = monotonic_now_ns() - begin_ns;
   return true;
 }

@@ -138,7 +138,7 @@ std::optional<MotionEngine::FrameTimes> MotionEngine::times_of(const PassingFram
   return FrameTimes{static_cast<int64_t>(shown), static_cast<int64_t>(stream)};
 }
 
-const FrameReport& MotionEngine::process(const PassingFrame& frame) {
+FrameReport& MotionEngine::process(const PassingFrame& frame) {
   report_.begin();
   const std::optional<FrameTimes> times = times_of(frame);
   if (!times) return report_;

@@ -79,8 +79,8 @@ class MotionEngine {
   const PictureTurn& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
   void set_track(std::optional<TrackFile> track);
-  /// Valid until the next call.
-  const FrameReport& process(const PassingFrame& frame);
+  /// Valid until the next call. What is only shown of a frame is not filled in yet.
+  FrameReport& process(const PassingFrame& frame);
   /// The next frame has nothing to do with the one before.
   void restart() { live_.restart(); }
   /// Running time begins anew: after a flush.

@@ -4,10 +4,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/analysis/frame.h"
+#include "core/force/gain_controller.h"
+#include "core/motion/scene_motion.h"
 #include "core/picture_turn.h"
 #include "plugin/filter/frame/frame_luma.h"
 #include "plugin/filter/frame/no_force_reason.h"
@@ -36,6 +41,37 @@ enum class TouchProblem {
   kLagUnknown,   ///< of the drives: it is touched with less
 };
 
+/// Where a frame is in its film.
+struct FilmMoment {
+  std::shared_ptr<const std::string> path;  ///< null or empty: it is from no file
+  int64_t stream_ns = -1;                   ///< −1: not known
+  /// When the scene began, or what was seen of it: at a cut, or after a seek.
+  int64_t scene_ns = -1;
+  int64_t length_ns = 0;  ///< of the film; 0: not known
+
+  std::string name() const { return path ? *path : ""; }
+  bool is_same_scene(const FilmMoment& other) const {
+    return scene_ns == other.scene_ns && (path == other.path || name() == other.name());
+  }
+};
+
+enum class TrackOwner {
+  kUnknown,     ///< no model was applied, or none explains it
+  kBackground,  ///< moves with the background
+  kObject,
+};
+
+/// A track of the frame, in pixels of the whole of it, with (0, 0) at the centre of the first one.
+struct OwnedTrack {
+  uint32_t id = 0;
+  ImagePoint from, to;
+  TrackOwner owner = TrackOwner::kUnknown;
+  uint32_t object = 0;  ///< id of the object it belongs to; 0 if none
+  bool is_new = false;  ///< not in the previous frame
+};
+
+/// The steps of the element fill it in, one after the other; message, metas, trace, overlay and
+/// window read it.
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;
   bool analyzed = false;
@@ -43,7 +79,7 @@ struct FrameReport {
   /// While a haptic track is played, only times and wrench.
   Frame frame;
   PictureTurn turn;                                   ///< of the frame before it is shown
-  VisiblePart part;                                   ///< of the frame that was analysed
+  VisiblePart visible;                                ///< of the frame, that was analysed
   int64_t took_ns = 0;                                ///< the analysis
   NoForceReason limit = NoForceReason::kNone;         ///< the frame's own reason, in the film
   NoForceReason device_limit = NoForceReason::kNone;  ///< of device and playback, at this moment
@@ -52,13 +88,29 @@ struct FrameReport {
   TouchScene touch;
   std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
   bool trace_failed = false;            ///< the trace could not be written and was closed
+  // Of the settings with which it was analysed:
+  MotionKind motion = MotionKind::kObject;  ///< which motion is felt
+  ControllerSettings controller;
+  uint32_t click = 0;  ///< number of the click whose object is kept; 0: none
+  // Where it is drawn, or a meta is attached:
+  FilmMoment film;
+  double speed_px_s = 0;  ///< that the controller was given, of the reference frame
+  std::vector<OwnedTrack> tracks;
+  std::vector<ImagePoint> lost;  ///< last positions of the lost points
+  std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
 
   /// Nothing is known of the next frame. The memory of this one stays.
   void begin() {
-    Frame memory = std::move(frame);
-    memory.clear();
+    FrameReport memory = std::move(*this);
     *this = FrameReport();
-    frame = std::move(memory);
+    frame = std::move(memory.frame);
+    frame.clear();
+    tracks = std::move(memory.tracks);
+    tracks.clear();
+    lost = std::move(memory.lost);
+    lost.clear();
+    felt = std::move(memory.felt);
+    felt.clear();
   }
 };
 

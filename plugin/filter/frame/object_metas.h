@@ -15,7 +15,6 @@
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/filter/frame/frame_report.h"
-#include "plugin/filter/frame/scene_view.h"
 
 namespace spidar {
 
@@ -34,8 +33,7 @@ constexpr const char* kObjectName = "spidar-object";
 
 /// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Those that
 /// another spidarmotion has attached are replaced.
-void attach_object_metas(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
-                         int width, int height);
+void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height);
 
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,

@@ -51,11 +51,11 @@ Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
   return {channel(0), channel(1.0 / 3), channel(2.0 / 3)};
 }
 
-std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style,
+std::vector<Arrow> track_arrows(const std::vector<OwnedTrack>& tracks, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px) {
   std::vector<Arrow> arrows;
-  arrows.reserve(scene.tracks.size());
-  for (const SceneTrack& track : scene.tracks) {
+  arrows.reserve(tracks.size());
+  for (const OwnedTrack& track : tracks) {
     Arrow arrow;
     arrow.tail_px = at_px(track.from);
     const Eigen::Vector2d moved_px = at_px(track.to) - arrow.tail_px;

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/filter/frame/scene_view.h"
+#include "plugin/filter/frame/frame_report.h"
 
 namespace spidar {
 
@@ -58,7 +58,7 @@ double felt_width_px(const ArrowStyle& style);
 
 /// One arrow per track with its tail at `from`: bold for objects, pale for the background. `at_px`
 /// says where a point of the frame is drawn.
-std::vector<Arrow> track_arrows(const SceneView& scene, const ArrowStyle& style,
+std::vector<Arrow> track_arrows(const std::vector<OwnedTrack>& tracks, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 
 /// The felt force as a white arrow from the centre, in the direction in which it pushes the hand.

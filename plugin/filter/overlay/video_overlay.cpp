@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/force/felt_force.h"
+#include "plugin/filter/frame/track_owners.h"
 #include "plugin/filter/overlay/arrow.h"
 
 namespace spidar {
@@ -241,34 +242,34 @@ void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& v
 
 }  // namespace
 
-void draw_overlay(const SceneView& scene, bool has_tracks, const std::vector<uint32_t>& felt,
-                  const VisiblePart& visible, double scale, double max_force_N,
-                  const std::optional<TouchMark>& touch, GstVideoFrame& frame) {
+void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame) {
+  const VisiblePart& visible = report.visible;
+  const std::vector<uint32_t>& felt = report.felt;
   Sheet sheet(frame, visible);
   ArrowStyle style;
   style.scale = scale;
-  style.max_force_N = max_force_N;
-  style.turn = scene.turn;
+  style.max_force_N = report.controller.max_force_N;
+  style.turn = report.turn;
   style.height_px = visible.height;
-  style.centre_px = sheet.at_px(force_origin_px(scene, felt, visible));
+  style.centre_px = sheet.at_px(force_origin_px(report));
   if (has_tracks) {
     const auto at_px = [&](const ImagePoint& at) { return sheet.at_px({at.x_px, at.y_px}); };
-    for (const Arrow& arrow : track_arrows(scene, style, at_px)) {
+    for (const Arrow& arrow : track_arrows(report.tracks, style, at_px)) {
       draw_arrow(arrow, 0, arrow.color, sheet);
     }
     const double half_px = felt_width_px(style) / 3;
-    for (const ImagePoint& lost : scene.lost) {
+    for (const ImagePoint& lost : report.lost) {
       const Eigen::Vector2d a(half_px, half_px), b(half_px, -half_px), lost_px = at_px(lost);
       sheet.line(lost_px - a, lost_px + a, half_px / 2, kWhite);
       sheet.line(lost_px - b, lost_px + b, half_px / 2, kWhite);
     }
   }
-  for (const MovingObject& object : scene.objects) {
+  for (const MovingObject& object : report.frame.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();
     if (object.tracks > 0) draw_outline(object, is_felt, visible, sheet);
   }
-  draw_felt(scene.wrench, style, sheet);
-  if (touch) draw_touch(*touch, visible, style, sheet);
+  draw_felt(report.frame.wrench, style, sheet);
+  if (report.touch_mark) draw_touch(*report.touch_mark, visible, style, sheet);
   sheet.blend_into(frame);
 }
 

@@ -3,24 +3,17 @@
 /// Draws motion, force and contact into the video.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 #include <gst/video/video.h>
 
-#include "plugin/filter/frame/scene_view.h"
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/filter/frame/frame_report.h"
 
 namespace spidar {
 
-/// Draws the box of each object, thick if it is one of `felt`, and the felt force in newtons as a
-/// white arrow with a black border, which begins on the object (see force_origin_px()). With
-/// `touch`, also draws the finger as a ring, the touched point as a disc that grows with the force,
-/// and the contact force from that point. With `has_tracks`, also draws one arrow per track and a
-/// cross at each lost point. `frame` must be mapped for writing.
-void draw_overlay(const SceneView& scene, bool has_tracks, const std::vector<uint32_t>& felt,
-                  const VisiblePart& visible, double scale, double max_force_N,
-                  const std::optional<TouchMark>& touch, GstVideoFrame& frame);
+/// Draws the box of each object, thick if it is felt, and the felt force in newtons as a white
+/// arrow with a black border, which begins on the object (see force_origin_px()). While the picture
+/// is touched, also draws the finger as a ring, the touched point as a disc that grows with the
+/// force, and the contact force from that point. With `has_tracks`, also draws one arrow per track
+/// and a cross at each lost point. `frame` must be mapped for writing.
+void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame);
 
 }  // namespace spidar

@@ -153,18 +153,17 @@ void register_motion_meta() {
   (void)registered;
 }
 
-void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
-                        int width, int height) {
+void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height) {
   GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
-  GstSpidarFrameMotion motion = motion_of(scene.motion, scene.wrench);
+  GstSpidarFrameMotion motion = motion_of(report.frame.motion, report.frame.wrench);
   motion.width = static_cast<guint>(width);
   motion.height = static_cast<guint>(height);
   motion.running_time = static_cast<guint64>(report.frame.running_ns);
   motion.interval = static_cast<guint64>(report.frame.interval_ns);
   std::vector<GstSpidarMotionTrack> tracks;
-  tracks.reserve(scene.tracks.size());
-  for (const SceneTrack& track : scene.tracks) {
+  tracks.reserve(report.tracks.size());
+  for (const OwnedTrack& track : report.tracks) {
     tracks.push_back(
         {track.id, track.from.x_px, track.from.y_px, track.to.x_px, track.to.y_px, track.object});
   }

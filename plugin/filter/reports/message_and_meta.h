@@ -7,7 +7,6 @@
 #include <gst/video/video.h>
 
 #include "plugin/filter/frame/frame_report.h"
-#include "plugin/filter/frame/scene_view.h"
 
 namespace spidar {
 
@@ -18,8 +17,7 @@ void register_motion_meta();
 
 /// `buffer` is writable; a meta of an element before this one is replaced. `width` and `height` are
 /// those of the frame.
-void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, const SceneView& scene,
-                        int width, int height);
+void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height);
 
 /// While so many messages of an element wait on its bus, it posts no more of them: nobody reads
 /// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an

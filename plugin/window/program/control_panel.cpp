@@ -143,7 +143,7 @@ void draw_switch(const Brush& brush, const Rect& picture, bool& detail) {
 }
 
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
-                 const FrameFacts& facts, const std::string& note) {
+                 const FrameReport& report, const std::string& note) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor, brush.px(6));
   brush.list.AddRect(upper_left(panel), lower_right(panel), kBorderColor, brush.px(6));
   brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
@@ -156,19 +156,19 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   ImVec2 at = im(panel.x + 10 * brush.scale, middle);
   brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
   at.x += 2 * radius + brush.px(7);
-  const std::string said = note.empty() ? felt_line(state, facts.touch) : note;
+  const std::string said = note.empty() ? felt_line(state, report.touch) : note;
   draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 
   // From the right, as much as there is room for.
   std::vector<std::string> parts;
   char text[96];
-  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(facts.running_ns));
+  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(report.frame.running_ns));
   parts.emplace_back(text);
-  std::snprintf(text, sizeof text, "analysis %.1f ms", facts.analysis_ms);
+  std::snprintf(text, sizeof text, "analysis %.1f ms", 1e-6 * static_cast<double>(report.took_ns));
   parts.emplace_back(text);
-  parts.push_back(count_of(facts.scene.tracks.size(), "track"));
-  parts.push_back(count_of(facts.scene.objects.size(), "object"));
+  parts.push_back(count_of(report.tracks.size(), "track"));
+  parts.push_back(count_of(report.frame.objects.size(), "object"));
   if (state.device) {
     const TickRecord& last = state.device->last;
     parts.push_back(std::string(to_string(last.device)) + (last.playing ? "" : ", not playing"));

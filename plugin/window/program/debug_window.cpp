@@ -131,8 +131,8 @@ void DebugWindow::say(const std::string& note) {
 
 void DebugWindow::read() {
   state_ = link_.state();
-  const int64_t before_ns = facts_.running_ns;
-  const std::string film_before = facts_.film.name();
+  const int64_t before_ns = report_.frame.running_ns;
+  const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
   const bool plays = state_.device && state_.device->last.playing;
   std::optional<WindowFrame> frame =
@@ -140,7 +140,7 @@ void DebugWindow::read() {
   const int width = std::max(shown_width_, 1);
   if (frame) {
     picture_ = std::move(frame->picture);
-    facts_ = std::move(frame->facts);
+    report_ = std::move(frame->report);
     frame_s_ = now_s();
   }
   if (picture_.is_there() && (frame || width != loaded_width_)) {
@@ -148,10 +148,10 @@ void DebugWindow::read() {
     texture_->load(picture_, width);
   }
   if (frame) {
-    sightings_.see(facts_);
+    sightings_.see(report_);
     follow_choices(film_before);
     // Another stream, or the same from the beginning: what was learnt is not of it.
-    if (facts_.running_ns < before_ns) timeline_.forget();
+    if (report_.frame.running_ns < before_ns) timeline_.forget();
   }
   record(frame.has_value());
 }
@@ -161,9 +161,9 @@ void DebugWindow::record(bool is_new) {
   Moment now;
   now.time_s = now_s();
   if (!picture_.is_there() || now.time_s > frame_s_ + kIdle_s) return;
-  now.interval_s = is_new ? facts_.interval_s : 0;
-  now.speed_px_s = facts_.speed_px_s;
-  now.wanted = facts_.scene.wrench;
+  now.interval_s = is_new ? 1e-9 * static_cast<double>(report_.frame.interval_ns) : 0;
+  now.speed_px_s = report_.speed_px_s;
+  now.wanted = report_.frame.wrench;
   if (state_.device) {
     now.felt = state_.device->last.delivered;
     for (const ForceTick& tick : ticks) timeline_.add(tick);
@@ -176,9 +176,9 @@ void DebugWindow::record(bool is_new) {
 ShownPicture DebugWindow::shown_picture() const {
   ShownPicture picture;
   picture.arrow_scale = state_.value("arrow-scale", 1);
-  picture.max_force_N = facts_.controller.max_force_N;
+  picture.max_force_N = report_.controller.max_force_N;
   picture.detail = detail_;
-  if (state_.device) picture.touch = touch_mark(facts_.touch, state_.device->last);
+  if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
   // pointer or, since 1.91.4, a number: a cast as in C makes either.
@@ -192,11 +192,11 @@ ShownPicture DebugWindow::shown_picture() const {
 void DebugWindow::draw_panels(int width, int height) {
   const WindowLayout layout = lay_out(width, height, scale_);
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
-  const ControllerSettings& controller = facts_.controller;
+  const ControllerSettings& controller = report_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
   const ShownPicture picture = shown_picture();
-  const Rect shown = shown_rect(layout.picture, picture, facts_);
-  draw_picture(brush, layout.picture, picture, facts_);
+  const Rect shown = shown_rect(layout.picture, picture, report_);
+  draw_picture(brush, layout.picture, picture, report_);
   const Mouse mouse = given_mouse_ ? *given_mouse_ : read_mouse();
   use_mouse(mouse, shown);
   use_plots(mouse, layout);
@@ -208,7 +208,7 @@ void DebugWindow::draw_panels(int width, int height) {
   draw_speed(brush, layout.speed, timeline_);
   draw_gain(brush, layout.gain, timeline_, controller);
   if (now_s() > note_until_s_) note_.clear();
-  draw_status(brush, layout.status, state_, facts_, note_);
+  draw_status(brush, layout.status, state_, report_, note_);
   draw_controls(brush, layout.controls, state_,
                 [this](const std::string& setting, double value) { change(setting, value); });
   draw_switch(brush, layout.picture, detail_);

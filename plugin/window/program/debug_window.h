@@ -70,7 +70,7 @@ class DebugWindow {
 
   ElementState state_;
   SharedPicture picture_;
-  FrameFacts facts_;
+  FrameReport report_;
   double frame_s_ = 0;  ///< when the last frame came
   Timeline timeline_;
   int shown_width_ = 0, loaded_width_ = 0;  // of the picture in the window, and its texture

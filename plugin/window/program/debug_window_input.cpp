@@ -86,7 +86,7 @@ bool DebugWindow::offers_hand() const {
 
 /// What a click does, until the user has clicked once; then only how deep the hand is.
 std::string DebugWindow::hint() const {
-  if (hand_.holds() && facts_.touch.on) {
+  if (hand_.holds() && report_.touch.on) {
     char text[96];
     std::snprintf(text, sizeof text, "Hand %.1f mm %s. Wheel or Shift+drag: away or near",
                   std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
@@ -95,18 +95,18 @@ std::string DebugWindow::hint() const {
   if (has_clicked_) return {};
   const char* const choosing = "A click on an object has it felt in this scene. ";
   const char* const leading = "The left button, held in the picture, moves the simulated hand.";
-  return std::string(offers_choice(facts_) && !facts_.scene.objects.empty() ? choosing : "") +
+  return std::string(offers_choice(report_) && !report_.frame.objects.empty() ? choosing : "") +
          (offers_hand() ? leading : "");
 }
 
 void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
   has_clicked_ = has_clicked_ || (mouse.down && !mouse.taken && picture.has(mouse.at_px));
-  if (const auto wish = click_.update(mouse, picture, facts_)) choose(*wish);
+  if (const auto wish = click_.update(mouse, picture, report_)) choose(*wish);
   if (!offers_hand() || picture.width <= 0 || click_.holds()) {
     hand_.let_go();
     return link_.lead_hand(std::nullopt);
   }
-  const TouchMap map{GripPointer(state_.device->geometry), facts_.scene.turn};
+  const TouchMap map{GripPointer(state_.device->geometry), report_.turn};
   link_.lead_hand(hand_.update(mouse, picture, map));
 }
 
@@ -118,14 +118,14 @@ void DebugWindow::use_plots(const Mouse& mouse, const WindowLayout& layout) {
 }
 
 SceneChoices& DebugWindow::choices() {
-  return choices_[facts_.film.name()];
+  return choices_[report_.film.name()];
 }
 
 void DebugWindow::follow_choices(const std::string& film_before) {
   bool has_ended = false;
-  if (film_before != facts_.film.name()) has_ended = choices_[film_before].end_scene();
+  if (film_before != report_.film.name()) has_ended = choices_[film_before].end_scene();
   // Without this, nothing would be felt until the object is given up.
-  if (choices().see(facts_) || has_ended) link_.choose(std::nullopt);
+  if (choices().see(report_) || has_ended) link_.choose(std::nullopt);
   save_choices(&SceneChoices::has_late_end);
 }
 
@@ -156,8 +156,8 @@ void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
 }
 
 void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
-  const FilmStrip strip = film_strip(facts_.film, state_.rules.get(), choices().edits());
-  const double max_force_N = facts_.controller.max_force_N;
+  const FilmStrip strip = film_strip(report_.film, state_.rules.get(), choices().edits());
+  const double max_force_N = report_.controller.max_force_N;
   const TimelineUse use = draw_timeline(brush, panel, timeline_, state_.is_playing, max_force_N,
                                         strip, has_unsaved_choices());
   if (use.removed) remove_choice(*use.removed);
@@ -168,8 +168,8 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
 
 /// Removing the choice that is felt lets go of its object.
 void DebugWindow::remove_choice(const FeelRule& rule) {
-  const int64_t now_ns = facts_.film.stream_ns;
-  if (rule.from_ns <= now_ns && now_ns < rule.to_ns && facts_.click != 0) {
+  const int64_t now_ns = report_.film.stream_ns;
+  if (rule.from_ns <= now_ns && now_ns < rule.to_ns && report_.click != 0) {
     link_.choose(std::nullopt);
   }
   choices().remove(rule.from_ns, rule.to_ns);

@@ -29,9 +29,9 @@ struct ShownPicture {
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
 };
 /// The part of the window that shows the visible part of the frame.
-Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts);
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameReport& report);
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
-                  const FrameFacts& facts);
+                  const FrameReport& report);
 
 /// Frame, strings, the grip and its force; with no device a line that says so.
 void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state);
@@ -62,7 +62,7 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
 
 /// `note`: what the window has to say at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
-                 const FrameFacts& facts, const std::string& note);
+                 const FrameReport& report, const std::string& note);
 
 /// A switch in the upper right corner of the picture.
 void draw_switch(const Brush& brush, const Rect& picture, bool& detail);

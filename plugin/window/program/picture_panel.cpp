@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/force/felt_force.h"
+#include "plugin/filter/frame/track_owners.h"
 #include "plugin/filter/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 
@@ -18,16 +19,15 @@ constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 struct Overlay {
   const Brush& brush;
   const PictureMap& map;
-  const FrameFacts& facts;
+  const FrameReport& report;
   const ShownPicture& picture;
-  std::vector<uint32_t> felt;  ///< objects
 
   bool is_felt(uint32_t object) const {
-    return std::find(felt.begin(), felt.end(), object) != felt.end();
+    return std::find(report.felt.begin(), report.felt.end(), object) != report.felt.end();
   }
   /// Upper left and lower right corner of an object's box.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
-    const ObjectCorners corners = corners_of(object, facts.visible);
+    const ObjectCorners corners = corners_of(object, report.visible);
     return {map(corners.low_px), map(corners.high_px)};
   }
 };
@@ -48,9 +48,9 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margi
 }
 
 void draw_tracks(const Overlay& over, const ArrowStyle& style) {
-  const std::vector<SceneTrack>& tracks = over.facts.scene.tracks;
+  const std::vector<OwnedTrack>& tracks = over.report.tracks;
   const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
-  const std::vector<Arrow> arrows = track_arrows(over.facts.scene, style, at_px);  // one for each
+  const std::vector<Arrow> arrows = track_arrows(tracks, style, at_px);  // one for each
   for (size_t i = 0; i < arrows.size(); ++i) {
     const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
     const unsigned opacity = over.picture.detail ? 255 : is_felt ? kFelt : kFaint;
@@ -61,11 +61,11 @@ void draw_tracks(const Overlay& over, const ArrowStyle& style) {
 void draw_points(const Overlay& over) {
   const Brush& brush = over.brush;
   const float radius = brush.px(3), width = brush.px(1);
-  for (const SceneTrack& track : over.facts.scene.tracks) {
+  for (const OwnedTrack& track : over.report.tracks) {
     if (!track.is_new) continue;
     brush.list.AddCircle(im(over.map({track.to.x_px, track.to.y_px})), radius, kNewColor, 0, width);
   }
-  for (const ImagePoint& lost : over.facts.scene.lost) {
+  for (const ImagePoint& lost : over.report.lost) {
     const ImVec2 at = im(over.map({lost.x_px, lost.y_px}));
     brush.list.AddLine({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, kWarnColor,
                        width);
@@ -76,7 +76,7 @@ void draw_points(const Overlay& over) {
 
 void draw_objects(const Overlay& over) {
   const Brush& brush = over.brush;
-  for (const MovingObject& object : over.facts.scene.objects) {
+  for (const MovingObject& object : over.report.frame.objects) {
     if (object.tracks == 0) continue;
     const auto [low, high] = over.box(object);
     const bool is_felt = over.is_felt(object.id);
@@ -87,7 +87,7 @@ void draw_objects(const Overlay& over) {
     brush.list.AddRect(im(low), im(high), is_felt ? kFeltColor : kOtherColor, rounding, 0,
                        brush.px(is_felt ? 2.5 : 1));
     if (!is_felt && !over.picture.detail) continue;
-    const bool is_chosen = is_felt && over.facts.click != 0;
+    const bool is_chosen = is_felt && over.report.click != 0;
     const std::string name = "#" + std::to_string(object.id) + (is_chosen ? ", chosen" : "");
     const ImFont* font = brush.fonts.small;
     // Above the box, or within it at the upper edge of the picture.
@@ -152,33 +152,33 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
 }
 
-PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
-  const VisiblePart& visible = facts.visible;
+PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameReport& report) {
+  const VisiblePart& visible = report.visible;
   return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
                      picture.pixel_aspect);
 }
 
-bool has_picture(const ShownPicture& picture, const FrameFacts& facts) {
-  return picture.texture && facts.visible.width > 0 && facts.visible.height > 0;
+bool has_picture(const ShownPicture& picture, const FrameReport& report) {
+  return picture.texture && report.visible.width > 0 && report.visible.height > 0;
 }
 
 }  // namespace
 
-Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameFacts& facts) {
-  return has_picture(picture, facts) ? map_of(panel, picture, facts).shown : Rect();
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameReport& report) {
+  return has_picture(picture, report) ? map_of(panel, picture, report).shown : Rect();
 }
 
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
-                  const FrameFacts& facts) {
+                  const FrameReport& report) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
                            brush.px(6));
-  const VisiblePart& visible = facts.visible;
-  if (!has_picture(picture, facts)) {
+  const VisiblePart& visible = report.visible;
+  if (!has_picture(picture, report)) {
     draw_text(brush, brush.fonts.body, im(panel.x + 12 * brush.scale, panel.y + 10 * brush.scale),
               kMutedColor, "No frame yet");
     return;
   }
-  const PictureMap map = map_of(panel, picture, facts);
+  const PictureMap map = map_of(panel, picture, report);
   const double w = picture.frame_width, h = picture.frame_height;
   brush.list.AddImage(picture.texture, upper_left(map.shown), lower_right(map.shown),
                       im(visible.x / w, visible.y / h),
@@ -188,14 +188,13 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   style.scale = picture.arrow_scale;
   style.height_px = map.shown.height;
   style.max_force_N = picture.max_force_N;
-  style.turn = facts.scene.turn;
-  const Overlay over{brush, map, facts, picture,
-                     felt_objects(facts.scene, facts.motion, facts.touch)};
+  style.turn = report.turn;
+  const Overlay over{brush, map, report, picture};
   draw_tracks(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);
-  const Eigen::Vector2d from_px = map(force_origin_px(facts.scene, over.felt, visible));
-  draw_force(over, facts.scene.wrench, " wanted", from_px, style);
+  const Eigen::Vector2d from_px = map(force_origin_px(report));
+  draw_force(over, report.frame.wrench, " wanted", from_px, style);
   if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
 }

@@ -18,7 +18,8 @@ constexpr std::chrono::seconds kSavePatience{2};
 }  // namespace
 
 void FrameQueue::add(WindowFrame frame) {
-  if (!waiting_.empty() && frame.facts.running_ns < waiting_.back().facts.running_ns) {
+  if (!waiting_.empty() &&
+      frame.report.frame.running_ns < waiting_.back().report.frame.running_ns) {
     waiting_.clear();
   }
   waiting_.push_back(std::move(frame));
@@ -26,7 +27,7 @@ void FrameQueue::add(WindowFrame frame) {
 
 std::optional<WindowFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
   const auto is_due = [&](const WindowFrame& frame) {
-    return !running_ns || frame.facts.running_ns <= *running_ns || waiting_.size() > kMost;
+    return !running_ns || frame.report.frame.running_ns <= *running_ns || waiting_.size() > kMost;
   };
   std::optional<WindowFrame> shown;
   while (!waiting_.empty() && is_due(waiting_.front())) {
@@ -117,7 +118,7 @@ void PlayerLink::take_frame(FrameShown&& frame) {
   frames_.add(
       {SharedPicture(memory_, frame.slot,
                      [channel = channel_, free] { channel->send(to_bytes(FromWindow(free))); }),
-       std::move(frame.facts)});
+       std::move(frame.report)});
 }
 
 void PlayerLink::picture_taken(const std::string& problem) {

@@ -21,7 +21,7 @@ namespace spidar {
 
 struct WindowFrame {
   SharedPicture picture;
-  FrameFacts facts;
+  FrameReport report;
 };
 
 /// The element sees a frame before the sink shows it, and the grip feels it when the sink does:

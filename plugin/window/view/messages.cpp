@@ -50,7 +50,7 @@ void pass(Wire& wire, FilmMoment& film) {
 }
 
 template <typename Wire>
-void pass(Wire& wire, SceneTrack& track) {
+void pass(Wire& wire, OwnedTrack& track) {
   wire(track.id, track.from, track.to, track.object, track.is_new);
   wire.choice(track.owner, TrackOwner::kObject);
 }
@@ -60,13 +60,6 @@ void pass(Wire& wire, MovingObject& object) {
   wire(object.id, object.position_px, object.size_px, object.relative_px_s, object.on_screen_px_s,
        object.growth_1_s, object.roll_rad_s, object.tracks, object.error_px_s, object.area_px2,
        object.prominence);
-}
-
-/// The motion is left out: of it, the window shows FrameFacts::speed_px_s.
-template <typename Wire>
-void pass(Wire& wire, SceneView& scene) {
-  wire(scene.tracks, scene.lost, scene.objects, scene.wrench, scene.felt_object, scene.is_free,
-       scene.turn);
 }
 
 template <typename Wire>
@@ -82,12 +75,15 @@ void pass(Wire& wire, TouchScene& touch) {
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
+/// What is shown of it.
 template <typename Wire>
-void pass(Wire& wire, FrameFacts& facts) {
-  wire(facts.running_ns, facts.film, facts.interval_s, facts.analysis_ms, facts.visible,
-       facts.scene);
-  wire.choice(facts.motion, MotionKind::kCamera);
-  wire(facts.controller, facts.speed_px_s, facts.click, facts.touch);
+void pass(Wire& wire, FrameReport& report) {
+  Frame& frame = report.frame;
+  wire(frame.running_ns, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
+  wire(report.film, report.took_ns, report.visible, report.turn, report.tracks, report.lost,
+       report.felt);
+  wire.choice(report.motion, MotionKind::kCamera);
+  wire(report.controller, report.speed_px_s, report.click, report.touch);
 }
 
 // --- the element
@@ -165,7 +161,7 @@ void pass(Wire& wire, PictureMemory& memory) {
 
 template <typename Wire>
 void pass(Wire& wire, FrameShown& frame) {
-  wire(frame.memory, frame.slot, frame.facts);
+  wire(frame.memory, frame.slot, frame.report);
 }
 
 template <typename Wire>

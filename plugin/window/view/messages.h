@@ -23,7 +23,7 @@ namespace spidar {
 
 /// To be raised when a message changes: a player and a window of different versions say so instead
 /// of misunderstanding each other.
-constexpr uint16_t kWindowProtocol = 1;
+constexpr uint16_t kWindowProtocol = 2;
 
 // --- to the window
 
@@ -39,7 +39,7 @@ struct PictureMemory {
 /// A frame whose picture is in a slot, which is the window's until it sends SlotFree.
 struct FrameShown {
   uint32_t memory = 0, slot = 0;
-  FrameFacts facts;
+  FrameReport report;
 };
 /// Answers SaveChoices.
 struct ChoicesSaved {

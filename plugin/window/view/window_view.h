@@ -11,9 +11,7 @@
 
 #include "core/choice/feel_rules.h"
 #include "core/force/motion_rendering.h"
-#include "core/motion/scene_motion.h"
-#include "plugin/filter/frame/scene_view.h"
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/filter/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
 namespace spidar {
@@ -44,35 +42,6 @@ struct ElementState {
   /// Null when there is none of this name.
   const Setting* setting(const std::string& setting_name) const;
   double value(const std::string& setting_name, double otherwise) const;
-};
-
-/// Where a frame is in its film.
-struct FilmMoment {
-  std::shared_ptr<const std::string> path;  ///< null or empty: it is from no file
-  int64_t stream_ns = -1;                   ///< −1: not known
-  /// When the scene began, or what was seen of it: at a cut, or after a seek.
-  int64_t scene_ns = -1;
-  int64_t length_ns = 0;  ///< of the film; 0: not known
-
-  std::string name() const { return path ? *path : ""; }
-  bool is_same_scene(const FilmMoment& other) const {
-    return scene_ns == other.scene_ns && (path == other.path || name() == other.name());
-  }
-};
-
-/// What one analysed frame adds to the picture itself.
-struct FrameFacts {
-  int64_t running_ns = 0;
-  FilmMoment film;
-  double interval_s = 0;  ///< since the frame before; 0: nothing to compare with
-  double analysis_ms = 0;
-  VisiblePart visible;
-  SceneView scene;
-  MotionKind motion = MotionKind::kObject;  ///< which motion is felt
-  ControllerSettings controller;
-  double speed_px_s = 0;  ///< that the controller was given, of the reference frame
-  uint32_t click = 0;     ///< number of the click whose object is kept; 0: none
-  TouchScene touch;
 };
 
 /// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also

@@ -6,11 +6,11 @@
 
 namespace spidar {
 
-const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d at_px((place.x() - 0.5) * facts.visible.width,
-                              (place.y() - 0.5) * facts.visible.height);
+const MovingObject* object_at(const FrameReport& report, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d at_px((place.x() - 0.5) * report.visible.width,
+                              (place.y() - 0.5) * report.visible.height);
   const MovingObject* found = nullptr;
-  for (const MovingObject& object : facts.scene.objects) {
+  for (const MovingObject& object : report.frame.objects) {
     const Eigen::Vector2d off_px = (at_px - object.position_px).cwiseAbs();
     if (object.tracks == 0 || (off_px.array() > object.size_px.array() / 2).any()) continue;
     if (!found || object.size_px.prod() < found->size_px.prod()) found = &object;
@@ -18,8 +18,8 @@ const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& pl
   return found;
 }
 
-Eigen::Vector2d place_of(const FrameFacts& facts, const MovingObject& object) {
-  const Eigen::Vector2d frame_px(facts.visible.width, facts.visible.height);
+Eigen::Vector2d place_of(const FrameReport& report, const MovingObject& object) {
+  const Eigen::Vector2d frame_px(report.visible.width, report.visible.height);
   const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
   const Eigen::Vector2d low_px = (middle_px - object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
   const Eigen::Vector2d high_px =
@@ -32,31 +32,31 @@ Eigen::Vector2d place_of(const FrameFacts& facts, const MovingObject& object) {
   constexpr std::array<double, 5> kShares{0.5, 0.3, 0.7, 0.1, 0.9};  // the middle first
   for (const double down : kShares) {
     for (const double across : kShares) {
-      const MovingObject* const there = object_at(facts, place_at(across, down));
+      const MovingObject* const there = object_at(report, place_at(across, down));
       if (there && there->id == object.id) return place_at(across, down);
     }
   }
   return place_at(0.5, 0.5);
 }
 
-bool offers_choice(const FrameFacts& facts) {
-  return facts.motion != MotionKind::kMean && !facts.touch.on;
+bool offers_choice(const FrameReport& report) {
+  return report.motion != MotionKind::kMean && !report.touch.on;
 }
 
 std::optional<ObjectWish> ObjectClick::update(const Mouse& mouse, const Rect& picture,
-                                              const FrameFacts& facts) {
+                                              const FrameReport& report) {
   const bool pressed = mouse.down && !was_down_;
   was_down_ = mouse.down;
   holds_ = holds_ && mouse.down;
-  if (!pressed || mouse.taken || !offers_choice(facts) || picture.width <= 0) return std::nullopt;
+  if (!pressed || mouse.taken || !offers_choice(report) || picture.width <= 0) return std::nullopt;
   const Eigen::Vector2d place((mouse.at_px.x() - picture.x) / picture.width,
                               (mouse.at_px.y() - picture.y) / picture.height);
   // Not a number where there is no mouse.
   const bool is_over = place.x() >= 0 && place.x() <= 1 && place.y() >= 0 && place.y() <= 1;
-  const MovingObject* const object = is_over ? object_at(facts, place) : nullptr;
+  const MovingObject* const object = is_over ? object_at(report, place) : nullptr;
   if (!object) return std::nullopt;
   holds_ = true;
-  const bool is_chosen = facts.click != 0 && facts.scene.felt_object == object->id;
+  const bool is_chosen = report.click != 0 && report.frame.felt_object == object->id;
   ObjectWish wish;
   wish.object = object->id;
   if (!is_chosen) wish.place = place;

@@ -15,14 +15,14 @@ namespace spidar {
 
 /// The object in sight whose box has the place in it, the smallest of several; null when none has.
 /// Places are shares of the visible part of the frame.
-const MovingObject* object_at(const FrameFacts& facts, const Eigen::Vector2d& place);
+const MovingObject* object_at(const FrameReport& report, const Eigen::Vector2d& place);
 
 /// A place that is in the box of this object and in no smaller one, if there is such a place: a
 /// click there means it. As a share of the visible part of the frame.
-Eigen::Vector2d place_of(const FrameFacts& facts, const MovingObject& object);
+Eigen::Vector2d place_of(const FrameReport& report, const MovingObject& object);
 
 /// Whether objects are known, and not merely touched.
-bool offers_choice(const FrameFacts& facts);
+bool offers_choice(const FrameReport& report);
 
 /// What a click asks for.
 struct ObjectWish {
@@ -37,7 +37,7 @@ class ObjectClick {
   /// `picture` is the part of the window that shows the visible part of the frame. Nothing when
   /// nobody clicked on an object.
   std::optional<ObjectWish> update(const Mouse& mouse, const Rect& picture,
-                                   const FrameFacts& facts);
+                                   const FrameReport& report);
   /// The button is still down since then.
   bool holds() const { return holds_; }
 

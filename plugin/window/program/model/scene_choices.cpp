@@ -26,16 +26,16 @@ Eigen::Vector2d whole(const Eigen::Vector2d& place) {
 
 }  // namespace
 
-void Sightings::see(const FrameFacts& facts) {
-  const int64_t now_ns = facts.film.stream_ns;
-  if (!facts.film.is_same_scene(film_) || now_ns < film_.stream_ns) seen_.clear();
-  film_ = facts.film;
-  for (const MovingObject& object : facts.scene.objects) {
+void Sightings::see(const FrameReport& report) {
+  const int64_t now_ns = report.film.stream_ns;
+  if (!report.film.is_same_scene(film_) || now_ns < film_.stream_ns) seen_.clear();
+  film_ = report.film;
+  for (const MovingObject& object : report.frame.objects) {
     if (object.tracks == 0) continue;
     auto known = std::find_if(seen_.begin(), seen_.end(),
                               [&](const Sighting& one) { return one.id == object.id; });
     if (known == seen_.end()) {
-      const Eigen::Vector2d place = facts.scene.turn.place_shown(place_of(facts, object));
+      const Eigen::Vector2d place = report.turn.place_shown(place_of(report, object));
       known = seen_.insert(known, {object.id, now_ns, place, now_ns});
     }
     known->last_ns = now_ns;
@@ -50,9 +50,9 @@ const Sighting* Sightings::find(uint32_t id) const {
   return found == seen_.end() ? nullptr : &*found;
 }
 
-bool SceneChoices::see(const FrameFacts& facts) {
+bool SceneChoices::see(const FrameReport& report) {
   const FilmMoment before = film_;
-  film_ = facts.film;
+  film_ = report.film;
   if (film_.stream_ns < 0) return false;
   bool has_ended = false;
   if (!film_.is_same_scene(before) || film_.stream_ns < before.stream_ns) {
@@ -61,18 +61,17 @@ bool SceneChoices::see(const FrameFacts& facts) {
     if (is_cut) end_ns_ = film_.scene_ns;
     has_ended = end_scene();
   }
-  const int64_t frame_ns = std::llround(1e9 * facts.interval_s);
-  end_ns_ = film_.stream_ns + std::clamp<int64_t>(frame_ns, 0, kLongestFrame_ns);
-  click_ = facts.click;
-  for (Choice& choice : choices_) follow(choice, facts);
+  end_ns_ = film_.stream_ns + std::clamp<int64_t>(report.frame.interval_ns, 0, kLongestFrame_ns);
+  click_ = report.click;
+  for (Choice& choice : choices_) follow(choice, report);
   return has_ended;
 }
 
-void SceneChoices::follow(Choice& choice, const FrameFacts& facts) {
+void SceneChoices::follow(Choice& choice, const FrameReport& report) {
   if (!choice.grows) return;
   const bool is_kept = click_ != 0 && click_ != choice.click_before;
-  const std::vector<MovingObject>& objects = facts.scene.objects;
-  const bool is_seen = (is_kept && facts.scene.felt_object != 0) ||
+  const std::vector<MovingObject>& objects = report.frame.objects;
+  const bool is_seen = (is_kept && report.frame.felt_object != 0) ||
                        std::any_of(objects.begin(), objects.end(), [&](const MovingObject& object) {
                          return object.id == choice.object && object.tracks > 0;
                        });

@@ -30,7 +30,7 @@ class Sightings {
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
 
   /// The next frame that is on the screen. Another scene or film forgets all.
-  void see(const FrameFacts& facts);
+  void see(const FrameReport& report);
   /// Null when it is not known.
   const Sighting* find(uint32_t id) const;
 
@@ -46,7 +46,7 @@ class Sightings {
 class SceneChoices {
  public:
   /// The next frame that is on the screen. True when a choice ends because its scene has ended.
-  bool see(const FrameFacts& facts);
+  bool see(const FrameReport& report);
 
   /// In place of what was chosen in this scene while the object was in sight. Changes nothing where
   /// the time in the film is not known.
@@ -80,7 +80,7 @@ class SceneChoices {
     bool is_saved = false;
     bool was_saved = false;  ///< with an earlier end
   };
-  void follow(Choice& choice, const FrameFacts& facts);
+  void follow(Choice& choice, const FrameReport& report);
   void take_back(const std::function<bool(const Choice&)>& which);
 
   std::vector<Choice> choices_;

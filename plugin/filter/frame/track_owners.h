@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a frame's tracks belong to, and which objects are felt, for those who show it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "plugin/filter/frame/frame_report.h"
+
+namespace spidar {
+
+/// Ids of the objects in sight whose motion is felt: one, or with MotionKind::kObjects all of which
+/// nobody chose one; none while only the surface is felt.
+std::vector<uint32_t> felt_objects(const FrameReport& report);
+
+/// Where the arrow of the felt force begins, in pixels of the frame: on the one object that is
+/// felt, where its tracks are and not merely its box, else in the middle of the picture.
+Eigen::Vector2d force_origin_px(const FrameReport& report);
+
+/// Corners of an object's box, in pixels of the frame.
+struct ObjectCorners {
+  Eigen::Vector2d low_px, high_px;
+};
+ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible);
+
+/// Assigns tracks to the background or to objects, and follows them from frame to frame.
+class TrackOwners {
+ public:
+  /// Fills in tracks, lost and felt of a frame that was analysed.
+  void find(FrameReport& report);
+  /// Call before frames that are not analysed.
+  void reset() { compares_ = false; }
+
+ private:
+  void compare(FrameReport& report);
+
+  std::vector<OwnedTrack> before_;
+  bool compares_ = false;  ///< the previous frame was analysed for tracks
+};
+
+}  // namespace spidar
