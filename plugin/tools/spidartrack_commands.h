@@ -25,9 +25,7 @@ struct CheckOptions {
 
 struct ConvertOptions {
   std::string from, to;
-  std::string axis;            ///< the channel by its name; empty: the usual one
-  std::optional<double> gain;  ///< empty: that which fills the range of `to`
-  SaveOptions save;
+  std::optional<double> tolerance;  ///< see SaveOptions
 };
 
 struct PlotOptions {

@@ -14,7 +14,6 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["SPIDARTRACK"]
-CHANNELS = ("fx", "fy", "fz", "tx", "ty", "tz")
 FULL_SCALE = (10, 10, 10, 1, 1, 1)  # N, N m
 
 
