@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "core/choice/boxed_object.h"
 #include "core/choice/chosen.h"
 #include "core/choice/feel_rules.h"
 #include "core/motion/camera/background.h"
@@ -104,8 +103,7 @@ class ObjectChoice {
   bool seen_from_begin_ = false;    ///< the rule, see ChoiceState::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< nothing was at the place of `ruled_`
-  BoxedObject boxed_;
-  uint32_t best_ = 0;  ///< of kLargest and kFurthest
+  uint32_t best_ = 0;    ///< of kLargest and kFurthest
   double best_missing_s_ = 0;
 
   KeptObject kept_;
