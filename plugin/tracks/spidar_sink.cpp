@@ -31,7 +31,7 @@
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/timing/instant_rate.h"
-#include "plugin/tracks/block_schedule.h"
+#include "plugin/timing/loop_queue.h"
 #include "plugin/tracks/sink_properties.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_warnings.h"
@@ -40,7 +40,7 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_sink_debug
 
-using spidar::BlockSchedule;
+using spidar::BlockQueue;
 using spidar::HapticOutput;
 using spidar::SinkProperties;
 
@@ -54,7 +54,7 @@ struct _GstSpidarSink {
   SinkProperties* properties;  // object lock
   spidar::TrackFaults faults;  // object lock; of the stream so far
   guint64 samples;             // object lock
-  BlockSchedule* schedule;
+  BlockQueue* schedule;
   HapticOutput* output;
   // Streaming thread.
   spidar::TrackInput* input;
@@ -318,7 +318,7 @@ static void gst_spidar_sink_finalize(GObject* object) {
 static void gst_spidar_sink_init(GstSpidarSink* self) {
   g_mutex_init(&self->setting);
   self->properties = new SinkProperties;
-  self->schedule = new BlockSchedule;
+  self->schedule = new BlockQueue;
   self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
   self->input = new spidar::TrackInput;
   self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");

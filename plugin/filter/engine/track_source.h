@@ -13,8 +13,8 @@
 #include "plugin/filter/engine/wrench_source.h"
 #include "plugin/filter/reports/no_force_watch.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/timing/loop_queue.h"
 #include "plugin/timing/wrench_backlog.h"
-#include "plugin/tracks/block_schedule.h"
 #include "plugin/tracks/track_file.h"
 
 namespace spidar {
@@ -92,7 +92,7 @@ class TrackSource : public WrenchSource {
   const WrenchBacklog& times_;
   NoForceWatch& limits_;
   FrameTouch& touch_;
-  BlockSchedule samples_;
+  BlockQueue samples_;
   TrackReplay replay_;
   std::atomic<uint64_t> frames_{0};
 };

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is to be felt when, on its way to the haptic loop.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory_resource>
+#include <mutex>
+
+#include "core/force/wrench_timeline.h"
+#include "core/track/track_format.h"
+#include "spidar/loop/haptic_loop.h"
+
+namespace spidar {
+
+/// Hands wrenches or blocks of samples to the loop; what that has no room for waits here.
+/// Thread-safe; without a loop everything is forgotten.
+template <typename Entry>
+class LoopQueue {
+ public:
+  /// What comes while so many entries wait is refused. `kept`: as many stay here after they were
+  /// handed on, for hand_on_again().
+  explicit LoopQueue(size_t most_waiting, size_t kept = 0)
+      : most_waiting_(most_waiting), kept_(kept) {}
+  virtual ~LoopQueue() = default;
+  LoopQueue(const LoopQueue&) = delete;
+  LoopQueue& operator=(const LoopQueue&) = delete;
+
+  /// `loop` outlives the connection; null ends it.
+  void connect(HapticLoop* loop) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    loop_ = loop;
+    clear();
+    refused_ = 0;
+  }
+  /// Times must rise.
+  void add(const Entry& entry) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!loop_ || muted_) return;
+    if (entries_.size() - handed_ == most_waiting_) {
+      refused_ += samples_in(entry);
+      return;
+    }
+    entries_.push_back(entry);
+    enter(entries_.back());
+    hand_on_locked();
+  }
+  /// Again what waits. To be called while playing, more often than every 50 ms.
+  void hand_on() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    hand_on_locked();
+  }
+  /// Everything added so far.
+  void forget() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    forget_locked();
+  }
+  /// What is added while muted is forgotten.
+  void set_muted(bool muted) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (muted && !muted_) forget_locked();
+    muted_ = muted;
+  }
+  /// Since the connection: wrenches or samples for which there was no room.
+  uint64_t refused() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return refused_;
+  }
+
+ protected:
+  // With the mutex held.
+  virtual void enter(Entry&) {}
+  /// As the loop gets it.
+  virtual Entry shown(const Entry& entry) const { return entry; }
+  void clear() {
+    entries_.clear();
+    handed_ = 0;
+  }
+  /// All that is still here.
+  void hand_on_again() {
+    handed_ = 0;
+    if (loop_) loop_->cancel_scheduled();
+    hand_on_locked();
+  }
+
+  mutable std::mutex mutex_;
+  std::pmr::unsynchronized_pool_resource pool_;  // so that a queue that has grown needs no heap
+  std::pmr::deque<Entry> entries_{&pool_};
+
+ private:
+  static uint64_t samples_in(const TimedWrench&) { return 1; }
+  static uint64_t samples_in(const TrackBlock& block) { return block.count; }
+
+  void hand_on_locked() {
+    if (!loop_) return;
+    while (handed_ < entries_.size() && loop_->schedule(shown(entries_[handed_]))) ++handed_;
+    for (; handed_ > kept_; --handed_) entries_.pop_front();
+  }
+  void forget_locked() {
+    clear();
+    if (loop_) loop_->cancel_scheduled();
+  }
+
+  const size_t most_waiting_, kept_;
+  HapticLoop* loop_ = nullptr;
+  bool muted_ = false;
+  size_t handed_ = 0;  // of the entries, from the first one on
+  uint64_t refused_ = 0;
+};
+
+/// Samples of a track, with the running times of the sink.
+class BlockQueue : public LoopQueue<TrackBlock> {
+ public:
+  /// 40 s of a track, or 1 s in blocks of one sample each.
+  static constexpr size_t kMostWaiting = 1000;
+  BlockQueue() : LoopQueue(kMostWaiting) {}
+};
+
+}  // namespace spidar
