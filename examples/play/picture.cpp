@@ -9,7 +9,7 @@
 
 #include "core/force/felt_force.h"
 #include "core/force/motion_rendering.h"
-#include "plugin/tools/gnuplot.h"
+#include "examples/play/gnuplot.h"
 
 namespace {
 

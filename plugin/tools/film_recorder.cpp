@@ -120,7 +120,6 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
     unread = why.what();  // decoding it may tell more
   }
   FilmWatch watch;
-  StoredSound stored;
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
       "spidarmotion name=motion device=none attach-meta=true ! "
@@ -131,7 +130,6 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   set_properties(file.find("motion"), properties);
   watch.begin(file.pipeline());
   progress.watch(file.find("motion"));
-  stored.watch(file.find("stored"));
   tag(file.find("extract"), {fingerprint, properties.settings});
   std::string error;
   try {
@@ -156,7 +154,6 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   if (end == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");
   }
-  stored.check(track);
   return {watch.felt(), watch.remark()};
 }
 
