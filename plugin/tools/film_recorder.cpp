@@ -110,12 +110,9 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   stat(film.c_str(), &at_first);
   Progress progress(tell);
   FilmFingerprint fingerprint;
-  int64_t pictures_end_ns = 0;
   std::string unread;
   try {
-    const Film read = read_film(film);
-    pictures_end_ns = read.end_ns.value_or(0);
-    fingerprint = fingerprint_of(read.packets);
+    fingerprint = fingerprint_of(read_film(film).packets);
   } catch (const std::runtime_error& why) {
     unread = why.what();  // decoding it may tell more
   }
@@ -145,13 +142,9 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   if (!is_same_file(at_first, at_last)) {
     throw std::runtime_error("it was changed while it was read: wait until it is complete");
   }
-  const FilmEnd end = film_end(film);
-  // Where the file is whole, its duration may be that of sound that goes on after the pictures.
-  std::optional<int64_t> end_ns;
-  if (end == FilmEnd::kWhole) end_ns = pictures_end_ns;
-  const std::string problem = watch.problem(error, end_ns);
+  const std::string problem = watch.problem(error);
   if (!problem.empty()) throw std::runtime_error(problem);
-  if (end == FilmEnd::kCutOff) {
+  if (film_end(film) == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");
   }
   return {watch.felt(), watch.remark()};

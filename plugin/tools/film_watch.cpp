@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 
 #include "plugin/gobject/ref.h"
-#include "plugin/timing/instant_rate.h"
 #include "plugin/tracks/file_pipeline.h"
 
 namespace spidar {
@@ -126,19 +124,6 @@ class FilmFile {
 constexpr auto kFlow =
     static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
 
-/// By which the duration in a header may exceed the end of the last packet: rounding, padding of
-/// the sound, and a last packet whose duration is unknown.
-constexpr gint64 kTolerance_ns = 500'000'000;
-
-/// The demuxers of MPEG streams and Ogg, which have no header, compute the duration: from clock
-/// references, which a cut in the stream makes wrong, and from the last page, which may be of
-/// sound.
-bool has_header(GstElement* demuxer) {
-  GstElementFactory* const factory = gst_element_get_factory(demuxer);
-  const std::string name = factory ? GST_OBJECT_NAME(factory) : "";
-  return name != "tsdemux" && name != "mpegpsdemux" && name != "oggdemux";
-}
-
 /// "H.265 (Main Profile) decoder", if that is what is missing, and it is for pictures.
 std::string missing_decoder(const GstStructure* message) {
   const GstCaps* caps = nullptr;
@@ -158,7 +143,6 @@ void FilmWatch::begin(GstElement* pipeline) {
   GstBus* bus = gst_element_get_bus(pipeline);
   gst_bus_set_sync_handler(bus, hears, this, nullptr);
   gst_object_unref(bus);
-  g_signal_connect(pipeline, "deep-element-added", G_CALLBACK(decoder_has), this);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "decode");
   g_signal_connect(decoder, "no-more-pads", G_CALLBACK(choose), this);
   gst_object_unref(decoder);
@@ -192,46 +176,7 @@ GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
   return GST_BUS_PASS;
 }
 
-void FilmWatch::decoder_has(GstBin*, GstBin*, GstElement* element, gpointer self) {
-  const char* const kind = gst_element_get_metadata(element, GST_ELEMENT_METADATA_KLASS);
-  if (kind && std::strstr(kind, "Demux"))
-    g_signal_connect(element, "pad-added", G_CALLBACK(demuxer_has), self);
-}
-
-void FilmWatch::demuxer_has(GstElement* demuxer, GstPad* pad, gpointer user) {
-  auto& self = *static_cast<FilmWatch*>(user);
-  if (!has_header(demuxer)) return;
-  gst_pad_add_probe(pad, kFlow, flows, user, nullptr);
-  const std::lock_guard<std::mutex> lock(self.lock_);
-  self.tells_duration_ = true;
-}
-
-GstPadProbeReturn FilmWatch::flows(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
-  auto& self = *static_cast<FilmWatch*>(user);
-  const std::lock_guard<std::mutex> lock(self.lock_);
-  Stream& stream = self.streams_[pad];
-  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
-    if (GST_EVENT_TYPE(event) == GST_EVENT_SEGMENT) gst_event_copy_segment(event, &stream.segment);
-    return GST_PAD_PROBE_OK;
-  }
-  GstBuffer* const packet = GST_PAD_PROBE_INFO_BUFFER(info);
-  const GstClockTime pts = GST_BUFFER_PTS(packet);
-  if (!GST_CLOCK_TIME_IS_VALID(pts) || stream.segment.format != GST_FORMAT_TIME)
-    return GST_PAD_PROBE_OK;
-  // Packets come in the order of decoding, so that their times may go back.
-  if (stream.packets++ > 0 && pts > stream.last_pts) stream.interval = pts - stream.last_pts;
-  stream.last_pts = pts;
-  // matroskademux gives stream times from 0, but a duration from the time stamp 0.
-  const GstClockTime at = gst_segment_to_stream_time(&stream.segment, GST_FORMAT_TIME, pts);
-  const GstClockTime begin = GST_CLOCK_TIME_IS_VALID(at) ? std::max(at, pts) : pts;
-  const GstClockTime lasts = GST_BUFFER_DURATION_IS_VALID(packet) ? GST_BUFFER_DURATION(packet) : 0;
-  const GstClockTime end = begin + std::max(lasts, stream.interval);
-  if (is_time(end)) self.end_ns_ = std::max(self.end_ns_, static_cast<gint64>(end));
-  return GST_PAD_PROBE_OK;
-}
-
-GstPadProbeReturn FilmWatch::decoded(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+GstPadProbeReturn FilmWatch::decoded(GstPad*, GstPadProbeInfo* info, gpointer user) {
   if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
     // matroskademux sends gaps while the sound goes on after the pictures; they overtake the last
     // frames, which are still in the decoder.
@@ -240,7 +185,7 @@ GstPadProbeReturn FilmWatch::decoded(GstPad* pad, GstPadProbeInfo* info, gpointe
   }
   auto& self = *static_cast<FilmWatch*>(user);
   const std::lock_guard<std::mutex> lock(self.lock_);
-  if (self.frames_++ == 0) gst_pad_query_duration(pad, GST_FORMAT_TIME, &self.duration_ns_);
+  ++self.frames_;
   return GST_PAD_PROBE_OK;
 }
 
@@ -267,7 +212,7 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
   GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
 }
 
-std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> end_ns) const {
+std::string FilmWatch::problem(const std::string& error) const {
   const std::lock_guard<std::mutex> lock(lock_);
   if (!has_video_) {
     return missing_.empty() ? "there is no video in it" + why_no_video_
@@ -280,11 +225,6 @@ std::string FilmWatch::problem(const std::string& error, std::optional<int64_t> 
   }
   if (!error.empty()) return error;
   if (frames_ == 0) return "no picture of it can be decoded: it is damaged or cut off";
-  const int64_t until_ns = tells_duration_ ? end_ns.value_or(duration_ns_) : 0;
-  if (until_ns - end_ns_ > kTolerance_ns) {
-    return "it ends at " + seconds_text(end_ns_) + " of " + seconds_text(until_ns) +
-           ": it is damaged or cut off";
-  }
   return frames_ < 2 ? "it is a single picture, in which nothing moves" : "";
 }
 

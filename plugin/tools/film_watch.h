@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include <gst/gst.h>
@@ -35,43 +34,26 @@ class FilmWatch {
   void begin(GstElement* pipeline);
 
   /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
-  /// says what is wrong with the film, or nothing. A film of fewer frames is wrong, too, and
-  /// one whose pictures do not come until `end_ns`, stream time, or if that is not known, until the
-  /// end of the container's duration.
-  std::string problem(const std::string& error, std::optional<int64_t> end_ns) const;
+  /// says what is wrong with the film, or nothing. A film of fewer than two frames is wrong, too.
+  std::string problem(const std::string& error) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
   /// What share of its frames is felt, and the commonest reason of the others, in whole sentences.
   std::string felt() const;
 
  private:
-  /// Of a stream, as the demuxer gives it.
-  struct Stream {
-    GstSegment segment{};
-    uint64_t packets = 0;
-    GstClockTime last_pts = 0;
-    GstClockTime interval = 0;  // between two packets
-  };
-
   static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
-  static void decoder_has(GstBin* bin, GstBin* sub, GstElement* element, gpointer self);
-  static void demuxer_has(GstElement* demuxer, GstPad* pad, gpointer self);
-  static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   static GstPadProbeReturn decoded(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   static void choose(GstElement* decoder, gpointer self);
 
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  std::map<GstPad*, Stream> streams_;
   bool failed_ = false;    // with an error; warnings after it follow from it
   std::string warning_;    // the first one
   std::string remark_;     // the first warning of spidarmotion
   std::string missing_;    // the decoder of the video that is not installed
   bool has_video_ = true;  // unknown until chosen
   std::string why_no_video_;
-  bool tells_duration_ = false;  // in a header, so that a film that is cut off has it, too
-  gint64 duration_ns_ = 0;
-  gint64 end_ns_ = 0;  // of what was demuxed
   uint64_t frames_ = 0;
   std::map<std::string, int> reasons_;  // of measured frames, by sentence; empty: felt
 };

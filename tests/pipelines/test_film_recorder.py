@@ -33,10 +33,10 @@ class FilmRecorder(track_case.TrackCase):
                 for length in (size - 1, size // 2):
                     self.expect_refused(self.cut(name, length))
         size = self.path("whole.mkv").stat().st_size
-        self.expect_refused(self.cut("whole.mkv", size // 2), "it ends at ")
+        self.expect_refused(self.cut("whole.mkv", size // 2), "its end is missing")
         self.expect_refused(self.cut("whole.mkv", 1000))  # before the first frame ends
         self.gst(BALL, "jpegenc ! qtmux faststart=true ! filesink location=flat.mov")
-        self.expect_refused(self.cut("flat.mov", self.path("flat.mov").stat().st_size // 2), "it ends at ")
+        self.expect_refused(self.cut("flat.mov", self.path("flat.mov").stat().st_size // 2), "its end is missing")
         # Only the header, of a film with sound.
         self.path("header.flv").write_bytes(b"FLV\1\5\0\0\0\t\0\0\0\0")
         self.expect_refused("header.flv", "it cannot be read to its end")
