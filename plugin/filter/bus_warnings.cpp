@@ -130,7 +130,7 @@ void BusWarnings::check_touch(const MotionEngine& engine, const FrameReport& rep
           ("touch-stiffness is %g N/m, but the lag of this device's drives has not been measured; "
            "the surface has %.0f N/m.",
            wanted.stiffness_N_m, report.stiffness_N_m),
-          ("Measure it with spidarctl conformance, and write drive_lag_s into the profile "
+          ("Measure it with spidarctl selftest --lag, and write drive_lag_s into the profile "
            "(docs/touch.md)."));
       break;
     case TouchProblem::kNone:

@@ -121,7 +121,7 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
     GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                         ("The touched surface shook the grip: its stiffness is lowered."),
                         ("The drives lag more than the profile says. Measure them with spidarctl "
-                         "conformance, write drive_lag_s into the profile, or set a lower "
+                         "selftest --lag, write drive_lag_s into the profile, or set a lower "
                          "touch-stiffness."));
   }
   if (loop.vibration.lowered() && !vibrated_) {

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
-#include "core/touch/contact_force.h"
+#include "spidar/boards/link_thread.h"
 #include "spidar/grip/pose_trust.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/stiffness_limit.h"
 
 namespace spidar {
 namespace {
@@ -30,45 +28,11 @@ constexpr int64_t kHold_ns = 10 * kTick_ns;
 constexpr double kOpening_s = 2;
 /// A longer pause makes a period unusable.
 constexpr double kLongestGap_s = 0.01;
-/// After a pause longer than kPause_ns the loop may have lost the pose, and has kRecovery_ns to
-/// recover it.
-constexpr int64_t kPause_ns = PoseTrust::kPoseTimeout_ns;
-constexpr int64_t kRecovery_ns = 500 * kTick_ns;
 
 /// Fades from 0 to 1 and back to 0 in a round, with zero slope at both ends.
 double envelope(double time_s) {
   const double way = std::clamp(std::min(time_s, kRound_s - time_s) / kFade_s, 0.0, 1.0);
   return way * way * (3 - 2 * way);
-}
-
-std::string sentence_of(NoLag missing, const LagFit& fit) {
-  char text[200] = "";
-  switch (missing) {
-    case NoLag::kNone:
-      break;
-    case NoLag::kNoMotion:
-      return "the grip hardly moved with the force; hold it loosely, so that it can move, or use a "
-             "larger force";
-    case NoLag::kNotAMass:
-      std::snprintf(text, sizeof text,
-                    "the grip did not move as a mass with a spring and a damper (misfit %.1f, at "
-                    "most %.0f); hold it still and loosely, at the centre",
-                    fit.misfit, LagFitter::kMostMisfit);
-      break;
-    case NoLag::kTooVague:
-      std::snprintf(
-          text, sizeof text,
-          "the lag could be told to within %.1f ms only; hold the grip still and loosely, "
-          "or use a larger force",
-          500 * (fit.most_s - fit.least_s));
-      break;
-    case NoLag::kTooLong:
-      std::snprintf(text, sizeof text,
-                    "the drive may lag by more than %.0f ms: no surface should be touched with it",
-                    1e3 * LagFitter::kLongestLag_s);
-      break;
-  }
-  return text;
 }
 
 class DelayRun {
@@ -108,7 +72,6 @@ class DelayRun {
     loop_->tick(now_ns, now_ns);
     while (loop_->pop_record(record_)) {
     }
-    result_.largest_N = std::max(result_.largest_N, record_.commanded.force_N.norm());
     if (!loop_->lost()) return true;
     return fault(loss_text(device_.name(), device_.health().last_fault, late_ns));
   }
@@ -173,14 +136,11 @@ class DelayRun {
     PeriodSums sums(kRound_s * number + kBegin_s);
     for (;;) {
       schedule_ahead(now_ns_() - begin_ns_);
-      const int64_t last_ns = record_.monotonic_ns;
       if (!tick()) return false;
-      if (record_.monotonic_ns - last_ns > kPause_ns) paused_ns_ = record_.monotonic_ns;
-      if (recovers()) {
+      if (recovers())
         whole = false;
-      } else if (!is_well()) {
+      else if (!is_well())
         return false;
-      }
       const double time_s = 1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns_);
       sums.add(time_s, record_.delivered.force_N.z(), record_.pose.position_m.z());
       if (time_s >= end_s) break;
@@ -190,12 +150,12 @@ class DelayRun {
     return true;
   }
 
-  /// Whether the loop is recovering after the scheduler delayed it. The loop then ramps the force
-  /// to rest until the pose is known again. This is not a fault of the device.
+  /// After a pause of the machine the loop has lost the pose. It then ramps the force to rest until
+  /// the pose is known again. This is not a fault of the device.
   bool recovers() const {
     const PoseTrouble trouble = loop_->snapshot().pose_trouble;
-    return (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet) &&
-           record_.acknowledged && record_.monotonic_ns - paused_ns_ < kRecovery_ns;
+    return record_.acknowledged &&
+           (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet);
   }
 
   /// Returns false, to end the test, if the pose is lost, a string is faulty, or the grip has moved
@@ -212,7 +172,6 @@ class DelayRun {
       return fault("the length of string " + std::to_string(record_.faulty_string) +
                    " does not fit the others: it is slack or broken, or its encoder is dead");
     const double moved_m = (record_.pose.position_m - start_m_).norm();
-    result_.moved_m = std::max(result_.moved_m, moved_m);
     if (moved_m <= kFurthest_m) return true;
     return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
   }
@@ -237,8 +196,8 @@ class DelayRun {
            std::to_string(DelayTestSettings::kFewestPeriods) + " are needed");
       return;
     }
-    result_.fit = LagFitter::fit(average(periods_), result_.periods);
-    result_.trouble = sentence_of(result_.fit->missing, *result_.fit);
+    result_.fit = fit_lag(average(periods_), result_.periods);
+    result_.trouble = result_.fit->trouble;
   }
 
   const Device& device_;
@@ -251,7 +210,6 @@ class DelayRun {
   Eigen::Vector3d start_m_ = Eigen::Vector3d::Zero();
   int64_t begin_ns_ = 0;
   int64_t next_ns_ = 0;
-  int64_t paused_ns_ = INT64_MIN / 2;
   std::vector<Multisine> rounds_;
   std::vector<PeriodSums> periods_;
 };
@@ -267,22 +225,14 @@ DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace
   return DelayRun(device, profile, pace, now_ns, settings).run();
 }
 
-LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks) {
-  LagVerdict verdict;
-  verdict.late_ticks = late_ticks;
-  const double late_s = 1e-9 * static_cast<double>(late_ticks * kTick_ns);
-  const double most_s = std::max(0.0, fit.most_s) + late_s;
-  if (profile.drive_lag_s < fit.least_s + late_s) verdict.stated = StatedLag::kTooSmall;
-  if (profile.drive_lag_s > most_s) verdict.stated = StatedLag::kMore;
+LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns) {
+  const int64_t beyond_ns = std::max<int64_t>(answer_ns - BoardDevice::kReplyWait_ns, 0);
+  const double late_s = kTick_s * static_cast<double>((beyond_ns + kTick_ns - 1) / kTick_ns);
   // The tolerance keeps rounding errors from adding a step.
   constexpr double kStep_s = 1e-4;
-  verdict.safe_lag_s = kStep_s * std::ceil(most_s / kStep_s - 1e-6);
-  verdict.delay_s = surface_delay_s(verdict.safe_lag_s);
-  verdict.stiffness_N_m = most_stiffness_N_m(verdict.safe_lag_s);
-  ContactSettings surface;
-  surface.stiffness_N_m = verdict.stiffness_N_m;
-  surface.delay_s = verdict.delay_s;
-  verdict.damping_N_s_m = surface.damping_N_s_m();
+  LagVerdict verdict;
+  verdict.stated_enough = profile.drive_lag_s >= fit.least_s + late_s;
+  verdict.safe_lag_s = kStep_s * std::ceil((std::max(0.0, fit.most_s) + late_s) / kStep_s - 1e-6);
   return verdict;
 }
 

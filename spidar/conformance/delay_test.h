@@ -40,12 +40,10 @@ struct DelayTest {
   std::string trouble;   ///< why the test ended or has no result: a sentence, or empty
   bool fault = false;    ///< `trouble` is a fault of the device, not only a missing result
   std::optional<LagFit> fit;
-  int periods = 0;       ///< number of periods used
-  double moved_m = 0;    ///< largest distance of the grip from its start position
-  double largest_N = 0;  ///< largest commanded force
+  int periods = 0;  ///< number of periods used
 
   /// Whether the test has a result.
-  bool measured() const noexcept { return trouble.empty() && fit && fit->missing == NoLag::kNone; }
+  bool measured() const noexcept { return trouble.empty() && fit; }
 };
 
 /// CLOCK_MONOTONIC, or the clock of a simulation, in ns.
@@ -63,24 +61,17 @@ DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace
 /// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;
 
-enum class StatedLag {
-  kTooSmall,  ///< the drive lags by more than the profile states, beyond the error interval
-  kRight,     ///< the profile's value is within the interval
-  kMore,      ///< above the interval: safe, but surfaces are softer than necessary
-};
-
 struct LagVerdict {
-  StatedLag stated = StatedLag::kRight;
+  /// The profile states at least the lag that was measured, or the error interval reaches down to
+  /// what it states.
+  bool stated_enough = false;
   /// Value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1 ms.
   double safe_lag_s = 0;
-  double delay_s = 0;        ///< t_d at that lag
-  double stiffness_N_m = 0;  ///< largest surface stiffness at that delay
-  double damping_N_s_m = 0;  ///< damping B of that surface
-  int late_ticks = 0;        ///< included in the lag, see judge_lag()
 };
 
-/// `late_ticks` is the number of additional ticks after which the loop uses the reply of an
-/// exchange during playback, because it does not wait for the reply. They are added to the lag.
-LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int late_ticks);
+/// `answer_ns`: the time after which a board answers in 99 of 100 exchanges. While playing, the
+/// loop does not wait longer than BoardDevice::kReplyWait_ns, and the ticks that later answers cost
+/// are added to the lag.
+LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);
 
 }  // namespace spidar

@@ -10,6 +10,8 @@
 
 #include <Eigen/Dense>
 
+#include "spidar/conformance/report_text.h"
+
 namespace spidar {
 namespace {
 
@@ -88,19 +90,23 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
 /// The pure delay is negative if a board reads its counters later in an exchange than it sets its
 /// output voltages. The simulation has a negative delay because of its time steps.
 constexpr double kShortestDelay_s = -0.001;
-constexpr double kScan_s = 0.0005;
 /// Beyond kLongestLag_s, so that a lag that is too long is recognized.
-constexpr double kScanTo_s = 2 * LagFitter::kLongestLag_s;
-/// Step between the first-order parts that are tried: the larger of this time and this share of the
-/// part.
-constexpr double kPart_s = 0.00025;
-constexpr double kPartShare = 0.1;
-/// Number of subdivisions between the two neighbours of the best part.
-constexpr int kFiner = 20;
+constexpr double kScanTo_s = 2 * kLongestLag_s;
+constexpr double kScan_s = 5e-5;
+/// Half-width of the confidence interval in standard errors.
+constexpr double kDeviations = 3;
+/// The minimum number of lines at least three times above the noise.
+constexpr int kFewestLines = 8;
+/// Systematic error, the same in every period, as a share of the response: geometry, the directions
+/// of the strings as the grip moves, the time of an exchange.
+constexpr double kSystematic = 0.005;
+/// A larger misfit cannot be explained by noise.
+constexpr double kMostMisfit = 3;
+/// Coefficients of the denominator, and the delay.
+constexpr int kUnknowns = 5;
 
 struct Weighed {
   double rate_rad_s = 0;
@@ -108,98 +114,64 @@ struct Weighed {
   double weight = 0;  ///< 1 / standard deviation of the real and of the imaginary part
 };
 
-/// Mass, damping and stiffness.
-using GripParameters = Eigen::Vector3d;
-
+/// The best denominator for a given delay.
 struct LagCandidate {
-  double part_s = 0;  ///< first-order part of the lag
   double lag_s = 0;
-  GripParameters grip = GripParameters::Zero();
-  double cost = kNone;  ///< chi²
-  double error_s = 0;   ///< standard error of the lag for this part
+  double cost = std::numeric_limits<double>::infinity();  ///< chi²
+  double error_s = 0;                                     ///< standard error of the lag
 };
 
-Complex drive(double rate_rad_s, double part_s, double lag_s) {
-  const Complex j(0, 1);
-  return std::exp(-j * (rate_rad_s * (lag_s - part_s))) / (1.0 + j * (rate_rad_s * part_s));
-}
+/// T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T² − a₀
+/// T³, by Newton's method from a₃ / a₂, which it is without a hand.
+struct FirstOrderPart {
+  double part_s = 0;
+  Eigen::Vector4d by_coefficient;  ///< its derivatives
 
-/// The best grip for a given lag, and its cost. The response is not linear in mass, damping and
-/// stiffness, its inverse is: linear least squares on that, in which the first pass weighs errors
-/// by the measured response, and the others by the response of the grip that was found (Sanathanan
-/// and Koerner 1963).
-LagCandidate best_grip(const std::vector<Weighed>& lines, double part_s, double lag_s) {
-  constexpr int kPasses = 3;
-  LagCandidate found{part_s, lag_s};
+  explicit FirstOrderPart(const Eigen::Vector4d& a) : part_s(a[3] / a[2]) {
+    for (int i = 0; i < 20; ++i) {
+      const double t = part_s;
+      by_coefficient << -t * t * t, t * t, -t, 1;
+      const double by_part = -a[2] + 2 * a[1] * t - 3 * a[0] * t * t;
+      part_s -= a.dot(by_coefficient) / by_part;
+      by_coefficient /= -by_part;
+    }
+  }
+};
+
+/// The response is not linear in the coefficients, its inverse is: linear least squares on that, in
+/// which the first pass weighs errors by the measured response, and the others by the response that
+/// was found (Sanathanan and Koerner 1963).
+LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) {
+  constexpr int kPasses = 4;
+  LagCandidate found;
+  Eigen::Vector4d a = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d normal;
   std::vector<Complex> model(lines.size());
   for (size_t i = 0; i < lines.size(); ++i) model[i] = lines[i].response;
   for (int pass = 0; pass < kPasses; ++pass) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    GripParameters right = GripParameters::Zero();
+    normal.setZero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (size_t i = 0; i < lines.size(); ++i) {
       const double w = lines[i].rate_rad_s;
-      const Complex through = drive(w, part_s, lag_s);
-      const Complex inverse = through / lines[i].response;
-      const double weight = lines[i].weight * std::abs(model[i] * lines[i].response / through);
-      const GripParameters real(-w * w, 0, 1), imaginary(0, w, 0);
+      const Complex inverse = std::polar(1.0, -w * delay_s) / lines[i].response;
+      const double weight = lines[i].weight * std::abs(model[i] * lines[i].response);
+      const Eigen::Vector4d real(1, 0, -w * w, 0), imaginary(0, w, 0, -w * w * w);
       normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
       right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
     }
-    found.grip = normal.ldlt().solve(right);
+    a = normal.ldlt().solve(right);
     found.cost = 0;
     for (size_t i = 0; i < lines.size(); ++i) {
       const double w = lines[i].rate_rad_s;
-      model[i] = drive(w, part_s, lag_s) /
-                 Complex(found.grip[2] - found.grip[0] * w * w, found.grip[1] * w);
+      model[i] =
+          std::polar(1.0, -w * delay_s) / Complex(a[0] - a[2] * w * w, w * (a[1] - a[3] * w * w));
       found.cost += std::norm(lines[i].weight * (lines[i].response - model[i]));
     }
   }
-  if (!(found.grip[0] > 0)) found.cost = kNone;
-  return found;
-}
-
-/// The best fit with this first-order part. Its cost is kNone if there is no valid one.
-LagCandidate best_with(const std::vector<Weighed>& lines, double part_s) {
-  constexpr double kFinest_s = 1e-7;
-  const double shortest_s = part_s + kShortestDelay_s;
-  LagCandidate best;
-  best.part_s = part_s;
-  for (double lag_s = shortest_s; lag_s <= kScanTo_s; lag_s += kScan_s) {
-    const LagCandidate candidate = best_grip(lines, part_s, lag_s);
-    if (candidate.cost < best.cost) best = candidate;
-  }
-  // A parabola through the costs around the best one, again and again. A lag that is off by its
-  // standard error costs one more.
-  for (double step_s = kScan_s / 2; std::isfinite(best.cost) && step_s > kFinest_s; step_s /= 4) {
-    const double below = best_grip(lines, part_s, best.lag_s - step_s).cost;
-    const double above = best_grip(lines, part_s, best.lag_s + step_s).cost;
-    const double bend = below - 2 * best.cost + above;
-    if (!std::isfinite(bend) || !(bend > 0)) break;
-    const double error_s = step_s * std::sqrt(2 / bend);
-    const double change_s = std::clamp(0.5 * step_s * (below - above) / bend, -step_s, step_s);
-    const LagCandidate candidate = best_grip(lines, part_s, best.lag_s + change_s);
-    if (candidate.cost <= best.cost) best = candidate;
-    best.error_s = error_s;
-    if (error_s > step_s) break;
-  }
-  if (!(best.lag_s >= shortest_s)) best.cost = kNone;
-  return best;
-}
-
-bool is_better(const LagCandidate& a, const LagCandidate& b) {
-  return a.cost < b.cost;
-}
-
-std::vector<LagCandidate> candidates_of(const std::vector<Weighed>& lines) {
-  std::vector<LagCandidate> found;
-  for (double part_s = 0; part_s <= LagFitter::kLongestLag_s;
-       part_s += std::max(kPart_s, kPartShare * part_s))
-    found.push_back(best_with(lines, part_s));
-  const auto best = std::min_element(found.begin(), found.end(), is_better);
-  const double from_s = (best == found.begin() ? best : best - 1)->part_s;
-  const double to_s = (best + 1 == found.end() ? best : best + 1)->part_s;
-  for (int i = 1; i < kFiner; ++i)
-    found.push_back(best_with(lines, from_s + (to_s - from_s) * i / kFiner));
+  const FirstOrderPart part(a);
+  found.lag_s = delay_s + part.part_s;
+  found.error_s = std::sqrt(part.by_coefficient.dot(normal.ldlt().solve(part.by_coefficient)));
+  if (!(a[2] > 0) || !std::isfinite(found.lag_s + found.error_s + found.cost)) return {};
   return found;
 }
 
@@ -212,8 +184,7 @@ std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) 
   const double estimated = static_cast<double>(periods - 1) / (periods - 2);
   std::vector<Weighed> weighed;
   for (const ResponseLine& line : lines) {
-    const double systematic =
-        LagFitter::kSystematic * LagFitter::kSystematic * std::norm(line.response);
+    const double systematic = kSystematic * kSystematic * std::norm(line.response);
     // Half of the variance belongs to the real part.
     const double variance = 0.5 * (estimated * line.variance + systematic);
     weighed.push_back({2 * M_PI * line.frequency_Hz, line.response, 1 / std::sqrt(variance)});
@@ -221,31 +192,48 @@ std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) 
   return weighed;
 }
 
+/// Empty if the fit can be used.
+std::string trouble_of(const LagFit& fit) {
+  const double vague_s = std::max(kVagueLag_s, kVagueLagShare * fit.lag_s);
+  if (!(fit.misfit <= kMostMisfit))
+    return formatted(
+        "the grip did not move as a mass with a spring and a damper (misfit %.1f, at most %.0f); "
+        "hold it still and loosely, at the centre",
+        fit.misfit, kMostMisfit);
+  if (!(fit.most_s - fit.least_s <= 2 * vague_s))
+    return formatted(
+        "the lag could be told to within %.1f ms only; hold the grip still and loosely, or use a "
+        "larger force",
+        500 * (fit.most_s - fit.least_s));
+  if (!(fit.most_s <= kLongestLag_s))
+    return formatted("the drive may lag by more than %.0f ms: no surface should be touched with it",
+                     1e3 * kLongestLag_s);
+  return {};
+}
+
 }  // namespace
 
-LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
+LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   LagFit result;
-  result.lines = static_cast<int>(std::count_if(lines.begin(), lines.end(), stands_out));
-  if (result.lines < kFewestLines) {
-    result.missing = NoLag::kNoMotion;
+  if (std::count_if(lines.begin(), lines.end(), stands_out) < kFewestLines) {
+    result.trouble =
+        "the grip hardly moved with the force; hold it loosely, so that it can move, or use a "
+        "larger force";
     return result;
   }
   // Uses all lines: selecting those with a large response would bias the result upwards.
-  const std::vector<LagCandidate> found = candidates_of(weigh(lines, periods));
-  const LagCandidate best = *std::min_element(found.begin(), found.end(), is_better);
-  if (!std::isfinite(best.cost)) {
-    result.missing = NoLag::kNotAMass;
-    return result;
-  }
-  constexpr int kUnknowns = 5;
+  const std::vector<Weighed> weighed = weigh(lines, periods);
+  std::vector<LagCandidate> found;
+  for (double delay_s = kShortestDelay_s; delay_s <= kScanTo_s; delay_s += kScan_s)
+    found.push_back(best_with_delay(weighed, delay_s));
+  const LagCandidate best =
+      *std::min_element(found.begin(), found.end(),
+                        [](const LagCandidate& a, const auto& b) { return a.cost < b.cost; });
   const double spread = best.cost / static_cast<double>(2 * lines.size() - kUnknowns);
   result.misfit = std::sqrt(spread);
   result.lag_s = result.least_s = result.most_s = best.lag_s;
-  result.mass_kg = best.grip[0];
-  result.damping_N_s_m = best.grip[1];
-  result.stiffness_N_m = best.grip[2];
-  // Profile likelihood: for every first-order part, the lags whose cost is within the limit. A
-  // misfit scales all errors up.
+  // Profile likelihood: for every delay, the lags whose cost is within the limit. A misfit scales
+  // all errors up.
   const double scale = std::max(1.0, spread);
   for (const LagCandidate& candidate : found) {
     const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;
@@ -255,14 +243,7 @@ LagFit LagFitter::fit(const std::vector<ResponseLine>& lines, int periods) {
     result.most_s = std::max(result.most_s, candidate.lag_s + either_s);
   }
   result.error_s = (result.most_s - result.least_s) / (2 * kDeviations);
-  const double vague_s = std::max(kVague_s, kVagueShare * result.lag_s);
-  if (!(result.misfit <= kMostMisfit)) {
-    result.missing = NoLag::kNotAMass;
-  } else if (!(result.most_s - result.least_s <= 2 * vague_s)) {
-    result.missing = NoLag::kTooVague;
-  } else if (!(result.most_s <= kLongestLag_s)) {
-    result.missing = NoLag::kTooLong;
-  }
+  result.trouble = trouble_of(result);
   return result;
 }
 

@@ -180,7 +180,7 @@ std::vector<Provenance> read_sources(const TomlField& sources) {
       row.field = fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
                                     "newtons_per_volt", "metres_per_count", "continuous_tension_N",
                                     "heating_time_s", "motor_sign", "encoder_sign", "home_offset_m",
-                                    "board", "dac_bits", "dac_max_V"});
+                                    "board", "dac_bits", "dac_max_V", "drive_lag_s"});
       provenance.push_back(row);
     }
   }

@@ -48,7 +48,6 @@ void add_zero(Program& program);
 void add_pull(Program& program);
 void add_choose(Program& program);
 void add_selftest(Program& program);
-void add_conformance(Program& program);
 void add_calibrate(Program& program);
 
 /// Arguments of every command that opens a device.

@@ -107,6 +107,27 @@ class Monitor {
   int64_t readings_ = 0;
 };
 
+/// How the board has answered, for the people who write its driver. Nothing of a device without a
+/// link.
+void print_link(const LinkHealth& health) {
+  if (health.round_trip_max_ns == 0) return;
+  std::cerr << formatted(
+      "%llu exchanges answered in %lld us (median), %lld us (99 %%), %lld us at "
+      "most; faults:",
+      static_cast<unsigned long long>(health.count(LinkFault::kNone)),
+      static_cast<long long>(health.round_trip_median_ns / 1000),
+      static_cast<long long>(health.round_trip_p99_ns / 1000),
+      static_cast<long long>(health.round_trip_max_ns / 1000));
+  bool any = false;
+  for (size_t i = 1; i < kLinkFaults; ++i) {
+    if (health.faults[i] == 0) continue;
+    std::cerr << (any ? ", " : " ") << health.faults[i] << ' '
+              << to_string(static_cast<LinkFault>(i));
+    any = true;
+  }
+  std::cerr << (any ? "\n" : " none\n");
+}
+
 int monitor(const MonitorOptions& options) {
   require_strings(board_info(options.device), "monitor");
   ChosenDevice chosen = choose_device(options, options.taut ? Motors::kPulled : Motors::kOff);
@@ -123,6 +144,7 @@ int monitor(const MonitorOptions& options) {
     return true;
   });
   hold.release();
+  print_link(chosen.device->health());
   return kDone;
 }
 
@@ -141,7 +163,8 @@ void add_monitor(Program& program) {
       "(degrees), inputs, string lengths (millimetres). The motors stay at zero, so strings may "
       "be\n"
       "slack. Of a board for which nobody has named a profile, prints the counts of the encoders\n"
-      "instead. JSON is one object per line.");
+      "instead. JSON is one object per line. At the end, it says on standard error how long the\n"
+      "board took to answer, and which faults there were.");
 }
 
 }  // namespace spidar

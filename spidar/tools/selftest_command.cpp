@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <array>
+#include <future>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "spidar/conformance/conformance_report.h"
+#include "spidar/conformance/delay_test.h"
 #include "spidar/conformance/stick_test.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/profiles/profile_writer.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/tools/device_command.h"
 
@@ -17,15 +23,23 @@ namespace {
 struct SelftestOptions : DeviceOptions {
   double newton = 0.5;
   OutputFile output;
-  bool yes = false, json = false;
+  bool lag = false, yes = false, json = false;
 };
 
-void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report) {
+/// `lag`: what was measured of the drives, if it was.
+void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report,
+           const std::optional<LagVerdict>& lag) {
   if (!report.fixable()) {
     std::cerr << options.output.path << " is not written: a profile cannot express this wiring\n";
     return;
   }
-  const Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
+  Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
+  if (lag) {
+    rewired.drive_lag_s = lag->safe_lag_s;
+    rewired.drive_lag_known = true;
+    rewired.provenance.push_back(
+        {"drive_lag_s", "spidarctl selftest --lag", Evidence::kMeasured, ""});
+  }
   save_profile(rewired, options.output.path);
   std::cerr << "written: " << options.output.path << '\n';
   if (profile.calibration && !rewired.calibration)
@@ -86,31 +100,73 @@ bool answers_pushes(const ChosenDevice& chosen) {
   return chosen.grip && chosen.grip->abilities().position[0];
 }
 
+bool is_confirmed(const SelftestOptions& options, const std::string& device) {
+  std::string question = "Pull the strings of " + device + " one after the other";
+  if (options.lag)
+    question += formatted(", and shake the grip with up to %g N for %.0f s",
+                          DelayTestSettings().peak_N, DelayTestSettings().most_seconds());
+  return may_move(options.device, options.yes,
+                  question + "? The grip will move; hold it loosely at the centre.");
+}
+
+DelayTest shake(Device& device, const Profile& profile) {
+  std::cerr << formatted(
+      "Hold the grip loosely at the centre, and still. It is shaken along the line of sight with "
+      "up "
+      "to %g N for %.0f s; Ctrl-C ends that.\n",
+      DelayTestSettings().peak_N, DelayTestSettings().seconds());
+  // As the haptic loop runs: pauses of a busy machine cost seconds that are evaluated.
+  std::packaged_task<DelayTest()> task([&] {
+    request_exact_timers();
+    request_real_time();
+    return measure_delay(device, profile, every_millisecond(), monotonic_now_ns);
+  });
+  std::future<DelayTest> result = task.get_future();
+  start_thread("spidar-delay", std::move(task)).join();
+  return result.get();
+}
+
+int interrupted_test() {
+  std::cerr << "interrupted; the strings are released\n";
+  return kInterrupted;
+}
+
 int selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
   require_strings(chosen.board, "selftest");
   options.output.check();
-  if (!may_move(options.device, options.yes,
-                "Pull the strings of " + chosen.name() +
-                    " one after the other? The grip will move; hold it loosely at the centre."))
-    return kFailed;
+  if (!is_confirmed(options, chosen.name())) return kFailed;
   catch_signals();
+  const Profile& profile = chosen.profile;
   WiringTestSettings settings;
   settings.pull_N = options.newton;
-  settings.try_reversed = can_reverse(options.device, chosen.profile);
-  const auto [answers, report] = test_wiring(*chosen.device, chosen.profile, every_millisecond(),
-                                             settings, tell_to_hold_still);
-  if (!answers.complete) {
-    std::cerr << "interrupted; the strings are released\n";
-    return kInterrupted;
-  }
+  settings.try_reversed = can_reverse(options.device, profile);
+  const auto [answers, report] =
+      test_wiring(*chosen.device, profile, every_millisecond(), settings, tell_to_hold_still);
+  if (!answers.complete) return interrupted_test();
+  Json json;
   if (options.json)
-    std::cout << json_text(wiring_json(chosen.profile, answers, report));
+    json = wiring_json(profile, answers, report);
   else
-    print_wiring(std::cout, chosen.profile, answers, report);
-  if (options.output) write(options, chosen.profile, report);
-  return report.as_profile() ? kDone : kFailed;
+    print_wiring(std::cout, profile, answers, report);
+  bool right = report.as_profile();
+  std::optional<LagVerdict> lag;
+  // Forces that a wrong wiring would turn round are not tried.
+  if (options.lag && right) {
+    const DelayTest test = shake(*chosen.device, profile);
+    if (!test.complete) return interrupted_test();
+    if (test.measured())
+      lag = judge_lag(profile, *test.fit, chosen.device->health().round_trip_p99_ns);
+    right = lag && lag->stated_enough;
+    if (options.json)
+      json["drive_lag"] = lag_json(test, lag.value_or(LagVerdict()));
+    else
+      print_lag(std::cout, profile, test, lag.value_or(LagVerdict()));
+  }
+  if (options.json) std::cout << json_text(json);
+  if (options.output) write(options, profile, report, lag);
+  return right ? kDone : kFailed;
 }
 
 }  // namespace
@@ -122,9 +178,12 @@ void add_selftest(Program& program) {
   app.add_option("--newton", options.newton,
                  "tension of a pull above the minimum tension, or force of a push (default 0.5)")
       ->check(number(0.1, 2, " N"));
-  add_profile_file(app, "--write-profile", options.output,
-                   "write a profile that matches the wiring, if a profile can express it: signs, "
-                   "and strings whose motor and encoder are at another channel");
+  add_profile_file(
+      app, "--write-profile", options.output,
+      "write a profile that matches the wiring, if a profile can express it: signs, "
+      "strings whose motor and encoder are at another channel, and with --lag the lag");
+  app.add_flag("--lag", options.lag,
+               "then shake the grip for 20 s, and find by how much the drives lag");
   add_yes(app, options.yes);
   add_json(app, options.json);
   app.footer(
@@ -134,12 +193,16 @@ void add_selftest(Program& program) {
       "the\n"
       "elbow on the table. Motors whose responses are unclear, because the hand moved, are pulled\n"
       "again, up to twice.\n\n"
+      "With --lag, and if the wiring is as in the profile, the grip is then shaken with at most\n"
+      "0.4 N. From how late it answers follows the drive_lag_s that belongs into the profile, and\n"
+      "how stiff a surface may be.\n\n"
       "Of a Novint Falcon (falcon) or Haply Inverse3 (inverse3), determines whether it moves in\n"
       "the direction of the force: pushes it to each side for 0.2 s, four times. Hold its grip\n"
       "loosely at the centre. Of a joystick or wheel (ff), likewise, with half of the force that\n"
       "its gain allows. Take the hand away.\n\n"
-      "Exit status: 0 the wiring is as in the profile, 1 it is not, or not confirmed, or no\n"
-      "device, 2 wrong usage, 130 interrupted.");
+      "Exit status: 0 the wiring is as in the profile, 1 it is not, or drive_lag_s is too small "
+      "or\n"
+      "was not found, or not confirmed, or no device, 2 wrong usage, 130 interrupted.");
 }
 
 }  // namespace spidar

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   program.app.require_subcommand(1);
   program.app.footer("spidarctl COMMAND --help explains a command.");
   for (const auto add : {add_list, add_info, add_monitor, add_rest, add_zero, add_pull, add_choose,
-                         add_selftest, add_conformance, add_calibrate})
+                         add_selftest, add_calibrate})
     add(program);
   return exit_status_of(program.app, [&] {
     check_command(program.app, argc, argv);

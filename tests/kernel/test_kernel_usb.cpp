@@ -271,9 +271,8 @@ TEST_F(KernelUsb, FilmOfAPipelinePullsAlsoAfterItsBoardWasPulledOut) {
   EXPECT_TRUE(bench.all_zero());
 }
 
-TEST_F(KernelUsb, SpidarctlFindsThatTheBoardConforms) {
-  ChildProcess spidarctl(
-      {"/spidarctl", "conformance", "usb:EMULATED", "--no-pull", "--seconds", "2"});
+TEST_F(KernelUsb, SpidarctlReadsTheBoard) {
+  ChildProcess spidarctl({"/spidarctl", "monitor", "usb:EMULATED", "--seconds", "2"});
   EXPECT_EQ(spidarctl.wait(), 0);
 }
 
