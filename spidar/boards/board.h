@@ -20,8 +20,7 @@ namespace spidar {
 enum class CountZero {
   kByProfile,  ///< kNever for a profile with home offsets, otherwise kFirstOpen
   kFirstOpen,  ///< not when the board is reopened after it was lost
-  kEveryOpen,
-  kNever,  ///< the counts of the board, to which calibrated home offsets refer
+  kNever,      ///< the counts of the board, to which calibrated home offsets refer
 };
 
 struct BoardSettings {

@@ -281,8 +281,7 @@ BoardDevice::BoardDevice(std::unique_ptr<Board> board, const BoardSettings& sett
 
 void BoardDevice::open() {
   link_.open([this] {
-    if (count_zero_ == CountZero::kEveryOpen || (count_zero_ != CountZero::kNever && !zeroed_))
-      board_->zero_counts();
+    if (count_zero_ != CountZero::kNever && !zeroed_) board_->zero_counts();
     zeroed_ = true;
     if (!board_->counts_restarted()) return;
     link_.count(LinkFault::kCounterJump);

@@ -83,18 +83,6 @@ Pose pose_at_zero_count(const StringGeometry& geometry, const StringVector& home
 
 namespace {
 
-constexpr double kMaxSeconds = 3600;
-
-void check(const RecordingSettings& settings) {
-  if (!(settings.seconds > 0 && settings.seconds <= kMaxSeconds))
-    throw std::invalid_argument("recording: " + shown(settings.seconds) +
-                                " s, must be above 0 and at most " + shown(kMaxSeconds) + " s");
-  if (!(settings.sample_period_s >= kTick_s && settings.sample_period_s <= settings.seconds))
-    throw std::invalid_argument("recording: a sample every " + shown(settings.sample_period_s) +
-                                " s, must be at least " + shown(kTick_s) +
-                                " s and at most the whole time");
-}
-
 CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings) {
   CountSamples samples(static_cast<Eigen::Index>(readings.size()), strings);
   for (Eigen::Index k = 0; k < samples.rows(); ++k)
@@ -107,7 +95,6 @@ CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings)
 
 CountSamples record_counts(Device& device, const Profile& profile,
                            const RecordingSettings& settings, const NextTick& next_tick) {
-  check(settings);
   constexpr auto kRise = static_cast<int64_t>(HapticLoop::kEnergise_s / kTick_s + 0.5);
   const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));
   std::vector<DeviceReading> kept;

@@ -45,8 +45,7 @@ using NextTick = std::function<bool(double time_s)>;
 /// sample period. In every case, a ramp releases the strings at the end, and the device is closed.
 /// Failed exchanges give no sample.
 ///
-/// Throws DeviceError when the device cannot be opened or is lost, std::invalid_argument when the
-/// settings are out of range, and whatever `next_tick` throws.
+/// Throws DeviceError when the device cannot be opened or is lost, and whatever `next_tick` throws.
 CountSamples record_counts(Device& device, const Profile& profile,
                            const RecordingSettings& settings, const NextTick& next_tick);
 

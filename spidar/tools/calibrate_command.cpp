@@ -8,7 +8,6 @@
 #include <optional>
 #include <unistd.h>
 #include <utility>
-#include <vector>
 
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/samples.h"
@@ -35,8 +34,6 @@ struct CalibrateOptions : DeviceOptions {
   std::optional<double> seconds;  ///< of moving; none: not named
   std::string free;               ///< empty, exits, scale or exits,scale
   OutputFile output;
-  std::vector<double> sim_start_mm_deg;  ///< empty, or six numbers
-  bool untested = false;
   bool yes = false;
   bool json = false;
 
@@ -49,18 +46,6 @@ void check_together(const CalibrateOptions& options) {
     throw UsageError("--centre and --move exclude each other; give one of them");
   if (options.centre && !options.free.empty())
     throw UsageError("--free needs --move: a grip that is held still determines only the offsets");
-  if (!options.sim_start_mm_deg.empty() && options.device != "sim")
-    throw UsageError("--sim-start is for the device sim only, not for " + options.device);
-}
-
-/// The pose at which the simulated device's counters were cleared.
-Pose start_pose(const std::vector<double>& mm_deg) {
-  const Eigen::Map<const Eigen::Matrix<double, 6, 1>> value(mm_deg.data());
-  Pose pose;
-  pose.position_m = 1e-3 * value.head<3>();
-  const Eigen::Vector3d turn = M_PI / 180 * value.tail<3>();
-  if (turn.norm() > 0) pose.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  return pose;
 }
 
 /// The device to calibrate and, if it is simulated, its hand.
@@ -74,15 +59,7 @@ class Bench {
       device_ = make_device(options.device, profile, as_counted);
       return;
     }
-    Profile real = profile;
-    if (!options.sim_start_mm_deg.empty()) {
-      const StringVector offset_m =
-          string_lengths_m(geometry_, start_pose(options.sim_start_mm_deg)) -
-          string_lengths_m(geometry_, {});
-      for (int i = 0; i < geometry_.count; ++i)
-        real.drives[static_cast<size_t>(i)].home_offset_m = offset_m[i];
-    }
-    auto simulated = std::make_unique<SimulatedDevice>(real, SimulatedDevice::Time::kClock);
+    auto simulated = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock);
     hand_ = simulated.get();
     device_ = std::move(simulated);
   }
@@ -158,19 +135,6 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
     return !interrupted();
   };
   return record_counts(bench.device(), profile, settings, next_tick);
-}
-
-/// Throws DeviceError when an encoder has not counted. Without the test of the wiring, a board
-/// whose encoders are dead could not be told from a grip that is held still.
-void require_counts(const std::string& device, const CountSamples& counts) {
-  std::string still;
-  for (Eigen::Index i = 0; i < counts.cols(); ++i)
-    if (counts.rows() == 0 || counts.col(i).maxCoeff() == counts.col(i).minCoeff())
-      still += (still.empty() ? "" : ", ") + std::to_string(i);
-  if (!still.empty())
-    throw DeviceError(device + ": these encoders did not count: " + still +
-                      ". Nothing was measured with them; calibrate without --untested, which tests "
-                      "whether they are alive");
 }
 
 std::string how(const CalibrateOptions& options) {
@@ -253,22 +217,18 @@ int calibrate_command(const CalibrateOptions& options) {
   options.output.check();
   Bench bench(options, profile);
   if (!may_move(options.device, options.yes,
-                options.untested
-                    ? "Pull all strings of " + options.device + " taut? The grip may move."
-                    : "Pull the strings of " + options.device +
-                          " one after the other, then all of them taut? The grip will move; hold "
-                          "it loosely at the centre."))
+                "Pull the strings of " + options.device +
+                    " one after the other, then all of them taut? The grip will move; hold it "
+                    "loosely at the centre."))
     return kFailed;
   catch_signals();
-  const bool wired_right = options.untested || is_wired_right(options, profile, bench);
+  const bool wired_right = is_wired_right(options, profile, bench);
   if (!wired_right && !interrupted()) return kNotCalibrated;
   const CountSamples counts = wired_right ? record(options, profile, bench) : CountSamples();
   if (interrupted()) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
-
-  if (options.untested) require_counts(options.device, counts);
 
   CalibrationSettings settings;
   settings.free_exits = options.frees("exits");
@@ -303,16 +263,9 @@ void add_calibrate(Program& program) {
                  "with --move, also determine where the strings leave the frame (exits), and a "
                  "factor on every metres_per_count (scale)")
       ->check(CLI::IsMember({"exits", "scale", "exits,scale", "scale,exits"}));
-  app.add_flag("--untested", options.untested, "do not test the wiring before");
   add_profile_file(app, "--output", options.output, "write the calibrated profile");
   add_json(app, options.json);
   add_yes(app, options.yes);
-  app.add_option("--sim-start", options.sim_start_mm_deg,
-                 "device sim: its counters were cleared X,Y,Z millimetres from the centre, turned "
-                 "by RX,RY,RZ degrees (a rotation vector)")
-      ->delimiter(',')
-      ->expected(6)
-      ->allow_extra_args(false);
   app.footer(
       "First the wiring is tested as selftest does, with pulls of 0.5 N, because counts of a\n"
       "device that is wired differently mean something else. Then the strings are held taut; no\n"

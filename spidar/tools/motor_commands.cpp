@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// spidarctl rest, zero and pull.
+// spidarctl zero and pull.
 #include <algorithm>
 #include <iostream>
-#include <limits>
 
 #include "spidar/conformance/report_text.h"
 #include "spidar/conformance/wiring_answers.h"
@@ -14,34 +13,12 @@
 namespace spidar {
 namespace {
 
-struct RestOptions : DeviceOptions {
-  double seconds = std::numeric_limits<double>::infinity();
-  bool yes = false;
-};
-
 struct PullOptions : DeviceOptions {
   int string = 0;
   double tension_N = 0;
   double seconds = 0;
   bool yes = false, json = false;
 };
-
-int rest(const RestOptions& options) {
-  require_strings(board_info(options.device), "rest");
-  ChosenDevice chosen = choose_device(options, Motors::kPulled);
-  if (!may_move(options.device, options.yes,
-                "Pull all strings of " + chosen.name() + " taut? The grip may move."))
-    return kFailed;
-  catch_signals();
-  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
-  if (hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s)) {
-    std::cerr << chosen.device->name() << ": at rest\n";
-    hold.stay(options.seconds);
-  }
-  hold.release();
-  std::cerr << chosen.device->name() << ": the strings are released\n";
-  return kDone;
-}
 
 int zero(const DeviceOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kZeroed);
@@ -170,15 +147,6 @@ int pull(const PullOptions& options) {
 
 }  // namespace
 
-void add_rest(Program& program) {
-  const auto [app, options] =
-      add_command(program, "rest", "hold the strings at their minimum tension", rest);
-  add_device(app, options);
-  add_seconds(app, options.seconds);
-  add_yes(app, options.yes);
-  app.footer("Holds the strings at their minimum tension, and then releases them by a ramp.");
-}
-
 void add_zero(Program& program) {
   const auto [app, options] = add_command(program, "zero", "set the motors to zero", zero);
   add_device(app, options);
@@ -186,7 +154,7 @@ void add_zero(Program& program) {
       "Sets every motor to zero volts at once. This is useful because a board keeps its last\n"
       "value when the program that drove it has ended. No profile is needed: one that is named "
       "with\n"
-      "--profile or was chosen for the board is not read.");
+      "--profile is not read.");
 }
 
 void add_pull(Program& program) {

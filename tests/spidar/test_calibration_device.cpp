@@ -123,20 +123,4 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
   EXPECT_EQ(good.log().closed, 1);
 }
 
-TEST(CalibrationDevice, SettingsOutOfRangeAreRefused) {
-  const Profile profile = load_profile("spidar-gcc");
-  FakeDevice device;
-  const auto never = [](double) { return true; };
-  for (const RecordingSettings settings : {RecordingSettings{0, 0.001},
-                                           {-1, 0.001},
-                                           {std::nan(""), 0.001},
-                                           {1e9, 0.001},
-                                           {1, 0},
-                                           {1, 0.0001},
-                                           {1, 2},
-                                           {1, std::nan("")}})
-    EXPECT_THROW(record_counts(device, profile, settings, never), std::invalid_argument);
-  EXPECT_EQ(device.log().opened, 0);
-}
-
 }  // namespace spidar::test::calibration_device_test

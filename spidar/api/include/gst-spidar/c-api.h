@@ -133,8 +133,7 @@ typedef struct GstSpidarDevice GstSpidarDevice;
 /*! Opens the device called `name`: "sim" is the simulated SPIDAR, "usb" a board on USB, "ff" a
  * force-feedback joystick, and gst_spidar_list_devices() finds more. `profile` is its geometry and
  * motors: a name of gst_spidar_list_profiles(), the path of a .toml file, or NULL or empty for a
- * device that needs none: a simulated one, one without strings, or a board whose profile
- * `spidarctl choose` has confirmed. NULL when that fails. */
+ * device that needs none: a simulated one, or one without strings. NULL when that fails. */
 GST_SPIDAR_API GstSpidarDevice* gst_spidar_device_open(const char* name, const char* profile,
                                                        GstSpidarError* error);
 

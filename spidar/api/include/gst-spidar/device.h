@@ -93,8 +93,7 @@ class GST_SPIDAR_API Device {
   /// Opens the device called `name`, as the element's property `device` does: "sim" is the
   /// simulated SPIDAR, "usb" a board on USB, "ff" a force-feedback joystick, and list_devices()
   /// finds more. `profile` is its geometry and motors: a name of list_profiles(), the path of a
-  /// .toml file, or empty for a device that needs none: a simulated one, one without strings, or a
-  /// board whose profile `spidarctl choose` has confirmed.
+  /// .toml file, or empty for a device that needs none: a simulated one, or one without strings.
   ///
   /// Throws std::runtime_error, which says what is wrong and what to do, when there is no such
   /// device or profile, when a board needs a profile (it lists those that fit), or when the device
