@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -266,17 +266,6 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-TEST_F(ForceFeedback, ASlowDriverDelaysNothing) {
-  plug_evdev(0, EvdevKind::kStick);
-  const FeltPlayer player;
-  bus().evdev[0].upload_ms = 50;
-  player.push(1, -1);
-  wait_for(
-      [] { return is_level(evdev_levels(0).right, 1, 1) && is_level(evdev_levels(0).up, -1, 1); });
-  EXPECT_EQ(player.session->grip().health().errors(), 0u);
-  EXPECT_EQ(player.now().counters.times_lost, 0u);
-}
-
 TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
   plug_evdev(0, EvdevKind::kStick);
   const FeltPlayer player;
@@ -287,21 +276,6 @@ TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
   EXPECT_EQ(player.session->grip().health().last_fault, LinkFault::kGone);
   plug_evdev(3, EvdevKind::kStick);
   wait_for([] { return is_level(evdev_levels(3).right, 1, 1); });
-}
-
-TEST_F(ForceFeedback, ADriverThatFailsIsNamed) {
-  plug_evdev(0, EvdevKind::kStick);
-  const FeltPlayer player;
-  for (const auto& [error, fault, force_N] :
-       {std::tuple{EIO, LinkFault::kBusError, 1.0}, {ENOSPC, LinkFault::kRefused, -1.0}}) {
-    bus().evdev[0].upload_error = error;
-    player.loop().cancel_scheduled();
-    ASSERT_TRUE(player.loop().schedule(lasting({force_N, 0, 0})));
-    wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-    EXPECT_EQ(player.session->grip().health().last_fault, fault);
-    bus().evdev[0].upload_error = 0;
-    wait_for([force_N = force_N] { return is_level(evdev_levels(0).right, force_N, 1); });
-  }
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {

@@ -69,17 +69,6 @@ TEST(GripModel, TensionsFollowWithTheTimeConstant) {
   }
 }
 
-TEST(GripModel, MotorsWithoutLagAreThereAtOnce) {
-  const Profile profile = load_profile(kDefaultProfile);
-  GripModel model;
-  model.motor_time_constant_s = 0;
-  const GripDynamics dynamics(profile.geometry, profile.max_tension_N(), model);
-  GripState state;
-  const StringVector target_N = StringVector::Constant(1.5);
-  dynamics.advance(target_N, {}, kTick_s, state);
-  EXPECT_EQ(state.tension_N, target_N);
-}
-
 // Slack strings leave a damped oscillator, ẍ + 2δẋ + ω²x = 0, swinging in translation and creeping
 // in rotation: x(t) = x0 e^(−δt)(cosh st + δ/s sinh st), s² = δ² − ω². The method is of first
 // order: within one step of motion, h·ω·x0, and ten times nearer with steps ten times shorter.

@@ -152,17 +152,6 @@ int64_t replacement_ns(const Victim& victim) {
   return passed_ns;
 }
 
-TEST(GuardianPairs, AStoppedGuardianWhosePlayerIsKilled) {
-  plug(0, UsbKind::kSh4);
-  Victim victim("usb", kUsbProfile);
-  pulling_board(victim);
-  replacement_ns(victim);
-  UsbPort& port = pulling_board(victim);
-  victim.end(SIGKILL);
-  wait_for([&] { return port.at_rest(); });
-  clear_bus();
-}
-
 /// On a busy machine, a try may take any time; one that is not disturbed takes a beat, the time for
 /// an answer, and an exchange.
 TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {

@@ -103,17 +103,6 @@ TEST(HapticLoop, PauseRampsToRest) {
   EXPECT_EQ(driver.run(2 * kRamp).commanded.force_N.x(), 1);
 }
 
-TEST(HapticLoop, EndOfCommandsRampsToRest) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule(frame(0, push_right(2)));
-  driver.loop->schedule(frame(kFrame, push_right(2)));
-  driver.play(0);
-  EXPECT_GT(driver.run(2 * kFrame).commanded.force_N.x(), 0);
-  EXPECT_EQ(driver.tick().found, Found::kExpired);
-  EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0);
-}
-
 TEST(HapticLoop, FlushForgets) {
   Playing driver;
   double last_N = driver.run(5 * kFrame).commanded.force_N.x();

@@ -164,32 +164,6 @@ TEST(HapticLoopDevice, SomeErrorsInARowAreALoss) {
   }
 }
 
-TEST(HapticLoopDevice, UnknownPoseRampsToRest) {
-  LoopDriver driver;
-  driver.open();
-  push(driver);
-  ASSERT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
-  const Pose before = driver.loop->snapshot().last.pose;
-  // Two strings half a metre longer than they can be: no pose explains that, without one of them or
-  // not.
-  for (size_t i : {0, 5}) {
-    const StringDrive& drive = driver.profile.drives[i];
-    driver.log().count[i] = drive.encoder_sign * static_cast<int32_t>(0.5 / drive.metres_per_count);
-  }
-  // The tick that reads it, and those that the pose of before is used in.
-  TickRecord record = driver.run(PoseTrust::kMaxMisses * kMs);
-  EXPECT_EQ(record.commanded.force_N.x(), 1);
-  EXPECT_EQ(record.pose.position_m, before.position_m);
-  EXPECT_GT(record.pose_residual_m, PoseSolver::kMaxResidual_m);
-  record = driver.run((50 - PoseTrust::kMaxMisses) * kMs);
-  EXPECT_EQ(record.commanded.stacked().norm(), 0);
-  EXPECT_EQ(record.tension_N, driver.profile.min_tension_N());
-  EXPECT_GT(driver.counters().pose_errors, 0u);
-
-  driver.log().count[0] = driver.log().count[5] = 0;
-  EXPECT_EQ(driver.run(100 * kMs).commanded.force_N.x(), 1);
-}
-
 TEST(HapticLoopDevice, ReportsAFaultyString) {
   LoopDriver driver;
   driver.open();

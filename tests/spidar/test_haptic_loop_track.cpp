@@ -76,20 +76,6 @@ TEST(HapticLoopTrack, RestsWithinFiftyMillisecondsOfTheLastSampleAndComesBackWit
   EXPECT_GT(back.commanded.force_N.norm(), 0.1);
 }
 
-TEST(HapticLoopTrack, NothingIsFeltBeforePlayingAndInPaused) {
-  TrackDriver driver;
-  driver.schedule(0, 400);
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(driver.watched_tick().commanded.stacked().norm(), 0);
-  driver.play(0);
-  EXPECT_GT(driver.watched_run(80).commanded.force_N.norm(), 1);
-  driver.pause();
-  EXPECT_EQ(driver.watched_run(50).commanded.stacked().norm(), 0);
-  driver.play(80 * kMs);
-  const TickRecord record = driver.watched_run(100);
-  EXPECT_EQ(record.running_ns, 180 * kMs);
-  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(180));
-}
-
 TEST(HapticLoopTrack, AFlushForgetsSamplesAlsoThoseOfABlockThatIsBeingRead) {
   TrackDriver driver;
   driver.schedule(0, 2000);

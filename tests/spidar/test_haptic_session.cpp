@@ -62,13 +62,6 @@ TEST(NextDeadline, StaysOnItsGridAndNeverBursts) {
   EXPECT_EQ(next_deadline_ns(10 * kMs, 17 * kMs + 1), 18 * kMs);
 }
 
-TEST(HapticSession, NothingStartsWithoutDevice) {
-  const auto log = std::make_shared<FakeDeviceLog>();
-  log->present = false;
-  const Profile profile = load_profile(kDefaultProfile);
-  EXPECT_THROW(HapticSession(profile, std::make_unique<FakeDevice>(log)), DeviceError);
-}
-
 TEST(HapticSession, UnwritableTraceLeavesDeviceAlone) {
   const auto log = std::make_shared<FakeDeviceLog>();
   const Profile profile = load_profile(kDefaultProfile);

@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/haptic_session.h"
 #include "spidar/transports/listening_port.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
@@ -160,20 +160,6 @@ TEST(InverseService, ItIsListedWhileItListens) {
   EXPECT_EQ(listed, is_listening(inverse3::kPort));
 }
 
-TEST(InverseService, TwoDevicesAreToldApart) {
-  InverseService service;
-  service.plug({InverseService::device("049D"), InverseService::device("B")});
-  const auto one = make(service.spec("049D"));
-  one->open();
-  exchange_until(*one, told(1), [&] { return service.pulls(); });
-  EXPECT_TRUE(service.force_N("B").isZero(0));
-  one->close();
-  const auto other = make(service.spec("B"));
-  other->open();
-  exchange_until(*other, told(0, 1), [&] { return !service.force_N("B").isZero(0); });
-  EXPECT_FALSE(service.pulls());
-}
-
 TEST(InverseService, AnUnpluggedDeviceIsLostUntilItIsBack) {
   InverseService service;
   const auto grip = pulling(service);
@@ -214,34 +200,6 @@ TEST(InverseService, SigpipeIsLeftToTheProcess) {
   EXPECT_EQ(std::signal(SIGPIPE, before), SIG_DFL);
 }
 
-/// The loop reopens it by itself.
-TEST(InverseService, TheLoopLosesItAndGoesOnWithIt) {
-  std::unique_ptr<InverseService> service = std::make_unique<InverseService>();
-  const int port = service->port();
-  const HapticSession session(make(service->spec("049D")));
-  const auto is = [&](DeviceState state) { return session.loop().snapshot().last.device == state; };
-  wait_for([&] { return is(DeviceState::kRunning); });
-  service.reset();
-  wait_for([&] { return is(DeviceState::kLost); });
-  service = std::make_unique<InverseService>(port);
-  wait_for([&] { return is(DeviceState::kRunning); });
-  EXPECT_GT(service->messages, 0);
-}
-
-TEST(InverseService, AnEarlierOneTakesForcesUnderItsOwnKey) {
-  InverseService service;
-  inverse3::State device = InverseService::device("049D");
-  device.version = inverse3::Version::k31;
-  device.position_m = {0.01, 0.02, -0.03};
-  service.plug({device});
-  const auto grip = make(service.spec("049D"));
-  grip->open();
-  EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.1");
-  exchange_until(*grip, told(1), [&] { return service.pulls(); });
-  exchange_until(*grip, told(1), [&] { return !grip->reading().pose.position_m.isZero(0); });
-  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(device.position_m, 1e-6));
-}
-
 /// Or the forces of seconds would follow when it wakes up.
 TEST(InverseService, NothingIsSentToOneThatDoesNotAnswer) {
   InverseService service;
@@ -266,18 +224,6 @@ TEST(InverseService, ZeroIsSentToOneThatDoesNotAnswerWhenItIsClosed) {
   grip->close();
   wait_for([&] { return !service.pulls(); });
   EXPECT_FALSE(service.pulls());
-}
-
-/// It answers the rest of what it was asked, and the device goes on.
-TEST(InverseService, ABrokenAnswerIsAFaultAndForgotten) {
-  InverseService service;
-  const auto grip = pulling(service);
-  service.broken = true;
-  exchange_until(*grip, told(1), [&] { return grip->health().errors() > 0; });
-  EXPECT_EQ(grip->health().last_fault, LinkFault::kShort) << "does not end as JSON does";
-  service.broken = false;
-  const uint64_t before = grip->health().count(LinkFault::kNone);
-  exchange_until(*grip, told(1), [&] { return grip->health().count(LinkFault::kNone) > before; });
 }
 
 /// The positions of the versions differ by 0.2 m, which would be a jerk.

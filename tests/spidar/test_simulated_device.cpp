@@ -96,13 +96,6 @@ TEST_F(SimulatedDeviceTest, ADelayHoldsTensionsBack) {
   EXPECT_EQ(device.felt().tension_N[2], 0);
 }
 
-TEST_F(SimulatedDeviceTest, ItsMotorsLagAsTheProfileSays) {
-  EXPECT_EQ(grip_model_of(profile).motor_time_constant_s, GripModel().motor_time_constant_s);
-  Profile slow = profile;
-  slow.drive_lag_s = 0.006;
-  EXPECT_EQ(grip_model_of(slow).motor_time_constant_s, 0.006);
-}
-
 TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   SimulatedDevice device(profile, kFixedStep, without_lag());
   device.open();
@@ -123,18 +116,6 @@ TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   EXPECT_EQ(tension_N[1], max_N[1]);
   for (int i = 2; i <= 5; ++i) EXPECT_EQ(tension_N[i], 0) << i;
   EXPECT_NEAR(tension_N[6], 1.0, step_N(profile, 6) / 2 * (1 + 1e-9));
-}
-
-TEST_F(SimulatedDeviceTest, DARangeEndsBeforeTheMotor) {
-  Profile weak = profile;
-  weak.dac_max_V = 0.5;
-  SimulatedDevice device(weak, kFixedStep, without_lag());
-  device.open();
-  DeviceReading reading;
-  for (int tick = 0; tick < 2; ++tick)
-    device.exchange(volts_for(weak, StringVector::Constant(4.0)), reading);
-  ASSERT_LT(0.5 * weak.drives[0].newtons_per_volt, weak.drives[0].max_tension_N);
-  EXPECT_NEAR(device.felt().tension_N[0], 0.5 * weak.drives[0].newtons_per_volt, 1e-12);
 }
 
 // Constant volts on some strings: the grip rests where the hand's springs hold the wrench of the
@@ -165,36 +146,6 @@ TEST_F(SimulatedDeviceTest, RestingGripBalancesTheCommandedTensions) {
       off_N * arm_m / model.hand_stiffness_Nm_rad);
   EXPECT_LT((felt.wrench.force_N - wrench.head<3>()).norm(), off_N);
   EXPECT_GT(wrench.head<3>().norm(), 100 * off_N) << "too small a force to say anything";
-}
-
-TEST_F(SimulatedDeviceTest, SameInputsGiveTheSameBits) {
-  constexpr unsigned kSeed = 7;
-  SimulatedDevice first(profile, kFixedStep);
-  SimulatedDevice second(profile, kFixedStep);
-  first.open();
-  second.open();
-  std::mt19937 random(kSeed);
-  std::uniform_real_distribution<double> tension(0, 4);
-  for (int tick = 0; tick < 2000; ++tick) {
-    StringVector tension_N;
-    for (double& t : tension_N) t = tension(random);
-    const Pose hand = hand_at(random);
-    first.set_hand(hand);
-    second.set_hand(hand);
-    DeviceReading a, b;
-    first.exchange(volts_for(profile, tension_N), a);
-    second.exchange(volts_for(profile, tension_N), b);
-    ASSERT_EQ(a.count, b.count) << "seed " << kSeed << ", tick " << tick;
-    const FeltState x = first.felt();
-    const FeltState y = second.felt();
-    ASSERT_EQ(x.time_ns, (tick + 1) * 1'000'000);
-    ASSERT_EQ(x.time_ns, y.time_ns);
-    ASSERT_EQ(x.tension_N, y.tension_N);
-    ASSERT_EQ(x.pose.position_m, y.pose.position_m);
-    ASSERT_EQ(x.pose.orientation.coeffs(), y.pose.orientation.coeffs());
-    ASSERT_EQ(x.velocity_m_s, y.velocity_m_s);
-    ASSERT_EQ(x.angular_velocity_rad_s, y.angular_velocity_rad_s);
-  }
 }
 
 TEST_F(SimulatedDeviceTest, HandThatIsNotFiniteIsIgnored) {

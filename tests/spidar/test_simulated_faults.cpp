@@ -12,9 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/session/device_factory.h"
 #include "tests/spidar/simulated_device_test.h"
-#include "tests/support/allocation_count.h"
 
 namespace spidar::test::simulated_faults_test {
 
@@ -96,18 +94,6 @@ TEST_F(SimulatedDeviceTest, ClosingRelaxesTheMotorsAndEverythingFeltIsKept) {
   EXPECT_EQ(last_N, 0);
 }
 
-TEST_F(SimulatedDeviceTest, ExchangeDoesNotAllocate) {
-  SimulatedDevice device(profile, kFixedStep);
-  device.open();
-  const MotorVolts volts = volts_for(profile, StringVector::Constant(1.0));
-  DeviceReading reading;
-  const long before = allocations;
-  for (int tick = 0; tick < 5000; ++tick) device.exchange(volts, reading);  // more than are kept
-  device.set_fault(ExchangeStatus::kLost);
-  device.exchange(volts, reading);
-  EXPECT_EQ(allocations, before);
-}
-
 // States read from another thread while the hand is moved from a third are whole: the wrench that
 // was stored with a pose and tensions is the one these give.
 TEST_F(SimulatedDeviceTest, OtherThreadsSeeWholeStates) {
@@ -156,12 +142,6 @@ TEST_F(SimulatedDeviceTest, ClockModeTakesTheTimeThatPassedUpToFiftyMilliseconds
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
   device.exchange({}, reading);
   EXPECT_EQ(device.felt().time_ns - before_ns, 50'000'000);
-}
-
-TEST(DeviceFactory, KnowsTheSimulatedDevice) {
-  const Profile profile = load_profile(kDefaultProfile);
-  const auto device = make_device("sim", profile);
-  EXPECT_EQ(device->name(), "sim");
 }
 
 }  // namespace spidar::test::simulated_faults_test

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "spidar/touch/touch_rendering.h"
-#include "tests/support/allocation_count.h"
 #include "tests/support/touch_frames.h"
 
 namespace spidar::test::touch_rendering_test {
@@ -256,22 +255,6 @@ TEST(TouchRendering, AnotherStiffnessIsReachedSlowly) {
   const double pressed_N = touched.run(touched.now_ns + 2 * kFrame).force_N.z();
   EXPECT_GT(pressed_N, last_N);
   EXPECT_LE(pressed_N, 800 * 0.005 + 1e-9);
-}
-
-TEST(TouchRendering, TakesNothingFromTheHeap) {
-  if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
-  Touched touched(4);
-  int64_t next = 0;
-  for (int tick = 0; tick < 5000; ++tick) {
-    if (tick % 25 == 0) {
-      publish_plane(touched.mailbox, next * kFrame, saw_m(next), After::kFrame);
-      ++next;
-    }
-    if (tick % 700 == 0) touched.mailbox.forget();
-    const long before = allocations;
-    touched.tick();
-    ASSERT_EQ(allocations, before) << tick;
-  }
 }
 
 }  // namespace
