@@ -76,7 +76,7 @@ void refine(double floor_m, Fit& fit) {
   fit.look_at_errors(floor_m);
   for (int i = 0; i < kMaxRescalings; ++i) {
     const double before_m = fit.sigma_m;
-    adjust(fit.model, fit.lengths_m, before_m, Adjust::kAll, kMaxFitIterations, fit.bundle);
+    adjust(fit.model, fit.lengths_m, before_m, kMaxFitIterations, fit.bundle);
     fit.look_at_errors(floor_m);
     if (std::abs(fit.sigma_m - before_m) <= kSameSigma * before_m) break;
   }
@@ -160,14 +160,13 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
                             const CalibrationSettings& settings) {
   check_samples(profile, counts, kMinStrings);
-  // Only the offsets at first: a wrong start is much further off than the errors of exits and
-  // scale.
+  // Only the offsets at first: a hand misses the centre by more than exits and scale are off.
   const CalibrationModel offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
   const double rounding_m = rounding_sd_m(
       profile, static_cast<double>(counts.rows()) / static_cast<double>(lengths_m.size()));
   const CalibrationModel model(profile, settings);
-  Fit fit{model, lengths_m, find_bundle(offsets_only, lengths_m, rounding_m), 0, {}, {}, {}};
+  Fit fit{model, lengths_m, from_the_centre(offsets_only, lengths_m), 0, {}, {}, {}};
   fit.bundle.parameters.conservativeResizeLike(Eigen::VectorXd::Zero(model.size()));
   refine(rounding_m, fit);
 

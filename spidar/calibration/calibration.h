@@ -30,7 +30,7 @@ enum class CalibrationStatus {
   /// The motion does not determine everything that was asked for.
   kUndetermined,
   /// No values make the lengths agree, or their remaining errors are not noise: the geometry or the
-  /// scale is wrong, a string slips, or the counters were cleared too far from the centre.
+  /// scale is wrong, a string slips, or the first sample was too far from the centre.
   kContradiction,
 };
 
@@ -66,8 +66,9 @@ inline constexpr int kMinCalibrationSamples = 20;
 
 /// Calibrates from a grip that is moved and turned about. A sample has eight lengths and its pose
 /// six unknowns, which leaves two equations for the parameters that all samples share. Uses bundle
-/// adjustment of poses and shared parameters, robust (Huber) on the samples, from several starts.
-/// The counters may have been cleared anywhere within some 5 cm and 60 degrees of the centre.
+/// adjustment of poses and shared parameters, robust (Huber) on the samples. The first sample is
+/// one near the centre, to some 2 cm and 20 degrees; where the counters were cleared does not
+/// matter.
 ///
 /// Throws std::invalid_argument when the profile has fewer than seven strings, or a count is not
 /// finite, or there are fewer than kMinCalibrationSamples, or not as many columns as strings.

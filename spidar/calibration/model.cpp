@@ -62,12 +62,6 @@ StringVector CalibrationModel::paid_out_m(const Eigen::VectorXd& counts) const {
   return paid_out_m;
 }
 
-Eigen::VectorXd CalibrationModel::cleared_at(const Pose& pose) const {
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(size());
-  parameters.head(strings()) = (string_lengths_m(geometry_, pose) - home_length_m_).head(strings());
-  return parameters;
-}
-
 Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& parameters,
                                                   const StringVector& paid_out_m, const Pose& pose,
                                                   Derivatives* derivatives) const {

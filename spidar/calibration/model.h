@@ -38,9 +38,6 @@ class CalibrationModel {
   /// Change of the lengths since the counters were zero, with the scale of the profile.
   StringVector paid_out_m(const Eigen::VectorXd& counts) const;
 
-  /// Parameters for the geometry and scale of the profile if the counters are cleared at `pose`.
-  Eigen::VectorXd cleared_at(const Pose& pose) const;
-
   struct Derivatives {
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_twist;  ///< [δp; δφ], φ a rotation vector in D
     Eigen::MatrixXd by_parameter;

@@ -124,9 +124,11 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
   const auto next_tick = [&](double time_s) {
     if (!begin_s) {
       // Only now is the device open.
-      std::cerr << (options.centre
-                        ? "Hold the grip still at the centre, without turning it.\n"
-                        : "Move and turn the grip in every direction, as far as it goes.\n");
+      std::cerr
+          << (options.centre
+                  ? "Hold the grip still at the centre, without turning it.\n"
+                  : "Begin at the centre. Move and turn the grip in every direction, as far as it "
+                    "goes.\n");
       begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
     }
     sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));
@@ -164,7 +166,7 @@ StatusText text_of(CalibrationStatus status) {
     case CalibrationStatus::kContradiction:
       return {"contradiction",
               "The lengths contradict each other or the profile. Check that no string slips or is "
-              "off its pulley and that the profile is correct, try --free exits,scale, or start "
+              "off its pulley and that the profile is correct, try --free exits,scale, or begin "
               "closer to the centre.\n"};
   }
   return {};

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Results of calibrate(), and the cases that it must refuse.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -59,6 +60,28 @@ TEST(Calibration, OffsetsAndTheStartAreFound) {
       EXPECT_GT(result.turned_rad.minCoeff(), 0.8 * 0.45);
       EXPECT_LT(result.turned_rad.maxCoeff(), 1.01 * 0.45);
     }
+  }
+}
+
+// The hand does not begin at the centre, but up to 2 cm an axis and 20° beside it.
+TEST(Calibration, TheHandMayBeginBesideTheCentre) {
+  const Profile profile = load_profile("spidar-gcc");
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Profile device = profile;
+    clear_counters_at(wrong_start(random, 0.05, 1.0), device);
+    const Pose beside = wrong_start(random, 0.02, M_PI / 9);
+    const CountSamples counts = counts_of(device, 400, kPeriod_s, random, 1.0, [&](double time_s) {
+      const double left = std::max(0.0, 1 - time_s / 2);
+      const Pose moved = hand_in_motion(device.geometry, time_s);
+      return Pose{
+          moved.position_m + left * beside.position_m,
+          Eigen::Quaterniond::Identity().slerp(left, beside.orientation) * moved.orientation};
+    });
+    const CalibrationResult result = calibrate(profile, counts);
+    ASSERT_EQ(result.status, CalibrationStatus::kSolved);
+    EXPECT_LT(largest_error_m(profile, device, result), kMaxCalibrationSd_m);
   }
 }
 
