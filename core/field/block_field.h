@@ -36,12 +36,12 @@ struct MotionBlock {
 
   /// Added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the
   /// result of the search in whole pixels is kept.
-  static constexpr float kRegularization = 2;
-  /// Whether the motion is known in one direction at least: the structure is more than what is
-  /// added to both.
-  bool has_texture() const { return xx + yy > 2 * kRegularization; }
-  /// Smaller eigenvalue above which the motion is known to a fraction of a pixel.
-  static constexpr double kLeastVoteTexture = static_cast<double>(kRegularization);
+  static constexpr float kRegularization = 1;
+  /// Smaller eigenvalue from which on the motion is known to a fraction of a pixel, (grey / px)²:
+  /// noise of two grey levels moves such a block by less than a tenth of a pixel.
+  static constexpr float kLeastTexture = 4;
+  /// Whether the motion is known in one direction at least.
+  bool has_texture() const { return xx + yy > 2 * kLeastTexture; }
   /// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a
   /// match along the edge would only follow noise.
   static constexpr double kLeastRoundness = 0.05;

@@ -22,9 +22,14 @@ v_int16x8 load(const uint8_t* pixels) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels));
 }
 
-/// Derivatives of eight pixels of one picture, `step` bytes between neighbours.
+/// Twice the derivatives of eight pixels of one picture, `step` bytes between neighbours. A central
+/// difference understates the slope of fine detail, and a Gauss–Newton step from it is too long: at
+/// a period of five pixels by a third. With a quarter of what it lacks of a difference over two
+/// pixels, the error is below 5 % down to a period of four pixels.
 v_int16x8 slope(const uint8_t* pixels, ptrdiff_t step) {
-  return load(pixels + step) - load(pixels - step);
+  const v_int16x8 near = load(pixels + step) - load(pixels - step);
+  const v_int16x8 far = load(pixels + 2 * step) - load(pixels - 2 * step);
+  return near + ((near + near - far) >> 2);
 }
 
 v_uint16x8 weighted(const v_uint16x8& values, const v_uint16x8& weights) {
@@ -130,7 +135,7 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   v_int32x4 xd = xx;
   v_int32x4 yd = xx;
   v_int32x4 dd = xx;
-  // In 16 bits: of the two halves of 16 rows a lane is at most 2 · 16 · 510 = 16320.
+  // In 16 bits: of the two halves of 16 rows a lane is at most 2 · 16 · 892 = 28544.
   v_int16x8 sx = cv::v_setzero_s16();
   v_int16x8 sy = sx;
   v_int16x8 sd = sx;
@@ -152,7 +157,7 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
       sd = sd + d;
     }
   }
-  // Σ gx² is at most 510² · 256 < 2³¹.
+  // Twice the derivative of one picture is at most 255 + 765 / 4, so that Σ gx² < 892² · 256 < 2³¹.
   const auto total = [](const v_int32x4& sums) { return cv::v_reduce_sum(sums); };
   const auto total_of_lanes = [](const v_int16x8& sums) {
     return cv::v_reduce_sum(cv::v_dotprod(sums, cv::v_setall_s16(1)));

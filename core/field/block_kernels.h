@@ -29,9 +29,10 @@ struct BlockPixels {
 /// Unit of the fraction of a pixel by which bilinear_difference() moves a block.
 constexpr int kFractionOne = 16;
 
-/// Σ over a block `now` and the block `before` that it is compared with. The derivatives g are
-/// those of both pictures together: (now(x + 1) − now(x − 1)) + (before(x + 1) − before(x − 1)),
-/// four times the mean derivative in grey levels for each pixel. d is now − before.
+/// Σ over a block `now` and the block `before` that it is compared with. With Δₖ = p(x + k) −
+/// p(x − k), twice the derivative of a picture p is Δ₁ + (2 Δ₁ − Δ₂) / 4, rounded down. The
+/// derivatives g are those of both pictures together: four times the mean derivative in grey levels
+/// for each pixel. d is now − before.
 struct BlockSums {
   int32_t xx = 0;          ///< Σ gx²
   int32_t xy = 0;          ///< Σ gx gy
@@ -75,7 +76,7 @@ int block_difference(BlockPixels a, BlockPixels b, int limit);
 /// extra column and row.
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y);
 
-/// Reads one pixel around both blocks.
+/// Reads two pixels around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 
 /// Compares a block `now` with the same place in the picture `before`. `from` is the place in the

@@ -12,8 +12,6 @@ namespace {
 
 /// Two steps: the second one takes away what the first one leaves of a whole pixel.
 constexpr int kSteps = 2;
-/// Of the background, one block in so many of each row and column.
-constexpr int kBackgroundBlocks = 3;
 /// Smaller eigenvalue of a window's structure tensor, (grey / px)². With less, noise of two grey
 /// levels moves the window by more than a fifth of a pixel.
 constexpr float kLeastTexture = 0.2f;
@@ -53,8 +51,8 @@ Eigen::Vector2d motion_of(const BlockField& field, size_t block) {
 }  // namespace
 
 FineWindows::FineWindows() {
-  windows_.reserve(kMostOnObjects + kMostOnBackground);
-  found_.reserve(kMostOnObjects + kMostOnBackground);
+  windows_.reserve(kMost);
+  found_.reserve(kMost);
 }
 
 /// Reads the pixels of a window whose place is set. False where it does not fit or shows too
@@ -112,23 +110,11 @@ void FineWindows::keep_one(const ImageView& frame, const BlockField& field, cons
 }
 
 void FineWindows::keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
-                       const std::vector<FineWish>& wishes) {
+                       const std::vector<size_t>& blocks) {
   windows_.clear();
-  const auto columns = static_cast<size_t>(field.grid().columns);
-  const auto on_objects =
-      static_cast<size_t>(std::count(wishes.begin(), wishes.end(), FineWish::kEach));
   // Of many, every second one, and so on.
-  const size_t every = 1 + on_objects / (kMostOnObjects + 1);
-  size_t seen = 0;
-  for (size_t i = 0; i < wishes.size() && windows_.size() < kMostOnObjects; ++i) {
-    if (wishes[i] == FineWish::kEach && seen++ % every == 0) keep_one(frame, field, place, i);
-  }
-  const size_t most = windows_.size() + kMostOnBackground;
-  for (size_t i = 0; i < wishes.size() && windows_.size() < most; ++i) {
-    const bool is_one =
-        i % columns % kBackgroundBlocks == 1 && i / columns % kBackgroundBlocks == 1;
-    if (wishes[i] == FineWish::kSome && is_one) keep_one(frame, field, place, i);
-  }
+  const size_t every = 1 + blocks.size() / (kMost + 1);
+  for (size_t i = 0; i < blocks.size(); i += every) keep_one(frame, field, place, blocks[i]);
 }
 
 /// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of

@@ -15,13 +15,6 @@
 
 namespace spidar {
 
-/// How exactly the motion of a block is wanted.
-enum class FineWish : uint8_t {
-  kNone,
-  kSome,  ///< of one block for several: the background, which moves as a whole
-  kEach,  ///< of each block: an object
-};
-
 /// Where the picture of a BlockField is in its frame.
 struct FieldPlace {
   double scale = 1;  ///< px of the frame to one px of the field's picture
@@ -45,9 +38,9 @@ class FineWindows {
  public:
   FineWindows();
 
-  /// Keeps windows of `frame` for the blocks of `field`; one wish for each block.
+  /// Keeps windows of `frame` for these blocks of `field`, or for some of them if they are many.
   void keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
-            const std::vector<FineWish>& wishes);
+            const std::vector<size_t>& blocks);
 
   /// Finds them in the next frame, with which `field` has just been updated. Those that are lost
   /// are left out. Valid until the next call.
@@ -57,9 +50,7 @@ class FineWindows {
   /// Forgets all windows.
   void reset() { windows_.clear(); }
 
-  /// The largest number of windows on objects, and on the background.
-  static constexpr size_t kMostOnObjects = 48;
-  static constexpr size_t kMostOnBackground = 24;
+  static constexpr size_t kMost = 48;
 
  private:
   /// Side of a window, px of the frame: of a small frame it is the block, of a large one a part of

@@ -33,7 +33,6 @@ class MotionEstimator {
   void reset();
 
  private:
-  void refine_background(Background& background, const std::vector<FineMotion>& fine);
   void keep_windows(const ImageView& frame, const FieldPlace& place);
   void report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const;
 
@@ -43,9 +42,7 @@ class MotionEstimator {
   ObjectTracker objects_;
   DominantObject dominant_;
   FineWindows windows_;
-  RobustFitter fitter_;
-  WeightedDisplacements evidence_;
-  std::vector<FineWish> wishes_;
+  std::vector<size_t> of_objects_;  ///< blocks
 };
 
 }  // namespace spidar

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "core/field/block_kernels.h"
@@ -41,14 +42,20 @@ inline int bilinear_difference(BlockPixels now, BlockPixels before, int fraction
   return sum;
 }
 
+inline int twice_slope(const uint8_t* p, ptrdiff_t step) {
+  const int near = p[step] - p[-step];
+  const int far = p[2 * step] - p[-2 * step];
+  return near + static_cast<int>(std::floor((2 * near - far) / 4.0));
+}
+
 inline BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   BlockSums sums;
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
       const uint8_t* p = now.pixels + y * now.stride + x;
       const uint8_t* q = before.pixels + y * before.stride + x;
-      const int gx = p[1] - p[-1] + q[1] - q[-1];
-      const int gy = p[now.stride] - p[-now.stride] + q[before.stride] - q[-before.stride];
+      const int gx = twice_slope(p, 1) + twice_slope(q, 1);
+      const int gy = twice_slope(p, now.stride) + twice_slope(q, before.stride);
       const int d = p[0] - q[0];
       sums.xx += gx * gx;
       sums.xy += gx * gy;

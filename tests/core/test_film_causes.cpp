@@ -86,7 +86,7 @@ TEST(FilmCauses, AJointedBodyMovesAsItsTrunk) {
 
 TEST(FilmCauses, ABodyThatSlowsDownIsFollowed) {
   // In front of a panning camera it slows down to a speed that would be too low for a new object.
-  const auto trunk_px = [](int n) { return n < 10 ? 3.0 * n : 30 + 0.45 * (n - 10); };
+  const auto trunk_px = [](int n) { return n < 10 ? 3.0 * n : 30 + 0.6 * (n - 10); };
   const Vector2d pan_px(-2, 0);
   expect_right(
       [&](int n, const Vector2d& at) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -43,9 +45,10 @@ struct Fine {
     place.centre_px = {(place.scale * field.picture().width() - 1) / 2,
                        (place.scale * field.picture().height() - 1) / 2};
   }
-  void keep(const Picture& picture, FineWish wish) {
-    const std::vector<FineWish> wishes(field.blocks().size(), wish);
-    windows.keep(picture.view(), field, place, wishes);
+  void keep_all(const Picture& picture) {
+    std::vector<size_t> blocks(field.blocks().size());
+    std::iota(blocks.begin(), blocks.end(), size_t{0});
+    windows.keep(picture.view(), field, place, blocks);
   }
 };
 
@@ -53,10 +56,10 @@ struct Fine {
 double worst_px(const Picture& before, const Picture& now, const Vector2d& by_px) {
   Fine fine;
   fine.see(before);
-  fine.keep(before, FineWish::kEach);
+  fine.keep_all(before);
   fine.see(now);
   const auto& found = fine.windows.find(now.view(), fine.field, fine.place);
-  EXPECT_GT(found.size(), FineWindows::kMostOnObjects / 2);
+  EXPECT_GT(found.size(), FineWindows::kMost / 2);
   double worst = 0;
   for (const FineMotion& window : found) {
     worst = std::max(worst, (fine.place.scale * window.moved_px - by_px).norm());
@@ -84,27 +87,16 @@ TEST(FineWindows, WhatShowsSomethingElseOrTooLittleIsLeftOut) {
   Fine fine;
   const Picture before = moved({0, 0});
   fine.see(before);
-  fine.keep(before, FineWish::kEach);
+  fine.keep_all(before);
   const Picture now = moved({501.3, 333.7});  // unrelated
   fine.see(now);
   const size_t lucky = fine.windows.find(now.view(), fine.field, fine.place).size();
-  EXPECT_LT(lucky, FineWindows::kMostOnObjects / 8);
+  EXPECT_LT(lucky, FineWindows::kMost / 8);
   Picture plain(kWidth, kHeight);
   plain.fill([](double, double) { return 100.0; });
-  fine.keep(plain, FineWish::kEach);
+  fine.keep_all(plain);
   fine.see(plain);
   EXPECT_TRUE(fine.windows.find(plain.view(), fine.field, fine.place).empty());
-}
-
-TEST(FineWindows, TheBackgroundHasFewerThanAnObject) {
-  Fine fine;
-  const Picture picture = moved({0, 0});
-  fine.see(picture);
-  fine.keep(picture, FineWish::kSome);
-  fine.see(picture);
-  const size_t found = fine.windows.find(picture.view(), fine.field, fine.place).size();
-  EXPECT_GT(found, 0u);
-  EXPECT_LE(found, FineWindows::kMostOnBackground);
 }
 
 }  // namespace

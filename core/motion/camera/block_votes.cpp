@@ -40,8 +40,9 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
       const auto i = static_cast<size_t>(row * grid.columns + column);
       const MotionBlock& block = field.blocks()[i];
       const double texture = static_cast<double>(block.weakest_texture());
-      const bool may_vote = voters == Voters::kEdgesToo ? block.has_texture() && texture > 0
-                                                        : texture >= MotionBlock::kLeastVoteTexture;
+      const bool may_vote = voters == Voters::kEdgesToo
+                                ? block.has_texture() && texture > 0
+                                : block.weakest_texture() >= MotionBlock::kLeastTexture;
       if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
       if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
       double weight = texture / (texture + kFullTexture) /

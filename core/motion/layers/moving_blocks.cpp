@@ -23,10 +23,9 @@ constexpr float kLeastVariance_grey2 = 0.5f;
 /// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
 /// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
-/// distribution: much of a scene is further from its model than the middle of it tells. On real
-/// films and rendered scenes, 1 … 3 list the same objects, and 1 feels half as much again of what
-/// stands still.
-constexpr float kDepths = 2;
+/// distribution: much of a scene is further from its model than the middle of it tells. On the
+/// films that chose it, 2 and 3 list the same objects, and feel more of what stands still.
+constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
 /// limbs.
@@ -135,7 +134,7 @@ void MovingBlocks::measure_parallax(const BlockField& field) {
   for (size_t i = 0; i < relative_.size(); ++i) {
     const RelativeBlock& block = relative_[i];
     if (block.was_outside || burned_in_.holds(i)) continue;
-    if (field.blocks()[i].weakest_texture() < MotionBlock::kRegularization) continue;
+    if (field.blocks()[i].weakest_texture() < MotionBlock::kLeastTexture) continue;
     of_scene_px_.emplace_back(block.x_px, block.y_px);
   }
   parallax_.measure(of_scene_px_);

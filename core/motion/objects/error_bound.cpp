@@ -52,7 +52,7 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
   const auto n = static_cast<double>(squares_px2_.size());
   const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
   const double texture =
-      static_cast<double>(std::max(sum.weakest_texture(), MotionBlock::kRegularization));
+      static_cast<double>(std::max(sum.weakest_texture(), MotionBlock::kLeastTexture));
   return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
          static_cast<double>(sum.residual) / (n * kBlockArea_px * texture);
 }
@@ -67,7 +67,7 @@ double ErrorBound::background_variance_px2(const Region& region, const ObjectEvi
     const RelativeBlock& relative = evidence.relative[i];
     if (evidence.owners[i] != 0 || relative.was_outside ||
         !is_around(region, {block.x_px, block.y_px}) ||
-        block.weakest_texture() < MotionBlock::kRegularization) {
+        block.weakest_texture() < MotionBlock::kLeastTexture) {
       continue;
     }
     beside_x_px_.push_back(relative.x_px);
