@@ -38,8 +38,8 @@ struct MotionBlock {
   /// result of the search in whole pixels is kept.
   static constexpr float kRegularization = 1;
   /// Smaller eigenvalue from which on the motion is known to a fraction of a pixel, (grey / px)²:
-  /// noise of two grey levels moves such a block by less than a tenth of a pixel.
-  static constexpr float kLeastTexture = 4;
+  /// twice that of nothing but noise of two grey levels, which moves such a block by 0.08 px.
+  static constexpr float kLeastTexture = 5;
   /// Whether the motion is known in one direction at least.
   bool has_texture() const { return xx + yy > 2 * kLeastTexture; }
   /// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a

@@ -15,9 +15,6 @@ constexpr double kMostObject = 0.2;
 /// If this share of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedShare = 2 * kMostObject;
 
-/// Frames in succession in which a lower rung must have been better: in one or two, a camera may
-/// seem to rest where it turns round.
-constexpr int kLowerAfterFrames = 3;
 /// Frames after which higher rungs are fitted again where they have not helped.
 constexpr int kRetryAfterFrames = 3;
 
@@ -87,7 +84,6 @@ BackgroundEstimator::BackgroundEstimator() {
 void BackgroundEstimator::reset() {
   background_ = Background();
   noise_px_ = kUsualNoise_px;
-  patience_ = 0;
   frames_since_climb_ = kRetryAfterFrames;
   refused_cost_ = 0;
 }
@@ -210,7 +206,7 @@ bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes&
   return climbed;
 }
 
-/// Goes down to a lower rung that has been better for long enough: the next lower one, or 'still'.
+/// Goes down to a lower rung if it is better: the next lower one, or 'still'.
 void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVotes& votes,
                                   Scored& current) {
   Scored best = current;
@@ -219,9 +215,6 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
     if (score(kind, start, votes, lower) && lower.gric < best.gric) best = lower;
     if (kind == ModelKind::kStill) break;
   }
-  patience_ = best.model.kind < current.model.kind ? patience_ + 1 : 0;
-  if (patience_ < kLowerAfterFrames) return;
-  patience_ = 0;
   current = best;
 }
 
@@ -269,11 +262,7 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
     frames_since_climb_ = climbed ? kRetryAfterFrames : 0;
     refused_cost_ = cost;
   }
-  if (climbed) {
-    patience_ = 0;
-  } else if (current.model.kind != ModelKind::kStill) {
-    descend(start, votes, current);
-  }
+  if (!climbed && current.model.kind != ModelKind::kStill) descend(start, votes, current);
   background_.is_known = is_proven(current, votes);
   background_.model = background_.is_known ? current.model : MotionModel();
   background_.coverage = background_.is_known ? current.coverage : 0;

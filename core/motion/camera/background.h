@@ -113,7 +113,6 @@ class BackgroundEstimator {
   double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes
   double noise_px_ = 0;
-  int patience_ = 0;  ///< number of frames in which a lower rung was better
   int frames_since_climb_ = 0;
   double refused_cost_ = 0;  ///< mean cost when no higher rung helped
   int fitted_ = 0;

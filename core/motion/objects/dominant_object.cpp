@@ -19,9 +19,6 @@ double growth(double prominence, double of_followed) {
 
 /// Of the smaller of two boxes, the share that the other one covers if they are of the same thing.
 constexpr double kSamePlace = 0.5;
-/// Of the box that goes on, the share that the lost one must cover: a layer of the scene around a
-/// lost object is not what is left of it. Chosen on films of DAVIS and OTB.
-constexpr double kSameThing = 0.1;
 
 /// Whether an object is where one that is out of sight would be: it is a part of the same thing.
 bool takes_place(const MovingObject& object, const MovingObject& hidden) {
@@ -29,8 +26,7 @@ bool takes_place(const MovingObject& object, const MovingObject& hidden) {
   const Eigen::Vector2d common_px = ((object.size_px + hidden.size_px) / 2 - apart_px)
                                         .cwiseMin(object.size_px.cwiseMin(hidden.size_px))
                                         .cwiseMax(0.0);
-  return common_px.prod() > kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod()) &&
-         common_px.prod() > kSameThing * object.size_px.prod();
+  return common_px.prod() > kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
 }
 
 }  // namespace
