@@ -37,6 +37,9 @@ class FilmRecorder(track_case.TrackCase):
         self.expect_refused(self.cut("whole.mkv", 1000))  # before the first frame ends
         self.gst(BALL, "jpegenc ! qtmux faststart=true ! filesink location=flat.mov")
         self.expect_refused(self.cut("flat.mov", self.path("flat.mov").stat().st_size // 2), "its end is missing")
+        # Of more than 1 GB, with the second chunk cut off.
+        self.path("chunks.avi").write_bytes(self.path("whole.avi").read_bytes() + b"RIFF\0\1\0\0AVIX")
+        self.expect_refused("chunks.avi", "its end is missing")
         # Only the header, of a film with sound.
         self.path("header.flv").write_bytes(b"FLV\1\5\0\0\0\t\0\0\0\0")
         self.expect_refused("header.flv", "it cannot be read to its end")
