@@ -17,8 +17,6 @@ namespace {
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr int kWidth = 322, kHeight = 240;  // no multiple of the 6 pixels that v210 packs together
 
-constexpr int kRounded = 2;  // levels: once by each conversion
-
 /// The picture of make_frame() in this format, as videoconvert makes it.
 GstBuffer* converted(const GstVideoInfo& info, double dx, double dy) {
   GstVideoInfo grey;
@@ -71,7 +69,7 @@ TEST_P(UnpackedFormats, MeasureWhatTheGreyPictureShows) {
   EXPECT_TRUE(h.warnings().empty());
 }
 
-TEST_P(UnpackedFormats, HaveTheLevelsOfTheGreyPictureAndHonourACrop) {
+TEST_P(UnpackedFormats, HonourACrop) {
   GstVideoInfo info;
   gst_video_info_set_format(&info, gst_video_format_from_string(GetParam().c_str()), kWidth,
                             kHeight);
@@ -91,10 +89,7 @@ TEST_P(UnpackedFormats, HaveTheLevelsOfTheGreyPictureAndHonourACrop) {
   ASSERT_EQ(seen.width, 100);
   ASSERT_EQ(seen.height, 60);
   for (int y = 0; y < 60; ++y) {
-    for (int x = 0; x < 100; ++x) {
-      ASSERT_EQ(*seen.at(x, y), *all.at(x + 31, y + 17));
-      ASSERT_NEAR(*seen.at(x, y), texture(x + 31, y + 17), kRounded);
-    }
+    for (int x = 0; x < 100; ++x) ASSERT_EQ(*seen.at(x, y), *all.at(x + 31, y + 17));
   }
   gst_video_frame_unmap(&frame);
   gst_buffer_unref(buffer);
@@ -117,24 +112,6 @@ TEST_P(UnpackedFormats, TooShortFramesAreOnlyPassedOn) {
   EXPECT_EQ(h.push(frame, 0), GST_FLOW_OK);
   EXPECT_TRUE(h.motions().empty());
   EXPECT_EQ(h.warnings().size(), 1u);
-}
-
-TEST(UnpackedColours, AreWeighedAsTheEyeDoes) {
-  init_gstreamer();
-  GstVideoInfo info;
-  gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 16, 16);
-  const int levels[] = {76, 150, 29};  // of 255, by BT.601
-  for (gsize colour = 0; colour < 3; ++colour) {
-    GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, info.size, nullptr);
-    gst_buffer_memset(buffer, 0, 0, info.size);
-    for (gsize at = colour; at < info.size; at += 3) gst_buffer_memset(buffer, at, 255, 1);
-    GstVideoFrame frame;
-    FrameLuma luma;
-    gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
-    EXPECT_EQ(*luma.view(frame).at(9, 9), levels[colour]) << colour;
-    gst_video_frame_unmap(&frame);
-    gst_buffer_unref(buffer);
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, UnpackedFormats,

@@ -63,11 +63,17 @@ size_t plane_bytes(const GstVideoInfo& info, const FrameLayout& layout, guint pl
 void paint(const GstVideoInfo& info, const GreyPicture& picture, gint stride, guint8* first_line,
            RandomSource& random) {
   const int pixel = GST_VIDEO_INFO_COMP_PSTRIDE(&info, 0);
-  for (int y = 0; y < picture.height; ++y) {
-    guint8* line = first_line + static_cast<ptrdiff_t>(stride) * y;
-    for (int x = 0; x < picture.width; ++x) {
-      write_sample(*info.finfo, picture.at(x, y), static_cast<guint>(random.below(256)),
-                   line + x * pixel);
+  // Packed colours: red, green and blue are components of plane 0, what else there is stays noise.
+  for (guint c = 0; c < GST_VIDEO_INFO_N_COMPONENTS(&info); ++c) {
+    const bool alpha = GST_VIDEO_INFO_HAS_ALPHA(&info) && c == 3;
+    if (GST_VIDEO_INFO_COMP_PLANE(&info, c) != 0 || alpha) continue;
+    const int offset = GST_VIDEO_INFO_COMP_POFFSET(&info, c);
+    for (int y = 0; y < picture.height; ++y) {
+      guint8* line = first_line + static_cast<ptrdiff_t>(stride) * y;
+      for (int x = 0; x < picture.width; ++x) {
+        write_sample(*info.finfo, c, picture.at(x, y), static_cast<guint>(random.below(256)),
+                     line + x * pixel + offset);
+      }
     }
   }
 }

@@ -44,7 +44,7 @@ GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0
         std::memset(line + x * pixel_stride, static_cast<int>(level),
                     static_cast<size_t>(pixel_stride));
       } else {
-        write_sample(*info.finfo, level, static_cast<guint>(x), line + x * pixel_stride);
+        write_sample(*info.finfo, 0, level, static_cast<guint>(x), line + x * pixel_stride);
       }
     }
   }

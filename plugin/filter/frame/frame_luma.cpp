@@ -7,12 +7,34 @@
 #include <iterator>
 
 #include "core/picture/luma_row.h"
+#include "core/picture/packed_luma.h"
 
 namespace spidar {
 namespace {
 
+bool is_packed(GstVideoFormat format, PackedOrder& order) {
+  switch (format) {
+    case GST_VIDEO_FORMAT_RGB:
+      order = PackedOrder::kRgb;
+      return true;
+    case GST_VIDEO_FORMAT_BGR:
+      order = PackedOrder::kBgr;
+      return true;
+    case GST_VIDEO_FORMAT_RGBx:
+    case GST_VIDEO_FORMAT_RGBA:
+      order = PackedOrder::kRgbx;
+      return true;
+    case GST_VIDEO_FORMAT_BGRx:
+    case GST_VIDEO_FORMAT_BGRA:
+      order = PackedOrder::kBgrx;
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Luma of an unpacked pixel: alpha, then Y, U, V or R, G, B, of which the upper eight bits are
-/// used. Of R, G and B it is 0.299 R + 0.587 G + 0.114 B (BT.601).
+/// used. R, G and B are weighted as in luma_of_packed().
 template <typename Sample>
 uint8_t luma_of(const Sample* pixel, bool is_rgb) {
   constexpr int kShift = 8 * (static_cast<int>(sizeof(Sample)) - 1);
@@ -43,6 +65,8 @@ LumaSample sample_of(const GstVideoFormatInfo& format) {
 
 /// Whether a format is one of SPIDAR_UNPACKED_FORMATS and not of SPIDAR_VIDEO_FORMATS.
 bool is_unpacked(const GstVideoFormatInfo& format) {
+  PackedOrder order;
+  if (is_packed(GST_VIDEO_FORMAT_INFO_FORMAT(&format), order)) return false;
   const int bytes = GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0) > 8 ? 2 : 1;
   return GST_VIDEO_FORMAT_INFO_IS_RGB(&format) || GST_VIDEO_FORMAT_INFO_IS_COMPLEX(&format) ||
          GST_VIDEO_FORMAT_INFO_PSTRIDE(&format, 0) != bytes;
@@ -170,7 +194,12 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
   const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
                         shown.y * stride + shown.x * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);
   ImageView luma{data, shown.width, shown.height, stride, sample_of(*frame.info.finfo)};
-  if (is_unpacked(*frame.info.finfo)) luma = unpacked(frame, shown);
+  PackedOrder order;
+  if (is_packed(GST_VIDEO_FRAME_FORMAT(&frame), order)) {
+    luma = luma_of_packed(data, shown.width, shown.height, stride, order, converted_);
+  } else if (is_unpacked(*frame.info.finfo)) {
+    luma = unpacked(frame, shown);
+  }
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
     // In a crop that begins on an odd line, the other field comes first.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));

@@ -19,13 +19,14 @@ namespace spidar {
   "P010_10LE, P012_LE, P016_LE, I420_10LE, I420_12LE, I422_10LE, I422_12LE, "     \
   "Y444_10LE, Y444_12LE, Y444_16LE, A420_10LE, A422_10LE, A444_10LE, GRAY16_LE, " \
   "P010_10BE, P012_BE, P016_BE, I420_10BE, I420_12BE, I422_10BE, I422_12BE, "     \
-  "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE }"
+  "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE, " \
+  "BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
 /// Further ones that FrameLuma understands, by way of GStreamer's own unpacking: a conversion.
-#define SPIDAR_UNPACKED_FORMATS                                                                \
-  "{ BGR, RGB, BGRx, RGBx, BGRA, RGBA, YUY2, UYVY, YVYU, VYUY, AYUV, VUYA, v308, ARGB, xRGB, " \
-  "ABGR, xBGR, GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, v210, v216, " \
-  "BGR10A2_LE, RGB10A2_LE, r210 }"
+#define SPIDAR_UNPACKED_FORMATS                                          \
+  "{ YUY2, UYVY, YVYU, VYUY, AYUV, VUYA, v308, ARGB, xRGB, ABGR, xBGR, " \
+  "GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, "   \
+  "v210, v216, BGR10A2_LE, RGB10A2_LE, r210 }"
 
 /// What becomes of each field of GstVideoInfo:
 ///
@@ -72,10 +73,10 @@ LumaLevels luma_levels(const GstVideoInfo& info);
 bool holds_picture(const GstVideoFrame& frame);
 
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride and of as many bits
-/// as it has; makes luma of what has to be unpacked; honours a crop meta; of interlaced frames it
-/// takes the first field, because the two fields are two moments, and so it does of those that are
-/// interlaced and not flagged. With interlace-mode=mixed each frame says by its flags whether it is
-/// interlaced.
+/// as it has; makes luma of packed RGB and of what has to be unpacked; honours a crop meta; of
+/// interlaced frames it takes the first field, because the two fields are two moments, and so it
+/// does of those that are interlaced and not flagged. With interlace-mode=mixed each frame says by
+/// its flags whether it is interlaced.
 class FrameLuma {
  public:
   /// In pixels; a crop may leave less.
