@@ -196,7 +196,11 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
      [](auto* self, auto* value) { self->engine->output().set_offset(g_value_get_int64(value)); }},
     {"mute", [](auto* self, auto* value) { self->engine->set_muted(g_value_get_boolean(value)); }},
     {"feel", [](auto* self, auto*) { self->choice->rules_changed(); }},
-    {"pointer", [](auto* self, auto*) { self->choice->mouse().reset(); }},
+    {"pointer",
+     [](auto* self, auto*) {
+       self->choice->mouse().reset();
+       self->display->hand().let_go();
+     }},
     {"touch",
      [](auto* self, auto* value) {
        const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);

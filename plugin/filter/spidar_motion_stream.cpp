@@ -248,7 +248,11 @@ static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
   GST_OBJECT_UNLOCK(self);
   if (!points) return;
   const auto mouse = spidar::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
-  if (mouse) self->choice->mouse().take(*mouse);
+  if (!mouse) return;
+  // A hand that is led points, too, but its clicks are no choice of objects.
+  const bool leads_hand = self->display->hand().take(*mouse);
+  if (!leads_hand || mouse->act == spidar::SinkMouse::Act::kMove)
+    self->choice->mouse().take(*mouse);
 }
 
 static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* event) {

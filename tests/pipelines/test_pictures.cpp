@@ -4,6 +4,7 @@
 // clock.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::pictures_test {
@@ -72,6 +74,10 @@ const Texture kOther(2, 7.0);
 /// Of one measurement: a tenth of a pixel (see test_frames.cpp), on 480 lines, over 40 ms.
 constexpr double kOne_px_s = 0.1 * 480 / kHeight / 0.04;
 
+TEST(Pictures, AStillPictureIsRest) {
+  expect_nothing_felt(10, [](int, int x, int y) { return kStill.at(x, y); });
+}
+
 TEST(Pictures, ACutIsNoKick) {
   // Both scenes move to the right, the second one half as fast. The force before the cut and after
   // it points there, too, so that no tick between the frames can point elsewhere.
@@ -114,6 +120,27 @@ TEST(Pictures, ADissolveIsNoObject) {
     return (1 - share) * kStill.at(x, y) + share * kOther.at(x, y);
   });
   for (size_t n = 0; n < wanted.size(); ++n) EXPECT_EQ(wanted[n].stacked().norm(), 0) << n;
+}
+
+TEST(Pictures, SubtitlesAreNoMotion) {
+  const TemporaryFolder folder;
+  const std::string subtitles = (folder.path / "film.srt").string();
+  std::ofstream(subtitles) << "1\n00:00:00,200 --> 00:00:00,500\nSome words\n\n"
+                              "2\n00:00:00,500 --> 00:00:00,800\nand others\n\n"
+                              "3\n00:00:01,500 --> 00:00:01,800\nand more\n\n";
+  // A picture that says where it is: in one that repeats itself, words may look like its next
+  // square.
+  SteppedPipeline pipeline(
+      "textoverlay name=text font-desc=\"Sans, 40\" " + kSettings[0] + kSink +
+      " videotestsrc pattern=smpte75 ! video/x-raw,format=I420,width=320,height=240,"
+      "framerate=25/1 ! text. filesrc location=" +
+      subtitles + " ! subparse ! text.");
+  pipeline.set_state(GST_STATE_PLAYING);
+  for (int n = 0; n < 25; ++n) {
+    const TickRecord tick = pipeline.step();
+    expect_wrench_of_frame(pipeline, tick);
+    EXPECT_EQ(tick.wanted.stacked().norm(), 0) << n;
+  }
 }
 
 std::string ball(int frames_per_s) {

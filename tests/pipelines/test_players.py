@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import gst_case
@@ -89,6 +90,47 @@ class Players(gst_case.GstCase):
                                    "video/x-raw,width=160,height=120,framerate=60/1 ! queue ! videoconvert ! "
                                    "spidarmotion ! fakesink sync=true", 12), 12)
 
+    def test_rtp(self):
+        receiver = self.parse(
+            "udpsrc name=source address=127.0.0.1 port=0 caps=\"application/x-rtp,media=video,clock-rate=90000,"
+            "encoding-name=JPEG,payload=26\" ! rtpjitterbuffer latency=50 ! rtpjpegdepay ! jpegdec ! "
+            f"{MOTION} ! fakesink sync=true")
+        source = receiver.get_by_name("source")
+        source.set_state(Gst.State.READY)
+        sender = Gst.parse_launch(
+            "videotestsrc is-live=true pattern=ball ! video/x-raw,format=I420,width=160,height=120,framerate=30/1 ! "
+            f"jpegenc ! rtpjpegpay ! udpsink host=127.0.0.1 port={source.get_property('port')}")
+        sender.set_state(Gst.State.PLAYING)
+        self.expect_felt(self.play(receiver, 10), 10)
+        sender.set_state(Gst.State.NULL)
+
+    def test_uridecodebin_with_a_live_source(self):
+        """A camera of an application's: a bright square that moves to the right, when it is asked for."""
+        pipeline = self.parse("uridecodebin uri=appsrc:// name=d ! queue ! videoconvert ! spidarmotion ! fakesink sync=true")
+        frames = iter(range(20))
+
+        def push(source, _length):
+            n = next(frames, None)
+            if n is None:
+                source.emit("end-of-stream")
+                return
+            time.sleep(.01)
+            line = bytes([16]) * 160
+            bright = line[:20 + 3 * n] + bytes([200]) * 40 + line[60 + 3 * n:]
+            source.emit("push-buffer", Gst.Buffer.new_wrapped(line * 40 + bright * 40 + line * 40))
+
+        def set_up(_decoder, source):
+            for prop, value in (("caps", Gst.Caps.from_string("video/x-raw,format=GRAY8,width=160,height=120,framerate=0/1")),
+                                ("is-live", True), ("do-timestamp", True), ("format", Gst.Format.TIME)):
+                source.set_property(prop, value)
+            # Not before: what is pushed before PLAYING has a time stamp of a clock without a base time.
+            source.connect("need-data", push)
+
+        pipeline.get_by_name("d").connect("source-setup", set_up)
+        outcome = self.play(pipeline)
+        self.assertTrue(outcome.eos)
+        self.expect_felt(outcome, 20)
+
     def test_stopped_by_another_thread_at_any_moment(self):
         chance = random.Random(3)
         for run in range(40):
@@ -101,6 +143,23 @@ class Players(gst_case.GstCase):
                     pipeline.seek_simple(Gst.Format.TIME, Gst.SeekFlags.FLUSH, Gst.SECOND)
                 other.join()
                 self.stop(pipeline)
+
+    def test_every_picture_of_videotestsrc(self):
+        for pattern in Gst.ElementFactory.make("videotestsrc").find_property("pattern").enum_class.__enum_values__.values():
+            outcome = self.play(f"videotestsrc num-buffers=5 pattern={pattern.value_nick} ! "
+                                "video/x-raw,width=320,height=240 ! spidarmotion ! fakesink")
+            self.assertEqual((outcome.error, outcome.warnings, len(outcome.forces)), ("", [], 5), pattern.value_nick)
+
+    def test_a_damaged_film(self):
+        self.make_film("clip.avi", 30)
+        content = bytearray(self.path("clip.avi").read_bytes())
+        chance = random.Random(1)
+        for at in range(4096, len(content)):
+            if chance.random() < 1 / 256:
+                content[at] = chance.randrange(256)
+        self.path("clip.avi").write_bytes(content)
+        outcome = self.play(f"filesrc location={self.path('clip.avi')} ! decodebin ! videoconvert ! spidarmotion ! fakesink")
+        self.assertTrue(outcome.eos or outcome.error)
 
     @unittest.skipUnless(GstPlay, "needs gir1.2-gst-plugins-bad-1.0")
     def test_gst_play(self):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Films and cameras whose frames repeat pictures, in whole pipelines on a test clock: the force in
-// each millisecond is that of the film without repeated frames, live, at other rates and after
-// seeks. A picture that stays is at rest.
+// each millisecond is that of the film without repeated frames, live, at other rates, after seeks
+// and after frame steps. A picture that stays is at rest.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -102,6 +102,13 @@ class FeltFilm {
     pipeline_.forget_before(GST_CLOCK_TIME_NONE);
     pipeline_.seek(rate, GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE, position, 8 * GST_SECOND);
   }
+  /// Paused, from the beginning.
+  void step_frames(guint64 count) {
+    pipeline_.set_state(GST_STATE_PAUSED);
+    pipeline_.step_frames(count);
+    shown_ = count;
+  }
+
   /// Ticks every millisecond until this running time.
   void play_until(double running_s) {
     const auto end_ns = static_cast<int64_t>(1e9 * running_s);
@@ -247,6 +254,20 @@ TEST(RepeatedFrames, AreFeltAsThePlainFilmAfterASeek) {
   const auto plain_N = felt("24/1", every(1000));
   expect_same_feeling(felt("60/1", every(24)), plain_N, kLearnt_ms);
   expect_same_feeling(felt("24/1", every(12)), plain_N, kLearnt_ms);
+}
+
+TEST(RepeatedFrames, AreFeltAsThePlainFilmAfterFrameSteps) {
+  // As many steps as are 0.5 s of the film.
+  const auto felt = [](const char* frame_rate, const Taken& taken, guint64 frames) {
+    FeltFilm film(kFile, frame_rate, taken);
+    film.step_frames(frames);
+    film.play();
+    film.play_until(3);
+    return film.force_N();
+  };
+  const auto plain_N = felt("24/1", every(1000), 12);
+  expect_same_feeling(felt("60/1", every(24), 30), plain_N, kLearnt_ms);
+  expect_same_feeling(felt("24/1", every(12), 12), plain_N, kLearnt_ms);
 }
 
 TEST(RepeatedFrames, ThatStayAreExactRestWithin100Ms) {

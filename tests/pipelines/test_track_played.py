@@ -1,23 +1,32 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Haptic tracks on all ways of docs/haptic-track.md from a file to the hand, and tracks that are faulty. In real time;
-nothing depends on how long anything takes: ticks that come late leave samples out, and none is wrong."""
+"""Haptic tracks on all ways of docs/haptic-track.md from a file to the hand, also over the loopback interface, and tracks
+that are faulty. In real time; nothing depends on how long anything takes: ticks that come late leave samples out, and
+none is wrong. test_track_played.py SDP_FILE"""
 
 import math
 import os
+import pathlib
+import socket
 import struct
 import subprocess
+import sys
+import threading
+import time
 import unittest
 
 import gst_case
 import track_case
 from gst_case import Gst
 
+SDP_FILE = pathlib.Path(sys.argv.pop(1))
 # Whole steps of 24 bits, different on each axis: 0.6 N and 40 mN m.
 CONSTANT = (.0625, -.03125, .046875, .03125, -.015625, .0234375)
+FULL_N = math.hypot(*(value * 10 for value in CONSTANT[:3]))
 FRAMES = 10
 MS = 400  # as long as the film at 25 frames/s
 VIDEO = f"videotestsrc pattern=ball num-buffers={FRAMES} ! video/x-raw,width=64,height=48,framerate=25/1 ! "
+RTP = ("application/x-rtp,media=application,clock-rate=90000,encoding-name=X-GST,payload=96")
 
 
 def write_masked_wav(path, mask):
@@ -189,6 +198,184 @@ class BadTracks(TrackPlayedCase):
                 run = subprocess.run(["gst-launch-1.0", *line.format(prop).split()], capture_output=True, text=True,
                                      env=dict(os.environ, GST_DEBUG="2", GST_DEBUG_NO_COLOR="1"), check=False)
                 self.assertRegex(run.stderr, f" {element} .*{said}")
+
+
+class NetworkCase(TrackPlayedCase):
+    """A track of three seconds, sent as on the page."""
+
+    def setUp(self):
+        super().setUp()
+        self.make_track(count=3000, sample=lambda _: CONSTANT)
+        self.spidartrack("convert", "a.wav", "film.flac")
+        self.track = f"filesrc location={self.path('film.flac')} ! flacparse ! "
+
+    def receiver(self, source, options=""):
+        receiver = self.parse(f"{source} ! spidarsink name=sink {options}")
+        receiver.set_state(Gst.State.PLAYING)
+        return receiver
+
+    @staticmethod
+    def samples_of(receiver):
+        return receiver.get_by_name("sink").get_property("stats").get_value("samples")
+
+    def await_samples(self, receiver, count):
+        while self.samples_of(receiver) < count:
+            time.sleep(.01)
+
+    def await_silence(self, receiver):
+        before, now = 0, self.samples_of(receiver)
+        while now == 0 or now != before:
+            before = now
+            time.sleep(1)  # more than what waits in the buffers
+            now = self.samples_of(receiver)
+
+    def send_all(self, sender, receiver):
+        """Plays `sender` to its end, and ends `receiver` when nothing comes any more. The forces that were felt, N."""
+        outcome = self.play(sender)
+        self.assertTrue(outcome.eos, outcome.error)
+        self.await_silence(receiver)
+        self.stop(receiver)
+        return self.felt(receiver.watched[-1])
+
+    def expect_rest_between(self, forces):
+        """All of the force was felt, then there was rest, then all of it again."""
+        full = [n for n, force in enumerate(forces) if force > .99 * FULL_N]
+        self.assertTrue(any(force == 0 for force in forces[full[0]:full[-1]]), "felt, at rest, and felt again")
+
+    @staticmethod
+    def free_port():
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+            free.bind(("127.0.0.1", 0))
+            return free.getsockname()[1]
+
+
+class Network(NetworkCase):
+    def udp_sender(self, port):
+        return self.parse(f"{self.track} flacdec ! rtpgstpay name=pay config-interval=1 ! udpsink host=127.0.0.1 "
+                          f"port={port}")
+
+    def test_lost_packets_are_a_ramp_to_rest_and_back(self):
+        receiver = self.parse(f"udpsrc name=source address=127.0.0.1 port=0 caps=\"{RTP}\" ! rtpjitterbuffer latency=200 ! "
+                              "rtpgstdepay ! spidarsink name=sink")
+        receiver.get_by_name("source").set_state(Gst.State.READY)
+        receiver.set_state(Gst.State.PLAYING)
+        sender = self.udp_sender(receiver.get_by_name("source").get_property("port"))
+        packets = []
+
+        def lose(_pad, _info):
+            """A second of packets arrives but for three, then none for 0.8 s, then all."""
+            packets.append(None)
+            n = len(packets) - 1
+            return Gst.PadProbeReturn.DROP if n in (10, 15, 16) or 25 <= n < 45 else Gst.PadProbeReturn.OK
+
+        # The payloader pushes each packet as a list of one.
+        sender.get_by_name("pay").get_static_pad("src").add_probe(
+            Gst.PadProbeType.BUFFER | Gst.PadProbeType.BUFFER_LIST, lose)
+        self.expect_rest_between(self.send_all(sender, receiver))
+        self.assertGreaterEqual(len(packets), 75, "one for each 40 ms")
+
+    @unittest.skipUnless(Gst.ElementFactory.find("sdpdemux"), "needs gstreamer1.0-plugins-bad")
+    def test_an_sdp_file_leads_to_the_track(self):
+        port = self.free_port()
+        of_page = " 5004 "
+        text = SDP_FILE.read_text(encoding="ascii")
+        self.assertIn(of_page, text)
+        self.path("haptic.sdp").write_text(text.replace(of_page, f" {port} "))
+        receiver = self.receiver(f"filesrc location={self.path('haptic.sdp')} ! sdpdemux latency=200 ! rtpgstdepay")
+        self.assertAlmostEqual(max(self.send_all(self.udp_sender(port), receiver)), FULL_N, delta=1e-6)
+
+    def test_matroska_over_tcp(self):
+        sender = self.parse(f"{self.track} matroskamux streamable=true min-cluster-duration=0 "
+                            "max-cluster-duration=100000000 ! tcpserversink name=server host=127.0.0.1 port=0 sync=true "
+                            "sync-method=next-keyframe")
+        sender.set_state(Gst.State.PAUSED)
+        sender.get_state(Gst.CLOCK_TIME_NONE)
+        server = sender.get_by_name("server")
+        receiver = self.receiver(f"tcpclientsrc host=127.0.0.1 port={server.get_property('current-port')} ! matroskademux ! "
+                                 "flacparse ! flacdec", "ts-offset=200000000")
+        # So that all of the track is there to be received, however slow this is.
+        while server.get_property("num-handles") == 0:
+            time.sleep(.01)
+        self.play(sender)
+        self.assertTrue(self.play(receiver).eos)
+        self.assertAlmostEqual(max(self.felt(receiver.watched[-1])), FULL_N, delta=1e-6)
+
+
+class CutLink(threading.Thread):
+    """Passes packets between a port of the loopback interface and another one; while it is cut, they are lost."""
+
+    def __init__(self, to_port):
+        super().__init__()
+        self.near, self.far = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+        self.near.bind(("127.0.0.1", 0))
+        self.port = self.near.getsockname()[1]
+        self.far.connect(("127.0.0.1", to_port))
+        self.is_cut = self.ends = False
+        self.caller = None
+        self.start()
+
+    def run(self):
+        for one in (self.near, self.far):
+            one.settimeout(.005)
+        while not self.ends:
+            for one in (self.near, self.far):
+                try:
+                    packet, sender = one.recvfrom(65536)
+                    if one is self.near:
+                        self.caller = sender
+                    if not self.is_cut and one is self.near:
+                        self.far.send(packet)
+                    elif not self.is_cut:
+                        self.near.sendto(packet, self.caller)
+                except OSError:  # nothing has come, or the other side's port is closed
+                    pass
+        self.near.close()
+        self.far.close()
+
+
+@unittest.skipUnless(Gst.ElementFactory.find("srtsrc"), "needs gstreamer1.0-plugins-bad")
+class Srt(NetworkCase):
+    def sender(self, port):
+        sender = self.parse(f"{self.track} flacdec ! rtpgstpay config-interval=1 mtu=1316 ! "
+                            f"srtsink uri=\"srt://127.0.0.1:{port}?mode=listener\"")
+        sender.set_state(Gst.State.PLAYING)
+        return sender
+
+    def srt_receiver(self, port):
+        return self.receiver(f"srtsrc latency=200 uri=srt://127.0.0.1:{port} ! {RTP} ! rtpjitterbuffer latency=50 ! "
+                             "rtpgstdepay")
+
+    def expect_felt_again(self, receiver):
+        self.await_silence(receiver)
+        self.stop(receiver)
+        self.expect_rest_between(self.felt(receiver.watched[-1]))
+
+    def test_a_link_that_is_cut_is_a_ramp_to_rest_and_back(self):
+        port = self.free_port()
+        link = CutLink(port)
+        sender = self.sender(port)
+        receiver = self.srt_receiver(link.port)
+        self.await_samples(receiver, 400)
+        link.is_cut = True
+        time.sleep(1)
+        link.is_cut = False
+        self.expect_felt_again(receiver)
+        self.stop(sender)
+        link.ends = True
+        link.join()
+
+    def test_a_sender_that_is_started_again_is_felt_again(self):
+        port = self.free_port()
+        first = self.sender(port)
+        receiver = self.srt_receiver(port)
+        self.await_samples(receiver, 400)
+        self.stop(first)
+        time.sleep(.3)  # at rest by then
+        before = self.samples_of(receiver)
+        second = self.sender(port)
+        self.await_samples(receiver, before + 400)
+        self.expect_felt_again(receiver)
+        self.stop(second)
 
 
 if __name__ == "__main__":

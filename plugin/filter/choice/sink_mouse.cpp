@@ -11,7 +11,8 @@
 namespace spidar {
 namespace {
 
-constexpr gint kLeftButton = 1;
+// Sinks of X send the wheel as buttons.
+constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;
 
 /// The mouse may be beside the picture, in the black bars of a window.
 double share(double at_px, int size_px) {
@@ -29,18 +30,35 @@ std::optional<GstVideoInfo> info_of(GstPad* pad) {
 
 /// With its place in pixels.
 std::optional<SinkMouse> parse(GstEvent* event) {
+  using Act = SinkMouse::Act;
   SinkMouse mouse;
-  gdouble &x = mouse.place.x(), &y = mouse.place.y();
+  gdouble &x = mouse.place.x(), &y = mouse.place.y(), sideways = 0;
   gint button = 0;
-  const GstNavigationEventType type = gst_navigation_event_get_type(event);
-  mouse.is_press = type == GST_NAVIGATION_EVENT_MOUSE_BUTTON_PRESS;
-  if (type == GST_NAVIGATION_EVENT_MOUSE_MOVE) {
-    if (!gst_navigation_event_parse_mouse_move_event(event, &x, &y)) return std::nullopt;
-  } else if (!mouse.is_press ||
-             !gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y) ||
-             button != kLeftButton) {
-    return std::nullopt;
+  switch (gst_navigation_event_get_type(event)) {
+    case GST_NAVIGATION_EVENT_MOUSE_MOVE:
+      if (!gst_navigation_event_parse_mouse_move_event(event, &x, &y)) return std::nullopt;
+      return mouse;
+    case GST_NAVIGATION_EVENT_MOUSE_SCROLL:
+      mouse.act = Act::kWheel;
+      if (!gst_navigation_event_parse_mouse_scroll_event(event, &x, &y, &sideways, &mouse.wheel)) {
+        return std::nullopt;
+      }
+      return mouse;
+    case GST_NAVIGATION_EVENT_MOUSE_BUTTON_PRESS:
+      mouse.act = Act::kPress;
+      break;
+    case GST_NAVIGATION_EVENT_MOUSE_BUTTON_RELEASE:
+      mouse.act = Act::kRelease;
+      break;
+    default:
+      return std::nullopt;
   }
+  if (!gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y)) return std::nullopt;
+  if (button == kLeftButton) return mouse;
+  const bool is_wheel = button == kWheelUp || button == kWheelDown;
+  if (!is_wheel || mouse.act == Act::kRelease) return std::nullopt;
+  mouse.act = Act::kWheel;
+  mouse.wheel = button == kWheelUp ? 1 : -1;
   return mouse;
 }
 
@@ -51,13 +69,19 @@ std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source) {
   const std::optional<GstVideoInfo> info = mouse ? info_of(source) : std::nullopt;
   if (!info) return std::nullopt;
   mouse->place = {share(mouse->place.x(), info->width), share(mouse->place.y(), info->height)};
+  if (!std::isfinite(mouse->wheel)) mouse->wheel = 0;
+  GstNavigationModifierType keys = GST_NAVIGATION_MODIFIER_NONE;
+  mouse->shift = gst_navigation_event_parse_modifier_state(event, &keys) &&
+                 (keys & GST_NAVIGATION_MODIFIER_SHIFT_MASK) != 0;
   return mouse;
 }
 
 void MousePointer::take(const SinkMouse& mouse) {
+  const bool clicks = mouse.act == SinkMouse::Act::kPress;
+  if (!clicks && mouse.act != SinkMouse::Act::kMove) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   place_ = mouse.place;
-  if (mouse.is_press) kept_ = kept_.click == 0 ? KeptObject{++clicks_, mouse.place} : KeptObject();
+  if (clicks) kept_ = kept_.click == 0 ? KeptObject{++clicks_, mouse.place} : KeptObject();
 }
 
 void MousePointer::keep(const std::optional<Eigen::Vector2d>& place) {

@@ -16,9 +16,12 @@ namespace spidar {
 
 /// One thing that the mouse did.
 struct SinkMouse {
-  bool is_press = false;  ///< of the left button; else it moved
+  enum class Act { kMove, kPress, kRelease, kWheel };  ///< the button is the left one
+  Act act = Act::kMove;
   /// Of the frame before it is turned: (0, 0) is its top left corner.
   Eigen::Vector2d place{0.5, 0.5};
+  bool shift = false;  ///< Shift key
+  double wheel = 0;    ///< notches, > 0 away from the user
 };
 
 /// What an event says that comes from downstream: elements that scale, crop or turn the picture

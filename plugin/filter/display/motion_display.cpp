@@ -18,6 +18,7 @@ namespace spidar {
 void MotionDisplay::show(FrameReport& report, const DisplayProperties& properties,
                          const AxisGains& gains, GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
+  hand_.see(report, width, height);
   const std::shared_ptr<Window> shown_in = window();
   const bool draws = properties.overlay != OverlayKind::kNone;
   if (!report.analyzed || !(draws || properties.attach_meta || shown_in)) {

@@ -11,6 +11,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/filter/choice/motion_choice.h"
+#include "plugin/filter/display/sink_hand.h"
 #include "plugin/filter/engine/motion_engine.h"
 #include "plugin/filter/frame/track_owners.h"
 #include "plugin/properties/motion_properties.h"
@@ -23,7 +24,7 @@ class MotionDisplay {
  public:
   /// `engine` and `choice` are those of `element` and live as long.
   MotionDisplay(GstElement* element, MotionEngine& engine, MotionChoice& choice)
-      : element_(element), engine_(engine), choice_(choice) {}
+      : element_(element), engine_(engine), choice_(choice), hand_(engine.output()) {}
 
   // --- streaming thread
 
@@ -40,6 +41,8 @@ class MotionDisplay {
 
   // --- any thread
 
+  /// Led by the mouse of a sink.
+  SinkHand& hand() { return hand_; }
   /// The element as a window sees it.
   std::shared_ptr<WindowSource> source() const;
   void open_window();
@@ -56,6 +59,7 @@ class MotionDisplay {
   GstElement* const element_;
   MotionEngine& engine_;
   MotionChoice& choice_;
+  SinkHand hand_;
   // Streaming thread.
   TrackOwners owners_;
   FilmMoment film_;  // for the window
