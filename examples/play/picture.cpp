@@ -9,7 +9,7 @@
 
 #include "core/force/felt_force.h"
 #include "core/force/motion_rendering.h"
-#include "examples/play/gnuplot.h"
+#include "plugin/tools/gnuplot.h"
 
 namespace {
 

@@ -20,13 +20,13 @@
 
 #include <gst/gst.h>
 
-#include "examples/play/gnuplot.h"
 #include "examples/play/picture.h"
 #include "examples/play/pipeline.h"
 #include "examples/play/playback.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
 #include "plugin/properties/typed_property.h"
+#include "plugin/tools/gnuplot.h"
 
 namespace fs = std::filesystem;
 

@@ -117,6 +117,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
     unread = why.what();  // decoding it may tell more
   }
   FilmWatch watch;
+  StoredSound stored;
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
       "spidarmotion name=motion device=none attach-meta=true ! "
@@ -127,6 +128,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   set_properties(file.find("motion"), properties);
   watch.begin(file.pipeline());
   progress.watch(file.find("motion"));
+  stored.watch(file.find("stored"));
   tag(file.find("extract"), {fingerprint, properties.settings});
   std::string error;
   try {
@@ -147,6 +149,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   if (film_end(film) == FilmEnd::kCutOff) {
     throw std::runtime_error("its end is missing: it is damaged or cut off");
   }
+  stored.check(track);
   return {watch.felt(), watch.remark()};
 }
 

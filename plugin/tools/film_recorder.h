@@ -17,8 +17,9 @@ struct FilmOutcome {
 };
 
 /// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
-/// follows from the end of the name that it will have (`encoder_of()`). `tell` is called in another
-/// thread with the percentage that is done, whenever it rises. Throws std::runtime_error.
+/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
+/// is called in another thread with the percentage that is done, whenever it rises. Throws
+/// std::runtime_error.
 FilmOutcome record_film(const std::string& film, const PartFile& track,
                         const RecordProperties& properties,
                         const std::function<void(int percent)>& tell);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Records, inspects, checks and converts haptic tracks.
+// Records, inspects, checks, converts and plots haptic tracks.
 
 #include <algorithm>
 #include <iostream>
@@ -42,6 +42,7 @@ class CommandLine {
     add_info();
     add_check();
     add_convert();
+    add_plot();
   }
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
@@ -158,12 +159,21 @@ An existing TO is replaced when the new file is complete.)");
   }
   int convert() { return convert_track(convert_); }
 
-  CLI::App app_{"Records, inspects, checks and converts haptic tracks.", "spidartrack"};
+  void add_plot() {
+    CLI::App* const app = add("plot", "draw force and torque over time", &CommandLine::plot);
+    app->footer("Needs gnuplot.");
+    add_track(app, "TRACK", plot_.track);
+    app->add_option("PNG", plot_.png, "the picture to write")->required()->type_name("");
+  }
+  int plot() { return plot_track(plot_); }
+
+  CLI::App app_{"Records, inspects, checks, converts and plots haptic tracks.", "spidartrack"};
   RecordOptions record_;
   std::vector<std::string> films_, properties_;
   InfoOptions info_;
   CheckOptions check_;
   ConvertOptions convert_;
+  PlotOptions plot_;
   int status_ = kDone;
 };
 

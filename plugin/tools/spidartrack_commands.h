@@ -28,9 +28,14 @@ struct ConvertOptions {
   std::optional<double> tolerance;  ///< see SaveOptions
 };
 
+struct PlotOptions {
+  std::string track, png;
+};
+
 int record_films(const RecordOptions& options);
 int print_info(const InfoOptions& options);
 int check_track(const CheckOptions& options);
 int convert_track(const ConvertOptions& options);
+int plot_track(const PlotOptions& options);
 
 }  // namespace spidar

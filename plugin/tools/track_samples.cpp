@@ -80,16 +80,19 @@ void write_sound(const PartFile& part, const std::string& encoder,
                  const std::vector<TrackSample>& samples, const TrackNotes& notes) {
   const PartFile raw(part.target() + ".raw");
   raw.write({reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(TrackSample)});
+  StoredSound stored;
   const FilePipeline file(
       "filesrc name=source ! "
       "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
       "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
           encoder + " ! fdsink sync=false fd=" + std::to_string(part.descriptor()),
       raw.path());
+  stored.watch(file.find("stored"));
   const Ref<GstPad> pad(gst_element_get_static_pad(file.find("samples"), "src"));
   tag_track(pad.get(), notes);
   file.play_until(GST_MESSAGE_EOS);
   file.stop();
+  stored.check(part);
 }
 
 }  // namespace
@@ -102,10 +105,10 @@ bool ends_with(const std::string& text, const std::string& end) {
 std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".flac")) {
     return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
-           "flacenc blocksize=40 seekpoints=0";
+           "identity name=stored ! flacenc blocksize=40 seekpoints=0";
   }
-  if (ends_with(path, ".mka")) return "matroskamux";
-  if (ends_with(path, ".wav")) return "wavenc";
+  if (ends_with(path, ".mka")) return "identity name=stored ! matroskamux";
+  if (ends_with(path, ".wav")) return "identity name=stored ! wavenc";
   return {};
 }
 
@@ -145,6 +148,55 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
     part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
   }
   part.publish();
+}
+
+void StoredSound::watch(GstElement* element) {
+  const Ref<GstPad> pad(gst_element_get_static_pad(element, "sink"));
+  gst_pad_add_probe(
+      pad.get(),
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM),
+      flows, this, nullptr);
+}
+
+GstPadProbeReturn StoredSound::flows(GstPad*, GstPadProbeInfo* info, gpointer user) {
+  auto& self = *static_cast<StoredSound*>(user);
+  if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
+    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
+    GstCaps* caps = nullptr;
+    gst_event_parse_caps(event, &caps);
+    const char* const format = gst_structure_get_string(gst_caps_get_structure(caps, 0), "format");
+    self.format_ = format ? format : "";
+    return GST_PAD_PROBE_OK;
+  }
+  GstMapInfo map;
+  if (!gst_buffer_map(GST_PAD_PROBE_INFO_BUFFER(info), &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
+  g_checksum_update(self.sum_.get(), map.data, static_cast<gssize>(map.size));
+  self.bytes_ += map.size;
+  gst_buffer_unmap(GST_PAD_PROBE_INFO_BUFFER(info), &map);
+  return GST_PAD_PROBE_OK;
+}
+
+void StoredSound::check(const PartFile& part) const {
+  part.check_in_place();
+  StoredSound read;
+  std::string why;
+  try {
+    const FilePipeline file(
+        "filesrc name=source ! decodebin ! audioconvert dithering=none noise-shaping=none ! "
+        "audio/x-raw,layout=interleaved,format=" +
+            format_ + " ! fakesink name=read sync=false",
+        part.path());
+    read.watch(file.find("read"));
+    file.play_until(GST_MESSAGE_EOS);
+    file.stop();
+  } catch (const std::runtime_error& error) {
+    why = std::string(": ") + error.what();
+  }
+  const bool is_same = read.bytes_ == bytes_ && g_str_equal(g_checksum_get_string(read.sum_.get()),
+                                                            g_checksum_get_string(sum_.get()));
+  if (why.empty() && is_same) return;
+  throw std::runtime_error(part.target() + ": what is read back is not what was written" + why);
 }
 
 }  // namespace spidar

@@ -4,9 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <gst/gst.h>
 
 #include "core/track/track_format.h"
 #include "plugin/tracks/part_file.h"
@@ -49,5 +52,27 @@ std::string encoder_of(const std::string& path);
 
 /// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);
+
+/// Sound that flows through a pad, as a checksum. Outlives the pipeline.
+class StoredSound {
+ public:
+  StoredSound() = default;
+  StoredSound(const StoredSound&) = delete;
+  StoredSound& operator=(const StoredSound&) = delete;
+
+  /// What flows into an element of a pipeline that has not started.
+  void watch(GstElement* element);
+  /// Decodes the file `part`, which a pipeline with an element "stored" (encoder_of()) has written.
+  /// Throws std::runtime_error when that is not what has flowed.
+  void check(const PartFile& part) const;
+
+ private:
+  static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+
+  std::string format_;  // of the samples, as caps name it
+  uint64_t bytes_ = 0;
+  std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
+                                                        g_checksum_free};
+};
 
 }  // namespace spidar

@@ -161,6 +161,15 @@ void PartFile::write(const std::string& content) const {
     if (written < 0 && errno != EINTR) throw failure(target_, errno);
     if (written > 0) at += static_cast<size_t>(written);
   }
+  std::string read(content.size() + 1, '\0');  // one more, to see whether something follows
+  size_t size = 0;
+  for (ssize_t got = 1; got > 0 && size < read.size(); size += static_cast<size_t>(got)) {
+    got = pread(descriptor_, read.data() + size, read.size() - size, static_cast<off_t>(size));
+    if (got < 0) throw failure(target_, errno);
+  }
+  if (size != content.size() || read.compare(0, size, content) != 0) {
+    throw std::runtime_error(target_ + ": what is read back is not what was written");
+  }
 }
 
 void PartFile::publish(Existing existing) {

@@ -32,18 +32,20 @@ class PartFile {
   /// Open for reading and writing.
   int descriptor() const { return descriptor_; }
 
-  /// Writes all that the file is to contain. Throws std::runtime_error when that is not possible.
+  /// Writes all that the file is to contain, and reads it back. Throws std::runtime_error when that
+  /// is not the same.
   void write(const std::string& content) const;
 
+  /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
+  void check_in_place() const;
+
   enum class Existing { kReplace, kKeep };
-  /// Gives the file its name; afterwards there is no part file. Throws std::runtime_error when
-  /// path() is another file by now, when its folder has gone and, with kKeep, if a file of this
-  /// name has appeared in the meantime.
+  /// Gives the file its name; afterwards there is no part file. With kKeep, throws
+  /// std::runtime_error if a file of this name has appeared in the meantime.
   void publish(Existing existing = Existing::kReplace);
 
  private:
   PartFile() = default;
-  void check_in_place() const;
   bool take(const std::filesystem::path& target);
 
   std::string path_, target_;

@@ -13,10 +13,10 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "examples/play/gnuplot.h"
 #include "examples/play/picture.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
+#include "plugin/tools/gnuplot.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {

@@ -134,6 +134,13 @@ def convert(trial):
     expect_in_time(read_samples(wav), trial, HJIF_N)
 
 
+def plot(trial):
+    """`plot` draws the track of the film."""
+    png = trial.folder / "plot.png"
+    outcome = trial.spidartrack("plot", trial.path, png)
+    expect(outcome and png.exists() and png.stat().st_size > 5000, outcome.text[-250:])
+
+
 def own_track(trial):
     """track=auto plays the track beside its film without a warning."""
     played = trial.play_quickly("playbin", trial.path, {"track": "auto"})
@@ -148,12 +155,12 @@ def other_film(trial):
     played = trial.play_quickly("playbin", path, {"track": "auto"})
     expect(played["analysed"] and not played["of track"], f"track=auto plays the track of another film: {trial.other}")
     expect(played["warnings"], "track=auto refuses the track of another film without a word")
-    if trial.film.kind["tool"] != "convert":
+    if trial.film.kind["tool"] != "plot":
         return
-    outcome = trial.spidartrack("convert", path, path.with_name("out.wav"))
-    expect(outcome.status == 1, f"convert takes the track of another film, {trial.other}")
-    expect_sentence(outcome.text, "convert")
-    expect(not any(path.parent.glob("out.*")), "convert leaves a file")
+    outcome = trial.spidartrack("plot", path, path.with_name("out.png"))
+    expect(outcome.status == 1, f"plot takes the track of another film, {trial.other}")
+    expect_sentence(outcome.text, "plot")
+    expect(not any(path.parent.glob("out.*")), "plot leaves a file")
 
 
 # --- felt
@@ -258,14 +265,14 @@ def damaged(trial):
 
 def nothing_left(trial):
     """No temporary file is left beside the film."""
-    known = {trial.path.name, trial.track.name, "track.wav", "track.hjif", "back.wav"}
+    known = {trial.path.name, trial.track.name, "track.wav", "track.hjif", "back.wav", "plot.png"}
     written = (p.name for p in trial.folder.iterdir() if p.is_file() and not p.name.startswith("ticks-"))
     left = [name for name in written if name not in known]
     expect(not left, f"left: {left}")
 
 
-CHECKS = (pictures, analysed, record, track_in_time, info, convert, own_track, other_film, felt, damaged,
+CHECKS = (pictures, analysed, record, track_in_time, info, convert, plot, own_track, other_film, felt, damaged,
           nothing_left)
 # Without these, the others say nothing.
-NEEDED = {track_in_time: (record,), info: (record,), convert: (track_in_time,),
+NEEDED = {track_in_time: (record,), info: (record,), convert: (track_in_time,), plot: (record,),
           own_track: (record,), other_film: (record,), felt: (track_in_time,)}

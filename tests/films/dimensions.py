@@ -62,7 +62,7 @@ NAMES = {"plain": "film", "space": "a film", "quotes": "it's \"a\" film", "perce
          "newline": "two\nlines", "not UTF-8": b"na\xefve".decode(errors="surrogateescape")}
 CUTS = ("half", "after the first picture", "5 kB")
 PLAYERS = ("playbin", "playbin3", "gapless", "decodebin", "track=auto", "spidar-feel")
-TOOLS = ("info", "convert")  # of which each film goes through one
+TOOLS = ("info", "convert", "plot")  # of which each film goes through one
 
 DIMENSIONS = {"container": tuple(CONTAINERS), "pictures": tuple(PICTURES), "sound": tuple(SOUNDS),
               "sound time": tuple(SOUND_TIMES), "times": TIMES, "extra": EXTRAS, "name": tuple(NAMES),

@@ -38,7 +38,8 @@ MOST_AGAIN = 5  # more is no matter of a busy machine
 
 
 def missing():
-    for program, package in (("ffmpeg", "ffmpeg"), ("ffprobe", "ffmpeg"), ("gst-play-1.0", "gstreamer1.0-plugins-base-apps")):
+    for program, package in (("ffmpeg", "ffmpeg"), ("ffprobe", "ffmpeg"), ("gnuplot", "gnuplot-nox"),
+                             ("gst-play-1.0", "gstreamer1.0-plugins-base-apps")):
         if not shutil.which(program):
             return f"{program} is not installed (package {package})"
     try:

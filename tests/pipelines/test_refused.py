@@ -61,6 +61,11 @@ class Refused(track_case.TrackCase):
         for target in ("b.flac", "b.hjif"):
             self.expect_done_or_said(["convert", "a.wav", target], [target])
 
+    @track_case.needs("gnuplot")
+    def test_plot(self):
+        self.make_track()
+        self.expect_done_or_said(["plot", "a.wav", "a.png"], ["a.png"])
+
     def test_the_video_of_an_element_goes_on(self):
         self.make_track("film.haptic.wav", 400)
         played = ["gst-launch-1.0", "-q", *"videotestsrc num-buffers=10 pattern=ball ! video/x-raw,width=64,height=48,"

@@ -17,7 +17,7 @@ class Batch(track_case.TrackCase):
 
     def test_wrong_usage_says_what_would_be_right(self):
         self.assertIn("record", self.spidartrack("--help"))
-        for command in ("record", "info", "check", "convert"):
+        for command in ("record", "info", "check", "convert", "plot"):
             self.assertIn(command, self.spidartrack(command, "--help"))
             self.spidartrack(command, status=2)
         for arguments, said in ((["frobnicate"], "frobnicate is not a command; commands are record, info, check"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""spidartrack convert, info and check."""
+"""spidartrack convert, info, check and plot."""
 import csv
 import json
 import math
@@ -100,7 +100,7 @@ class Conversion(track_case.TrackCase):
     def test_a_film_stands_for_its_track(self):
         for name in ("film.avi", "two\nlines.avi", b"\xff\xfe.avi".decode(errors="surrogateescape")):
             self.make_film(name)
-            for command in (["info"], ["check"], ["convert", "b.wav"]):
+            for command in (["info"], ["check"], ["convert", "b.wav"], ["plot", "b.png"]):
                 self.assert_said("a film without a haptic track, inside it or beside it", command[0], name, *command[1:])
             for count in (1000, 1500):
                 self.make_track(name + ".haptic.wav", count)
@@ -113,7 +113,7 @@ class Conversion(track_case.TrackCase):
                                  count != 1000)
                 self.spidartrack("convert", name, "b.wav", status=int(count != 1000))
             self.assertEqual(len(self.samples("b.wav")), 1000)
-            self.assert_said("is that of another film", "convert", name, "c.wav")
+            self.assert_said("is that of another film", "plot", name, "b.png")
 
     def test_endings_may_be_in_capital_letters(self):
         self.make_track("FILM.AVI.HAPTIC.WAV")
@@ -129,6 +129,13 @@ class Conversion(track_case.TrackCase):
             is_felt = said.startswith(";")
             self.assertEqual(self.spidartrack("check", "a.wav", status=int(not is_felt)),
                              "a.wav: ok\n" * is_felt + f"a.wav: 0 % of it is felt{said}\n")
+
+    @track_case.needs("gnuplot")
+    def test_a_plot_is_a_png(self):
+        self.make_track()
+        self.spidartrack("plot", "a.wav", "A.PNG")
+        self.assertEqual(self.path("A.PNG").read_bytes()[:4], b"\x89PNG")
+        self.assert_said("a.jpg: the picture is a PNG", "plot", "a.wav", "a.jpg", status=2)
 
 
 if __name__ == "__main__":

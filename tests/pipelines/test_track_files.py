@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """The files that spidartrack writes, whatever their names are and whatever a shell has closed."""
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -59,6 +60,8 @@ class Files(track_case.TrackCase):
         before = self.files()
         commands = [f"convert a.wav b.{end}" for end in ("flac", "mka", "wav", "hjif")]
         commands += [f"record film.avi --format {name}" for name in ("flac", "mka", "wav")]
+        if shutil.which("gnuplot"):
+            commands.append("plot a.wav b.png")
         for command in commands:
             with self.subTest(command):
                 said = self.run_in_folder(f"trap '' XFSZ; ulimit -f 2; {PROGRAM} {command}", status=1)
@@ -80,22 +83,51 @@ class Files(track_case.TrackCase):
         self.assert_said("file:///tmp/b.flac: there is no folder file:///tmp; a file name is needed",
                          "convert", "a.wav", "file:///tmp/b.flac")
 
-    def test_a_signal_removes_what_is_incomplete(self):
-        """While a long film is recorded."""
-        self.make_film(frames=4000)
+    @track_case.needs("gnuplot")
+    def test_a_plot_runs_no_command_that_a_name_contains(self):
+        self.make_track()
+        for name in ("|touch ran", "< touch ran", "it's.png", "'; system 'touch ran'; a='", "`touch ran`",
+                     "$(touch ran)", "two\nlines.png", "100%s.png", b"\xff\xfe.png"):
+            self.spidartrack("plot", "a.wav", name)
+            name = name.decode(errors="surrogateescape") if isinstance(name, bytes) else name
+            self.assertEqual(self.path(name).read_bytes()[:4], b"\x89PNG")
+            self.assertFalse(self.path("ran").exists())
+
+    def stand_in_for_gnuplot(self, script):
+        """Runs plot with a program of this text in the place of gnuplot, which is in the Debian package."""
+        self.path("bin").mkdir(exist_ok=True)
+        self.path("bin/gnuplot").write_text("#!/bin/sh\n" + script)
+        self.path("bin/gnuplot").chmod(0o755)
+        return dict(os.environ, PATH=f"{self.path('bin')}:{os.environ['PATH']}")
+
+    def test_what_gnuplot_says_is_part_of_the_message(self):
+        self.make_track()
         before = self.files()
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            with self.subTest(number=number):
-                # The tests may have been started with nohup.
-                running = subprocess.Popen(
-                    [PROGRAM, "record", "film.avi"], cwd=self.folder, stdout=subprocess.DEVNULL,
-                    preexec_fn=lambda number=number: signal.signal(number, signal.SIG_DFL))
-                while running.poll() is None and self.files() == before:
-                    time.sleep(.005)
-                self.assertIsNone(running.poll())
-                running.send_signal(number)
-                self.assertEqual(running.wait(), -number, "as its caller expects")
-                self.assertEqual(self.files(), before)
+        self.assert_said("Debian package gnuplot-nox", "plot", "a.wav", "a.png", env=dict(os.environ, PATH="/nowhere"))
+        self.assertEqual(self.files(), before)
+        env = self.stand_in_for_gnuplot("echo some warning >&2\ncat > /dev/null\necho no terminal >&2\nexit 1\n")
+        self.assertEqual(self.spidartrack("plot", "a.wav", "a.png", env=env, status=1),
+                         "spidartrack: gnuplot could not draw the picture: no terminal\n")
+
+    def test_a_signal_removes_what_is_incomplete(self):
+        """While a stand-in for gnuplot draws, and while a long film is recorded."""
+        self.make_track()
+        self.make_film(frames=4000)
+        env = self.stand_in_for_gnuplot("cat > /dev/null\nwhile kill -0 $PPID; do sleep .02; done 2> /dev/null\n")
+        before = self.files()
+        for command in (["plot", "a.wav", "a.png"], ["record", "film.avi"]):
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                with self.subTest(command=command, number=number):
+                    # The tests may have been started with nohup.
+                    running = subprocess.Popen(
+                        [PROGRAM, *command], cwd=self.folder, env=env, stdout=subprocess.DEVNULL,
+                        preexec_fn=lambda number=number: signal.signal(number, signal.SIG_DFL))
+                    while running.poll() is None and self.files() == before:
+                        time.sleep(.005)
+                    self.assertIsNone(running.poll())
+                    running.send_signal(number)
+                    self.assertEqual(running.wait(), -number, "as its caller expects")
+                    self.assertEqual(self.files(), before)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "examples/play/gnuplot.h"
+#include "plugin/tools/gnuplot.h"
 
 #include <cctype>
 #include <cerrno>

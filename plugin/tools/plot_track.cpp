@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "plugin/tools/gnuplot.h"
+#include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kStyle = R"(set encoding utf8
+set style data lines
+set grid linecolor rgb '#d8d8d8' linetype 1 linewidth 0.5
+set linetype 1 linecolor rgb '#0b5fa5' linewidth 1.5
+set linetype 2 linecolor rgb '#d9541e' linewidth 1.5
+set linetype 3 linecolor rgb '#009e73' linewidth 1.5
+set lmargin at screen 0.09
+set rmargin at screen 0.985
+set key horizontal
+set offsets 0, 0, graph 0.1, 0
+)";
+
+/// Sizes in pixels.
+constexpr int kWidth = 1400, kHeight = 700, kGap = 14;
+
+/// Bins of a curve: more than the picture has columns.
+constexpr size_t kBins = 4000;
+
+/// The lowest and the highest value of each bin, as two rows: time, force, torque. A short peak is
+/// seen however long the track is.
+void write_samples(std::ostream& script, const std::vector<TrackSample>& samples) {
+  constexpr size_t kAxes = 6;
+  const size_t step = samples.size() / kBins + 1;
+  script << "$samples << END\n";
+  for (size_t begin = 0; begin < samples.size(); begin += step) {
+    std::array<double, kAxes> low, high;
+    for (size_t i = begin; i < std::min(begin + step, samples.size()); ++i) {
+      const Eigen::Matrix<double, 6, 1> value = to_wrench(samples[i]).stacked();
+      for (size_t axis = 0; axis < kAxes; ++axis) {
+        const double now = value[static_cast<Eigen::Index>(axis)];
+        low[axis] = i == begin ? now : std::min(low[axis], now);
+        high[axis] = i == begin ? now : std::max(high[axis], now);
+      }
+    }
+    for (const auto& row : {low, high}) {
+      script << static_cast<double>(begin) / kTrackRate_Hz;
+      for (const double value : row) script << ' ' << value;
+      script << '\n';
+    }
+  }
+  script << "END\n";
+}
+
+/// Puts a plot between two heights of the picture, in pixels from its top.
+void place(std::ostream& script, int top, int bottom) {
+  script << "set tmargin at screen " << 1 - static_cast<double>(top) / kHeight
+         << "\nset bmargin at screen " << 1 - static_cast<double>(bottom) / kHeight << '\n';
+}
+
+}  // namespace
+
+int plot_track(const PlotOptions& options) {
+  const bool has_ending = std::filesystem::path(options.png).has_extension();
+  if (has_ending && !ends_with(options.png, ".png")) {
+    throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
+  }
+  TrackCondition condition;
+  const std::vector<TrackSample> samples = load_track(options.track, &condition);
+  expect_own_track(condition);
+  if (samples.empty()) throw std::runtime_error(options.track + ": has no samples to draw");
+  std::ostringstream script;
+  script << "set terminal pngcairo size " << kWidth << ',' << kHeight << " font 'sans,12'\n"
+         << kStyle << "set xrange [0:" << static_cast<double>(samples.size()) / kTrackRate_Hz
+         << "]\n";
+  write_samples(script, samples);
+  script << "set multiplot\n";
+  place(script, kGap, kHeight / 2 - 2 * kGap);
+  // A range that is not empty if nothing is felt.
+  script << "set yrange [*<-0.1 : 0.1<*]\nset ylabel 'force, N'\n"
+            "plot $samples using 1:2 title 'x, right', '' using 1:3 title 'y, up', "
+            "'' using 1:4 title 'z, towards the viewer'\n";
+  place(script, kHeight / 2 + kGap, kHeight - 4 * kGap);
+  script << "set yrange [*<-1 : 1<*]\nset ylabel 'torque, mN m'\nset xlabel 'time, s'\n"
+            "plot $samples using 1:(1000*$5) title 'about x', '' using 1:(1000*$6) title "
+            "'about y', '' using 1:(1000*$7) title 'about z'\n";
+  draw_with_gnuplot(script.str(), options.png);
+  return kDone;
+}
+
+}  // namespace spidar
