@@ -188,8 +188,9 @@ case ${1-} in
     end_check "sources executed"
     end_check "site"
     say "left out of all three: suite films, which takes an hour; suite hazards, which takes some minutes; suite kernel," \
-        "a virtual machine that needs QEMU and a kernel image; suite mpeg, which needs MPEG's reference software; suite" \
-        "packages, which builds the Debian packages in a clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite subproject," \
+        "a virtual machine that needs QEMU and a kernel image; suite library, which installs Slurm and takes ten" \
+        "minutes; suite mpeg, which needs MPEG's reference software; suite packages, which builds the Debian packages in" \
+        "a clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite subproject," \
         "which builds all again; suite validate, which needs gst-validate; suite valgrind. CONTRIBUTING.md says when to" \
         "run each."
     ;;

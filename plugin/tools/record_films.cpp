@@ -1,29 +1,104 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <cerrno>
 #include <chrono>
 #include <deque>
+#include <fcntl.h>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include "plugin/tools/film_recorder.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tools/track_summary.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
+#include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
 namespace {
+
+/// A film that is done.
+struct RecordedFilm {
+  std::string film;
+  std::filesystem::path track;
+  std::string result;  ///< "recorded", "there" or "failed"
+  std::string remark;  ///< a warning or, if it failed, the cause; may be empty
+  double seconds = 0;  ///< of work
+};
+
+[[noreturn]] void fail(const std::string& path) {
+  throw std::runtime_error("the manifest " + path + " cannot be written: " + output_reason(errno));
+}
+
+/// A line of JSON for the manifest, without the end of the line. Unless the film failed, it has
+/// what the track says of itself, which is read for that: duration_s, felt (the share of the time
+/// with a force that can be felt), largest_force_N, fingerprint and settings. Throws
+/// std::runtime_error.
+std::string manifest_line(const RecordedFilm& film) {
+  nlohmann::ordered_json line = {{"film", film.film},
+                                 {"result", film.result},
+                                 {"seconds", film.seconds},
+                                 {"version", SPIDAR_VERSION}};
+  if (!film.remark.empty()) line[film.result == "failed" ? "error" : "warning"] = film.remark;
+  if (film.result != "failed") {
+    TrackCondition condition;
+    const std::vector<TrackSample> samples = load_track(film.track.string(), &condition);
+    line["track"] = film.track.string();
+    line["duration_s"] = static_cast<double>(samples.size()) / kTrackRate_Hz;
+    const TrackSummary summary = summarise(samples);
+    line["felt"] = summary.felt;
+    line["largest_force_N"] = summary.largest_force_N;
+    line["fingerprint"] = to_text(condition.notes.film);
+    line["settings"] = condition.notes.settings.value_or("");
+  }
+  // File names are bytes, and JSON is UTF-8.
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Appends lines to a file, also from several threads and processes.
+class ManifestFile {
+ public:
+  /// Empty: nothing is written. Throws std::runtime_error when the file cannot be opened.
+  explicit ManifestFile(const std::string& path) : path_(path) {
+    if (path.empty()) return;
+    descriptor_ = open_output(path.c_str(), O_APPEND);
+    if (descriptor_ < 0) fail(path);
+  }
+  ~ManifestFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  ManifestFile(const ManifestFile&) = delete;
+  ManifestFile& operator=(const ManifestFile&) = delete;
+
+  /// Throws std::runtime_error when the line cannot be written.
+  void add(const RecordedFilm& film) const {
+    if (descriptor_ < 0) return;
+    const std::string line = manifest_line(film) + "\n";
+    // In one call, so that lines of several writers do not mix.
+    const ssize_t written = write(descriptor_, line.data(), line.size());
+    if (written >= 0 && static_cast<size_t>(written) < line.size()) errno = ENOSPC;
+    if (written < 0 || static_cast<size_t>(written) < line.size()) fail(path_);
+  }
+
+ private:
+  const std::string path_;
+  int descriptor_ = -1;
+};
 
 namespace fs = std::filesystem;
 
@@ -53,7 +128,7 @@ void check_file(const std::string& film, const fs::path& file, const RecordOptio
 class FilmBatch {
  public:
   explicit FilmBatch(const RecordOptions& options)
-      : options_(options), report_(paths(options.films)) {}
+      : options_(options), report_(paths(options.films)), manifest_(options.manifest) {}
 
   /// Returns whether no film failed.
   bool run() {
@@ -71,6 +146,7 @@ class FilmBatch {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   using Result = RecordReport::Result;
 
   struct Film {
@@ -137,11 +213,14 @@ class FilmBatch {
     if (!part) return false;
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
+    const Clock::time_point begin = Clock::now();
     const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
     const FilmOutcome outcome = record_film(film, *part, properties, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
     const std::string remark = with_warning(outcome.remark, film, track);
+    const std::chrono::duration<double> taken = Clock::now() - begin;
+    manifest_.add({film, track, "recorded", remark, taken.count()});
     report_.done(index, Result::kRecorded,
                  track.string() + "; " + outcome.felt + (remark.empty() ? "" : "; " + remark));
     return true;
@@ -160,18 +239,28 @@ class FilmBatch {
     return text + (text.empty() || why.empty() ? "" : "; ") + why;
   }
 
-  void fail(size_t index, const std::string& cause) { report_.done(index, Result::kError, cause); }
+  void fail(size_t index, std::string cause) {
+    const ListedFilm& film = options_.films[index];
+    try {
+      manifest_.add({film.path, options_.file_of(film), "failed", cause});
+    } catch (const std::exception& error) {
+      cause += std::string("; ") + error.what();
+    }
+    report_.done(index, Result::kError, cause);
+  }
 
   bool is_done(size_t index, const fs::path& track) {
     if (options_.force || !fs::exists(track)) return false;
     const std::string& film = options_.films[index].path;
     check_file(film, track, options_);
+    manifest_.add({film, track, "there", ""});
     report_.done(index, Result::kThere, with_warning(track.string() + " is there", film, track));
     return true;
   }
 
   const RecordOptions& options_;
   RecordReport report_;
+  ManifestFile manifest_;
   std::mutex mutex_;
   std::deque<Film> waiting_;
 };

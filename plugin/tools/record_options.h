@@ -46,6 +46,7 @@ struct RecordOptions {
   std::string folder;
   std::string format = "flac";
   RecordProperties properties;
+  std::string manifest;  ///< a file; empty: none
   std::vector<ListedFilm> films;
 
   /// The file of a film's track.

@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/record_report.h"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <numeric>
 #include <sys/ioctl.h>
@@ -9,6 +12,10 @@
 
 namespace spidar {
 namespace {
+
+constexpr std::chrono::seconds kTellEvery{10};
+/// An estimate from less says little.
+constexpr double kLeastWork_s = 2;
 
 /// A name may contain line breaks, or commands for the terminal.
 std::string one_line(std::string text) {
@@ -35,19 +42,29 @@ std::string shortened(std::string text, size_t bytes) {
 }  // namespace
 
 RecordReport::RecordReport(std::vector<std::string> films)
-    : films_(std::move(films)), is_terminal_(isatty(STDOUT_FILENO) != 0) {}
+    : films_(std::move(films)), is_terminal_(isatty(STDOUT_FILENO) != 0) {
+  for (const std::string& film : films_) {
+    std::error_code unknown;
+    const auto bytes = std::filesystem::file_size(film, unknown);
+    sizes_.push_back(unknown ? 1 : static_cast<double>(std::max<std::uintmax_t>(bytes, 1)));
+  }
+}
 
 void RecordReport::progress(size_t film, int percent) {
   const std::lock_guard<std::mutex> lock(mutex_);
   in_work_[film] = percent;
   erase();
   draw();
+  const auto now = std::chrono::steady_clock::now();
+  if (is_terminal_ || now - told_ < kTellEvery) return;
+  told_ = now;
+  std::cout << in_work() << std::endl;
 }
 
 void RecordReport::done(size_t film, Result result, const std::string& text) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++count_[static_cast<size_t>(result)];
-  in_work_.erase(film);
+  (in_work_.erase(film) > 0 ? work_ : skipped_) += sizes_[film];
   const bool failed = result == Result::kError;
   if (failed) failures_.emplace_back(film, text);
   print(failed ? std::cerr : std::cout, film, failed ? "failed: " + text : text);
@@ -88,7 +105,21 @@ std::string RecordReport::in_work() const {
     line +=
         "; " + one_line(name.substr(name.rfind('/') + 1)) + " " + std::to_string(percent) + " %";
   }
-  return line;
+  return line + time_left();
+}
+
+/// As the work has gone so far; empty as long as that is not known.
+std::string RecordReport::time_left() const {
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+  double done = work_;
+  for (const auto& [film, percent] : in_work_) done += sizes_[film] * percent / 100;
+  if (taken.count() < kLeastWork_s || done <= 0) return {};
+  const double all = std::accumulate(sizes_.begin(), sizes_.end(), -skipped_);
+  const long left_s = std::lround(taken.count() * std::max(0.0, all - done) / done);
+  constexpr long kMinute_s = 60;
+  const std::string seconds = std::to_string(left_s % kMinute_s) + " s left";
+  return "; about " + (left_s < kMinute_s ? "" : std::to_string(left_s / kMinute_s) + " min ") +
+         seconds;
 }
 
 void RecordReport::draw() const {

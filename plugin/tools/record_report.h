@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -14,7 +15,9 @@
 namespace spidar {
 
 /// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
-/// has a line below with the films that are in work. The functions can be called from any thread.
+/// has a line below with the films that are in work and the time that is left; elsewhere, it is
+/// printed once in ten seconds. The time is estimated by the sizes of the files. The functions can
+/// be called from any thread.
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
@@ -32,12 +35,17 @@ class RecordReport {
  private:
   void print(std::ostream& out, size_t film, const std::string& text);
   std::string in_work() const;
+  std::string time_left() const;
   void draw() const;
   void erase() const;
 
   const std::vector<std::string> films_;
   const bool is_terminal_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
+  std::chrono::steady_clock::time_point told_ = begin_;
+  std::vector<double> sizes_;      // of the films, in bytes, at least 1
+  double work_ = 0, skipped_ = 0;  // bytes of those that are done, and of which were there
   std::map<size_t, int> in_work_;  // film and percent
   std::array<size_t, 4> count_{};  // of each result
   std::vector<std::pair<size_t, std::string>> failures_;

@@ -95,6 +95,10 @@ Properties of spidarmotion that change the force come last, after two dashes:
                     "flac (24 bits, the default), mka or wav (both 32-bit floating point)")
         ->check(CLI::IsMember({"flac", "mka", "wav"}))
         ->type_name("FORMAT");
+    app->add_option("--manifest", record_.manifest,
+                    "append a line of JSON to this file for each film: what became of it, and what "
+                    "is in its track")
+        ->type_name("FILE");
     app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
   }
   int record() {

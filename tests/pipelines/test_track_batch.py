@@ -2,7 +2,9 @@
 # Copyright 2026 the gst-spidar authors
 """spidartrack record with several films, processes and properties."""
 import fcntl
+import json
 import os
+import signal
 import subprocess
 import time
 import unittest
@@ -14,6 +16,9 @@ from track_case import PROGRAM
 class Batch(track_case.TrackCase):
     def tearDown(self):
         self.assertFalse([name for name in self.files() if ".part-" in name])
+
+    def json_lines(self, name):
+        return [json.loads(line) for line in self.path(name).read_text().splitlines()]
 
     def test_wrong_usage_says_what_would_be_right(self):
         self.assertIn("record", self.spidartrack("--help"))
@@ -71,14 +76,25 @@ class Batch(track_case.TrackCase):
         self.path("in/notes.txt").write_text("no film")
         self.path("in/empty.mkv").touch()
         self.path("out").mkdir()
-        command = ("record", "--jobs", "1", "in", "--folder", "out")
+        command = ("record", "--jobs", "1", "in", "--folder", "out", "--manifest", "done.jsonl")
         said = self.spidartrack(*command, status=1)
         for part in ("[1/3] in/a b/LARGE.AVI: out/a b/LARGE.AVI.haptic.flac",
                      "[2/3] in/small.avi: out/small.avi.haptic.flac", "2 recorded, 0 there, 1 failed"):
             self.assertIn(part, said)
         self.assertEqual(len(self.samples("out/a b/LARGE.AVI.haptic.flac")), 3000)
+        lines = self.json_lines("done.jsonl")
+        self.assertEqual([(line["film"], line["result"]) for line in lines],
+                         [("in/a b/LARGE.AVI", "recorded"), ("in/small.avi", "recorded"), ("in/empty.mkv", "failed")])
+        self.assertEqual(lines[0]["duration_s"], 3)
+        self.assertGreater(lines[0]["largest_force_N"], .1)
+        self.assertTrue(0 < lines[0]["felt"] <= 1)
+        self.assertTrue(lines[2]["error"])
+        self.assertNotIn("track", lines[2])
         # The other failed, and is tried again.
-        self.assertIn("0 recorded, 2 there, 1 failed", self.spidartrack(*command, status=1))
+        self.spidartrack(*command, status=1)
+        again = self.json_lines("done.jsonl")
+        self.assertEqual(len(again), 6)
+        self.assertEqual((again[3]["result"], again[3]["felt"]), ("there", lines[0]["felt"]))
         self.path("none").mkdir()
         self.assert_said("none: this folder has no film", "record", "none")
         # A share that is not mounted is not written to under its name.
@@ -98,6 +114,22 @@ class Batch(track_case.TrackCase):
         self.assertRegex(said, r"pan.avi.haptic.flac; \d % of its frames are felt; 9\d %: .*camera")
         self.assertEqual(self.spidartrack("check", "pan.avi", status=1), "pan.avi.haptic.flac: 0 % of it is felt: the "
                          "force is below 0.04 N, and there is no torque\n")
+
+    def test_a_manifest_that_cannot_be_written_is_an_error(self):
+        self.make_film("x.avi")
+        self.assert_said("the manifest none/done.jsonl cannot be written: No such file or directory",
+                         "record", "x.avi", "--manifest", "none/done.jsonl")
+        self.assertFalse(self.path("x.avi.haptic.flac").exists())
+        self.assert_said("the manifest /dev/full cannot be written: No space left on device",
+                         "record", "x.avi", "--manifest", "/dev/full")
+
+    def test_a_file_behind_a_link_gets_no_manifest(self):
+        self.make_film("x.avi")
+        self.path("kept").write_text("as it was")
+        self.path("link").symlink_to("kept")
+        self.assert_said("the manifest link cannot be written: it is a link, and what it leads to is not overwritten",
+                         "record", "x.avi", "--manifest", "link")
+        self.assertEqual(self.path("kept").read_text(), "as it was")
 
     def claim(self, name):
         """Is the other process that records a film."""
@@ -213,6 +245,21 @@ class Batch(track_case.TrackCase):
             self.assertEqual(len(read), 1000, name)
         self.assertFalse(self.path("ran").exists())
 
+    @track_case.needs("ffmpeg")
+    def test_a_long_recording_tells_how_long_it_takes(self):
+        """It is stopped for ten seconds, after which a line is due."""
+        self.make_film("x.avi", 250)
+        self.run_in_folder("ffmpeg -nostdin -v error -stream_loop 19 -i x.avi -c copy long.avi")
+        batch = self.start("long.avi")
+        while not any(part.stat().st_size for part in self.folder.glob(".part-*")):
+            time.sleep(.01)
+        batch.send_signal(signal.SIGSTOP)
+        time.sleep(10.1)
+        batch.send_signal(signal.SIGCONT)
+        self.assertEqual(batch.wait(), 0)
+        self.assertRegex(self.path("log").read_text(),
+                         r"^0 of 1 done; long.avi \d+ %; about (\d+ min )?\d+ s left\n")
+
     def test_a_batch_ends_with_a_summary(self):
         self.make_film("x.avi", 50)
         self.make_film("y.avi", 50)
@@ -220,7 +267,7 @@ class Batch(track_case.TrackCase):
         self.assertNotIn("recorded", self.spidartrack("record", "y.avi"), "one film needs none")
         said = self.spidartrack("record", "-j1", "x.avi", "y.avi", "none.avi", "bad\nname.avi", status=1)
         self.assertIn("1 recorded, 1 there, 2 failed:\n  none.avi: there is no such file\n  bad?name.avi: ", said)
-        self.assertNotIn("done;", said, "progress is for terminals")
+        self.assertNotIn("done;", said, "progress is for terminals, and for what takes long")
         # A line for each film, the summary, and the two that failed once more.
         self.assertEqual(said.count("\n"), 4 + 1 + 2, said)
         terminal = self.run_in_folder(f"script -qec '{PROGRAM} record --force x.avi' /dev/null")
