@@ -100,7 +100,7 @@ Chosen ForceRenderer::choose(const Frame& frame, const FilmPlace& film) {
   if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
   return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
                          frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
-                         frame.picture == PictureKind::kFirst, film});
+                         frame.picture == PictureKind::kFirst, film, settings_.boxes.get()});
 }
 
 ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,

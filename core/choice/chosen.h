@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,16 @@
 #include "core/picture_turn.h"
 
 namespace spidar {
+
+/// A box that somebody else found in a picture: a detector or a tracker. Corners go from (0, 0),
+/// the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
+struct PictureBox {
+  std::string name;             ///< of what is in it, "face"
+  Eigen::Vector2d place{0, 0};  ///< the corner that is nearer to (0, 0)
+  Eigen::Vector2d far_corner{1, 1};
+};
+
+using PictureBoxes = std::vector<PictureBox>;
 
 /// Where a frame is in its film. Places of rules and clicks are those of the picture as it is
 /// shown.
@@ -38,9 +49,11 @@ struct KeptObject {
 /// What became of a wish.
 enum class ChoiceState {
   kGood,
-  kNotThere,  ///< no object was at the place; the first that begins to move there is felt
-  kNotSeen,   ///< playback began after the moment at which the object is at the place
-  kLost,      ///< the object was followed and is lost
+  kNotThere,   ///< no object was at the place; the first that begins to move there is felt
+  kNotSeen,    ///< playback began after the moment at which the object is at the place
+  kLost,       ///< the object was followed and is lost
+  kNoBox,      ///< no frame of the rule came with a box that it means
+  kBoxAtRest,  ///< boxes came, but nothing moves in them
 };
 
 struct Chosen {
@@ -61,6 +74,7 @@ struct ChoiceFrame {
   double interval_s;             ///< since the frame before; 0 when there is none
   bool is_cut;                   ///< nothing in it was in the frame before
   FilmPlace film;
+  const PictureBoxes* boxes = nullptr;  ///< that came with it; null: none did
 
   /// A place of the picture as it is shown, from the middle of the frame.
   Eigen::Vector2d px(const Eigen::Vector2d& place) const {

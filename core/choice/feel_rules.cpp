@@ -24,8 +24,8 @@ constexpr Direction kDirections[] = {
     {"leftmost", -1, 0}, {"rightmost", 1, 0}, {"topmost", 0, -1}, {"bottommost", 0, 1}};
 
 constexpr const char* kAllWords =
-    "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; "
-    "camera; nothing";
+    "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y to "
+    "X,Y; camera; nothing";
 
 [[noreturn]] void wrong(int line, const std::string& what) {
   throw FeelRulesError("line " + std::to_string(line) + ": " + what);
@@ -161,6 +161,27 @@ class RuleParser {
       wrong(rule_.line, "the region is empty: its corners are opposite ones");
     }
   }
+  void parse_box() {
+    rule_.kind = FeelKind::kBox;
+    std::string_view name = word();
+    if (name.empty() || name == "gain") return;
+    const bool is_quoted = name.front() == '"';
+    if (is_quoted) {
+      const size_t end = text_.find('"', 1);
+      if (end == std::string_view::npos || end == 1) {
+        wrong(rule_.line,
+              "the name of a box is one word, or in quotes, as in box \"traffic light\"");
+      }
+      name = text_.substr(1, end - 1);
+    }
+    if (name.size() > FeelRule::kLongestName) {
+      wrong(rule_.line, "the name of a box has at most " + std::to_string(FeelRule::kLongestName) +
+                            " bytes, and " + quote(name) + " more");
+    }
+    std::copy(name.begin(), name.end(), rule_.name.begin());
+    text_.remove_prefix(name.size() + (is_quoted ? 2 : 0));
+    skip_space();
+  }
   void parse_what() {
     for (const Direction& direction : kDirections) {
       if (!take(direction.word)) continue;
@@ -172,6 +193,8 @@ class RuleParser {
       if (!take("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
       rule_.kind = FeelKind::kObjectAt;
       rule_.place = parse_place();
+    } else if (take("box")) {
+      parse_box();
     } else if (take("region")) {
       rule_.kind = FeelKind::kRegion;
       parse_region();
@@ -204,6 +227,12 @@ class RuleParser {
 std::string number_text(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
+}
+
+/// The name as a rule writes it: in quotes unless it is a word.
+std::string name_text(const std::string& name) {
+  const bool is_word = name.find_first_of(" \t") == std::string::npos && name != "gain";
+  return is_word ? name : '"' + name + '"';
 }
 
 }  // namespace
@@ -248,6 +277,11 @@ const FeelRule* FeelRules::at(int64_t stream_ns) const {
   return stream_ns < rule.to_ns ? &rule : nullptr;
 }
 
+bool FeelRules::has_boxes() const {
+  return std::any_of(rules_.begin(), rules_.end(),
+                     [](const FeelRule& rule) { return rule.kind == FeelKind::kBox; });
+}
+
 std::string FeelRules::text() const {
   std::string text;
   for (const FeelRule& rule : rules_) text += (text.empty() ? "" : "; ") + rule_text(rule);
@@ -270,6 +304,9 @@ std::string rule_text(const FeelRule& rule) {
     case FeelKind::kFurthest:
       for (const Direction& direction : kDirections)
         if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
+      break;
+    case FeelKind::kBox:
+      text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";
       break;
     case FeelKind::kRegion:
       text += "region " + place_text(rule.place) + " to " + place_text(rule.far_corner);

@@ -3,6 +3,8 @@
 /// What is felt of a film, and when, in the words of a person.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -14,11 +16,12 @@
 
 namespace spidar {
 
-enum class FeelKind { kObjectAt, kLargest, kFurthest, kRegion, kCamera, kNothing };
+enum class FeelKind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
 
 /// One line. Places go from (0, 0), the top left corner of the picture as it is shown, to (1, 1).
 struct FeelRule {
   static constexpr int64_t kNoEnd = std::numeric_limits<int64_t>::max();
+  static constexpr size_t kLongestName = 63;  ///< bytes
 
   int line = 0;  ///< in the text, from 1 on
   int64_t from_ns = 0;
@@ -28,7 +31,9 @@ struct FeelRule {
   Eigen::Vector2d place{0, 0};
   Eigen::Vector2d far_corner{1, 1};  ///< kRegion
   Eigen::Vector2d direction{0, 0};   ///< kFurthest: of length 1
-  double gain = 1;                   ///< of force and torque, 0 … 10
+  /// kBox: what the box is called, up to a zero; empty when any is meant. Copies allocate nothing.
+  std::array<char, kLongestName + 1> name{};
+  double gain = 1;  ///< of force and torque, 0 … 10
 
   bool is_about_objects() const { return kind != FeelKind::kCamera && kind != FeelKind::kNothing; }
 };
@@ -47,13 +52,16 @@ class FeelRules {
   ///     [FROM-[TO]] WHAT [gain G]
   ///
   /// Times are of the film, as 12.5, 0:12 or 1:02:03; without them, all of it is meant. WHAT is one
-  /// of: object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y;
-  /// camera; nothing. Throws FeelRulesError, also when there is no rule.
+  /// of: object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y
+  /// to X,Y; camera; nothing. A NAME of several words is in quotes. Throws FeelRulesError, also
+  /// when there is no rule.
   explicit FeelRules(std::string_view text);
 
   const std::vector<FeelRule>& rules() const { return rules_; }
   /// The rule of this moment; null when there is none.
   const FeelRule* at(int64_t stream_ns) const;
+  /// Whether a rule means boxes that come with the frames.
+  bool has_boxes() const;
   /// The rules in one line, in the same form however they were typed.
   std::string text() const;
 

@@ -23,7 +23,8 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame
 
 /// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
 bool goes_on(const FeelRule& before, const FeelRule& now) {
-  return before.kind == now.kind && before.from_ns == now.from_ns && before.place == now.place &&
+  return before.kind == now.kind && before.kind != FeelKind::kBox &&
+         before.from_ns == now.from_ns && before.place == now.place &&
          before.far_corner == now.far_corner && before.direction == now.direction;
 }
 
@@ -162,9 +163,13 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     const double since_s = static_cast<double>(frame.film.stream_ns - rule.from_ns) * 1e-9;
     seen_from_begin_ = since_s <= FollowedObject::kLook_s;
     ruled_.begin(frame.px(rule.place), since_s);
+    boxed_.begin(rule.name.data());
   }
   if (rule.kind == FeelKind::kLargest || rule.kind == FeelKind::kFurthest) {
     choice.object = best(rule, frame);
+  } else if (rule.kind == FeelKind::kBox) {
+    choice.object = boxed_.see(frame);
+    choice.state = boxed_.state();
   } else if (rule.kind == FeelKind::kObjectAt && !seen_from_begin_) {
     choice.state = ChoiceState::kNotSeen;
   } else if (rule.kind == FeelKind::kObjectAt) {
@@ -199,6 +204,7 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
 Chosen ObjectChoice::choose(const ChoiceFrame& frame) {
   if (frame.is_cut) {
     ruled_.cut();
+    boxed_.cut();
     clicked_.cut();
     best_ = 0;
   }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/choice/boxed_object.h"
 #include "core/choice/chosen.h"
 #include "core/choice/feel_rules.h"
 #include "core/motion/camera/background.h"
@@ -103,7 +104,8 @@ class ObjectChoice {
   bool seen_from_begin_ = false;    ///< the rule, see ChoiceState::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< nothing was at the place of `ruled_`
-  uint32_t best_ = 0;    ///< of kLargest and kFurthest
+  BoxedObject boxed_;
+  uint32_t best_ = 0;  ///< of kLargest and kFurthest
   double best_missing_s_ = 0;
 
   KeptObject kept_;

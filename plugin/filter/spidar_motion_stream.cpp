@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "plugin/filter/frame/object_metas.h"
 #include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/gobject/exceptions.h"
@@ -66,8 +67,9 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
   self->engine->set_track(std::move(track));
 }
 
-/// With pointer and choice of this moment, for a frame before it is turned.
-static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
+/// With pointer and choice of this moment, for `frame` before it is turned.
+static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVideoFrame& frame,
+                                             const spidar::TouchProperties& touch) {
   const bool has_new_rules = self->choice->is_to_read();
   GST_OBJECT_LOCK(self);
   spidar::AnalyzerSettings settings = self->properties->analyzer;
@@ -82,6 +84,9 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self) {
   const spidar::PictureTurn& turn = self->engine->turn();
   settings.pointer = turn.place_coded(settings.pointer);
   self->choice->apply(pointer == PointerKind::kMouse, turn, settings);
+  if (self->choice->wants_boxes()) {
+    settings.boxes = spidar::boxes_of(frame, touch.packed(), turn);
+  }
   return settings;
 }
 
@@ -120,7 +125,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
 
   FrameReport* report = nullptr;
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
-    settings = settings_now(self);
+    settings = settings_now(self, *frame, touch);
     take_track(self, frame->info);
     report = &self->engine->process({*frame, GST_BASE_TRANSFORM(filter)->segment, settings, touch});
     self->display->show(*report, display, settings.axes, *frame);

@@ -75,12 +75,20 @@ TEST(FeelRules, HaveOneFormInWhichTheyCanBeReadAgain) {
             "rightmost; 1:00:03-1:00:04 bottommost; 1:00:04- nothing");
   EXPECT_EQ(FeelRules(text).text(), text);
   EXPECT_EQ(FeelRules(" leftmost ").text(), "leftmost");
+  const char* const boxes =
+      "0:00-0:01 box; 0:01-0:02 box gain 2; 0:02-0:03 box face gain 0.5; 0:03- box \"traffic "
+      "light\"";
+  EXPECT_EQ(FeelRules(boxes).text(), boxes);
+  EXPECT_STREQ(FeelRules("box \"gain\" gain 2").rules()[0].name.data(), "gain");
+  EXPECT_STREQ(FeelRules("box gain 2").rules()[0].name.data(), "");
+  const std::string longest(FeelRule::kLongestName, 'x');
+  EXPECT_EQ(FeelRules("box " + longest).rules()[0].name.data(), longest);
 }
 
 TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   const std::string all =
-      "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; "
-      "camera; nothing";
+      "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y "
+      "to X,Y; camera; nothing";
   const std::string no_place =
       " is no place such as 0.31,0.62: shares, from 0 to 1, of the picture's width and height, "
       "from its top left corner";
@@ -109,6 +117,13 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
       {"object at nan,0.5", "line 1: \"nan,0.5\"" + no_place},
       {"region 0,0", "line 1: a region is region X,Y to X,Y, from corner to corner"},
       {"region 0,0 to 0,1", "line 1: the region is empty: its corners are opposite ones"},
+      {"box \"traffic light",
+       "line 1: the name of a box is one word, or in quotes, as in box \"traffic light\""},
+      {"box \"\"",
+       "line 1: the name of a box is one word, or in quotes, as in box \"traffic light\""},
+      {"box traffic light", "line 1: \"light\" follows the rule; only gain G can, as in gain 1.5"},
+      {"box " + std::string(64, 'x'), "line 1: the name of a box has at most 63 bytes, and \"" +
+                                          std::string(40, 'x') + "…\" more"},
       {"largest gain 11", "line 1: \"11\" is no gain from 0 to 10"},
       {"largest gain", "line 1: \"\" is no gain from 0 to 10"},
       {"largest 1.5", "line 1: \"1.5\" follows the rule; only gain G can, as in gain 1.5"},
@@ -137,7 +152,7 @@ TEST(FeelEdit, TakesTheTimeOfOtherRules) {
             "0:00-0:10 camera; " + chosen + "; 0:20- largest");
   EXPECT_EQ(after("largest gain 2", edit),
             "0:00-0:10 largest gain 2; " + chosen + "; 0:20- largest gain 2");
-  EXPECT_EQ(after("5-12 camera; 12-13 leftmost; 13-14 nothing; 18-25 region 0,0 to 1,1", edit),
+  EXPECT_EQ(after("5-12 camera; 12-13 box; 13-14 nothing; 18-25 region 0,0 to 1,1", edit),
             "0:05-0:10 camera; " + chosen + "; 0:20-0:25 region 0,0 to 1,1");
   EXPECT_EQ(after("10-20 object at 0.5,0.5 gain 3", edit), chosen);
   EXPECT_EQ(after("30- camera", edit), chosen + "; 0:30- camera");

@@ -149,5 +149,26 @@ TEST_F(ObjectMetas, AreThereOnlyWhenAskedFor) {
   EXPECT_EQ(regions_after(12).size(), 2u) << "those that came with the frame";
 }
 
+TEST_F(ObjectMetas, AreReadAsTheyAreWritten) {
+  open("attach-meta=true");
+  for (int n = 0; n < 11; ++n) gst_buffer_unref(next());
+  GstBuffer* const out = next();
+  const std::vector<Region> regions = regions_of(out);
+  int ours = 0, others = 0;
+  for (const ObjectBox& box : read_object_metas(out)) {
+    (box.name == kObjectName ? ours : others)++;
+    for (const Region& region : regions) {
+      if (region.x == box.x && region.y == box.y) {
+        EXPECT_EQ(region.width, box.width);
+        EXPECT_EQ(region.height, box.height);
+        EXPECT_EQ(region.name, box.name);
+      }
+    }
+  }
+  EXPECT_EQ(others, 1);
+  EXPECT_EQ(ours, 2);
+  gst_buffer_unref(out);
+}
+
 }  // namespace
 }  // namespace spidar::test::object_metas_test

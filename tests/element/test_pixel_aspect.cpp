@@ -12,6 +12,7 @@
 #include "core/force/gain_controller.h"
 #include "core/force/motion_rendering.h"
 #include "plugin/filter/frame/frame_luma.h"
+#include "plugin/filter/frame/object_metas.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/texture.h"
@@ -87,22 +88,6 @@ GstCaps* caps_of(const Aspect& aspect) {
   return caps;
 }
 
-struct ObjectBox {
-  double x, y, width, height;
-};
-
-std::vector<ObjectBox> objects_on(GstBuffer* buffer) {
-  std::vector<ObjectBox> boxes;
-  gpointer state = nullptr;
-  while (GstMeta* const meta = gst_buffer_iterate_meta_filtered(
-             buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
-    const auto& region = *reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
-    boxes.push_back({static_cast<double>(region.x), static_cast<double>(region.y),
-                     static_cast<double>(region.w), static_cast<double>(region.h)});
-  }
-  return boxes;
-}
-
 /// What is said of ten frames, and the objects on the last one.
 struct Felt {
   std::vector<MotionMessage> frames;
@@ -116,7 +101,7 @@ Felt feel(const Film& film, const std::string& properties, const Aspect& aspect)
   for (int n = 0; n < 10; ++n) {
     h.push(frame_of(film, n, h.info()), static_cast<GstClockTime>(n) * kFrame);
     GstBuffer* out = gst_harness_pull(h.harness());
-    felt.boxes = objects_on(out);
+    felt.boxes = read_object_metas(out);
     gst_buffer_unref(out);
   }
   felt.frames = h.motions();

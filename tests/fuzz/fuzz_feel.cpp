@@ -4,6 +4,7 @@
 // The bytes are read as a .feel file, and once more as a selection of words of such a file. The
 // result must be an error that names a line, or rules that hold no number out of its range, that do
 // not overlap, and that mean the same when they are written and read again.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,10 +29,12 @@ bool is_place(const Eigen::Vector2d& place) {
 }
 
 bool is_sound(const FeelRule& rule) {
+  const bool has_end = std::find(rule.name.begin(), rule.name.end(), '\0') != rule.name.end();
   const bool has_direction =
       rule.kind != FeelKind::kFurthest || std::fabs(rule.direction.norm() - 1) < 1e-12;
-  return rule.from_ns >= 0 && rule.to_ns > rule.from_ns && rule.line > 0 && has_direction &&
-         is_place(rule.place) && is_place(rule.far_corner) && rule.gain >= 0 && rule.gain <= 10;
+  return rule.from_ns >= 0 && rule.to_ns > rule.from_ns && rule.line > 0 && has_end &&
+         has_direction && is_place(rule.place) && is_place(rule.far_corner) && rule.gain >= 0 &&
+         rule.gain <= 10;
 }
 
 void check(const FeelRules& rules) {
@@ -66,10 +69,10 @@ void read(const std::string& text) {
 
 /// What a file is made of, and a little of what it is not.
 constexpr const char* kWords[] = {
-    "0:12-",      "1:02:03.5 - ", "12.5",        "-",        "0.31,0.62", "1,0 to 0,1",
-    "object at ", "region",       "largest",     "leftmost", "topmost",   "camera",
-    "nothing",    " gain 1.5",    " gain 11",    ";",        "\n",        " ",
-    "# ;",        "1e308",        "99999999999", "nan",      "-1",        "\xEF\xBB\xBF",
+    "0:12-",   "1:02:03.5 - ", "12.5",        "-",        "0.31,0.62", "1,0 to 0,1",   "object at ",
+    "region",  "largest",      "leftmost",    "topmost",  "camera",    "nothing",      "box ",
+    "\"a b\"", "face",         " gain 1.5",   " gain 11", ";",         "\n",           " ",
+    "# ;",     "1e308",        "99999999999", "nan",      "-1",        "\xEF\xBB\xBF", "\"",
 };
 
 }  // namespace

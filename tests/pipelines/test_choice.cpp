@@ -227,7 +227,7 @@ TEST(Feel, MistakesAreNamedOnceAndTheVideoGoesOn) {
   const std::pair<std::string, std::string> mistakes[] = {
       {"0-1 camera; 1-2 bigest",
        "feel, line 2: \"bigest\" is none of: object at X,Y; largest; "
-       "leftmost; rightmost; topmost; bottommost; region X,Y to X,Y; "
+       "leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y to X,Y; "
        "camera; nothing."},
       {"/nowhere/film.feel", "/nowhere/film.feel: there is no such file."},
       {"0.4- object at 0.02,0.98", "feel, line 1: no object was at 0.02,0.98 at 0:00.4."}};

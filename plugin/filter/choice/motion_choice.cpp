@@ -115,6 +115,22 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
            "another rule begins where it is seen again.",
            end.c_str()));
       break;
+    case ChoiceState::kNoBox:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FAILED,
+          ("%s, line %d: no frame comes with a box%s%s.", name, rule.line,
+           rule.name[0] ? " called " : "", rule.name.data()),
+          ("A detector or tracker before this element attaches boxes to the frames, as "
+           "GstVideoRegionOfInterestMeta. Nothing is felt until one comes, or %s.",
+           end.c_str()));
+      break;
+    case ChoiceState::kBoxAtRest:
+      GST_ELEMENT_WARNING(
+          element_, STREAM, FAILED,
+          ("%s, line %d: nothing moves in the boxes that come with the frames.", name, rule.line),
+          ("A box chooses the object that moves in it. Nothing is felt until one does, or %s.",
+           end.c_str()));
+      break;
     case ChoiceState::kGood:
       break;
   }

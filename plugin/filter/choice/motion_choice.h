@@ -44,6 +44,9 @@ class MotionChoice {
   /// duration of the film.
   void read(const std::string& feel, GstPad* sink);
 
+  /// Whether a rule means boxes that come with frames.
+  bool wants_boxes() const { return named_.rules && named_.rules->has_boxes(); }
+
   /// Completes the settings of the next frame: by the rules and, when `with_mouse`, the mouse.
   void apply(bool with_mouse, const PictureTurn& turn, AnalyzerSettings& settings);
 

@@ -118,7 +118,8 @@ Wording wording(NoForceReason limit) noexcept {
 bool is_withheld(const Frame& frame) {
   const Chosen& choice = frame.choice;
   if (choice.is_free()) return false;
-  const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt;
+  const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt ||
+                      choice.rule->kind == FeelKind::kBox;
   if (is_one) return frame.felt_object == 0;
   return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
 }

@@ -3,9 +3,18 @@
 #include "plugin/filter/frame/object_metas.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "plugin/filter/frame/frame_luma.h"
 
 namespace spidar {
 namespace {
+
+const char* text_of(GQuark quark) {
+  const char* const text = g_quark_to_string(quark);
+  return text ? text : "";
+}
 
 void remove_ours(GstBuffer* buffer) {
   const auto remove = [](GstBuffer*, GstMeta** meta, gpointer ours) -> gboolean {
@@ -18,13 +27,8 @@ void remove_ours(GstBuffer* buffer) {
                           GUINT_TO_POINTER(g_quark_from_static_string(kObjectName)));
 }
 
-/// In whole pixels of the frame.
-struct Box {
-  guint x, y, width, height;
-};
-
 /// The whole pixels of the frame that it touches; an object may reach over the edge.
-Box box_of(const MovingObject& object, const VisiblePart& part, int width, int height) {
+ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width, int height) {
   const Eigen::Vector2d middle_px =
       Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height) + object.position_px;
   const Eigen::Array2d size_px(width, height);
@@ -32,9 +36,7 @@ Box box_of(const MovingObject& object, const VisiblePart& part, int width, int h
       (middle_px - object.size_px / 2).array().floor().max(0.0).min(size_px);
   const Eigen::Array2d to_px =
       (middle_px + object.size_px / 2).array().ceil().max(0.0).min(size_px);
-  const auto whole = [](double px) { return static_cast<guint>(std::max(px, 0.0)); };
-  return {whole(from_px.x()), whole(from_px.y()), whole(to_px.x() - from_px.x()),
-          whole(to_px.y() - from_px.y())};
+  return {kObjectName, from_px.x(), from_px.y(), (to_px - from_px).x(), (to_px - from_px).y()};
 }
 
 GstStructure* motion_of_object(const MovingObject& object, bool felt, int width, int height) {
@@ -50,18 +52,56 @@ GstStructure* motion_of_object(const MovingObject& object, bool felt, int width,
 
 }  // namespace
 
+std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
+  std::vector<ObjectBox> boxes;
+  gpointer state = nullptr;
+  while (GstMeta* const meta = gst_buffer_iterate_meta_filtered(
+             buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
+    const auto& region = *reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
+    // Trackers store corners left of the picture or above it as negative numbers.
+    boxes.push_back({text_of(region.roi_type), static_cast<double>(static_cast<gint>(region.x)),
+                     static_cast<double>(static_cast<gint>(region.y)),
+                     static_cast<double>(region.w), static_cast<double>(region.h)});
+  }
+  boxes.erase(
+      std::remove_if(boxes.begin(), boxes.end(),
+                     [](const ObjectBox& box) { return box.width <= 0 || box.height <= 0; }),
+      boxes.end());
+  return boxes;
+}
+
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height) {
   remove_ours(buffer);
   for (const MovingObject& object : report.frame.objects) {
     if (object.tracks == 0) continue;
-    const Box box = box_of(object, report.visible, width, height);
-    if (box.width == 0 || box.height == 0) continue;
+    const ObjectBox box = box_of(object, report.visible, width, height);
+    if (box.width <= 0 || box.height <= 0) continue;
     GstVideoRegionOfInterestMeta* const region = gst_buffer_add_video_region_of_interest_meta(
-        buffer, kObjectName, box.x, box.y, box.width, box.height);
+        buffer, kObjectName, static_cast<guint>(box.x), static_cast<guint>(box.y),
+        static_cast<guint>(box.width), static_cast<guint>(box.height));
     region->id = static_cast<gint>(object.id);
     gst_video_region_of_interest_meta_add_param(
         region, motion_of_object(object, object.id == report.frame.felt_object, width, height));
   }
+}
+
+std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
+                                             std::optional<DepthLayout> packed,
+                                             const PictureTurn& turn) {
+  std::vector<ObjectBox> found = read_object_metas(frame.buffer);
+  VisiblePart part = visible_part(frame);
+  if (packed) (*packed == DepthLayout::kRight ? part.width : part.height) /= 2;
+  if (found.empty() || part.width <= 0 || part.height <= 0) return nullptr;
+  const auto place = [&](double x_px, double y_px) {
+    return turn.place_shown({(x_px - part.x) / part.width, (y_px - part.y) / part.height});
+  };
+  auto boxes = std::make_shared<PictureBoxes>();
+  for (ObjectBox& box : found) {
+    const Eigen::Vector2d a = place(box.x, box.y);
+    const Eigen::Vector2d b = place(box.x + box.width, box.y + box.height);
+    boxes->push_back({std::move(box.name), a.cwiseMin(b), a.cwiseMax(b)});
+  }
+  return boxes;
 }
 
 }  // namespace spidar

@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The objects of a frame, as elements of other projects read them.
+/// Boxes of things in a picture, as elements of other projects attach them to frames.
 #pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <gst/video/video.h>
 
+#include "core/choice/chosen.h"
+#include "core/picture_turn.h"
+#include "core/touch/depth_picture.h"
 #include "plugin/filter/frame/frame_report.h"
 
 namespace spidar {
 
+/// In pixels of the frame that has it; it may lie partly outside.
+struct ObjectBox {
+  std::string name;  ///< of what is in it, "face"
+  double x, y, width, height;
+};
+
+/// Of GstVideoRegionOfInterestMeta. Those without a size are left out. Their ids count them within
+/// a frame, so that they do not tell which is which in the next one.
+std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
+
 /// The name of our objects.
 constexpr const char* kObjectName = "spidar-object";
 
-/// Attaches the objects in sight to `buffer`, which is writable, as GstVideoRegionOfInterestMeta.
-/// Those that another spidarmotion has attached are replaced.
+/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Those that
+/// another spidarmotion has attached are replaced.
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height);
+
+/// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
+std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
+                                             std::optional<DepthLayout> packed,
+                                             const PictureTurn& turn);
 
 }  // namespace spidar
