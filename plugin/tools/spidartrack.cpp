@@ -152,12 +152,23 @@ in any case. Also prints how much of the track is felt.)");
     app->footer(R"(The formats follow from how the names end:
   .flac .mka .wav  sound of six channels; also read from other containers and from films
   .hjif            MPEG's format for haptics
-An existing TO is replaced when the new file is complete.)");
+  .funscript       one channel as the positions of a linear device
+  .ahap            a vibration as strong as the force, for telephones; not read
+An existing TO is replaced when the new file is complete. Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
     app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
-    app->add_option("--tolerance", convert_.tolerance,
-                    "largest error of the curves of HJIF, as a share of the full scale; default: "
-                    "0.0004")
+    app->add_option("--axis", convert_.axis,
+                    "the channel of a funscript: fx, fy (default), fz, tx, ty or tz")
+        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}))
+        ->type_name("CHANNEL");
+    app->add_option("--gain", convert_.gain,
+                    "factor for a funscript or AHAP; default: the largest value of the "
+                    "track fills the range")
+        ->check(number(1e-3, 1e6))
+        ->type_name("FACTOR");
+    app->add_option("--tolerance", convert_.save.tolerance,
+                    "largest error of curves, as a share of the full scale; default: 0.0004 for "
+                    "HJIF, 0.02 for AHAP, 0.01 for a funscript")
         ->check(number(0, 1))
         ->type_name("SHARE");
   }

@@ -25,7 +25,9 @@ struct CheckOptions {
 
 struct ConvertOptions {
   std::string from, to;
-  std::optional<double> tolerance;  ///< see SaveOptions
+  std::string axis;            ///< the channel by its name; empty: the usual one
+  std::optional<double> gain;  ///< empty: that which fills the range of `to`
+  SaveOptions save;
 };
 
 struct PlotOptions {

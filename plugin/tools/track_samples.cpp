@@ -10,6 +10,8 @@
 
 #include <gst/gst.h>
 
+#include "core/track/ahap.h"
+#include "core/track/funscript.h"
 #include "core/track/hjif.h"
 #include "core/track/track_reader.h"
 #include "plugin/gobject/ref.h"
@@ -57,7 +59,7 @@ std::vector<TrackSample> samples_of(const TrackFile& track) {
 TrackCondition find_track(const std::string& path, Film& film) {
   TrackCondition found;
   found.track = path;
-  for (const char* end : {".flac", ".wav", ".mka", ".hjif"}) {
+  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript", ".ahap"}) {
     if (ends_with(path, end)) return found;
   }
   try {
@@ -112,11 +114,18 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition) {
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition,
+                                    size_t funscript_axis) {
   Film film;
   TrackCondition found = find_track(path, film);
   std::vector<TrackSample> samples;
-  if (ends_with(path, ".hjif")) {
+  if (ends_with(path, ".funscript")) {
+    samples = read_funscript(read_text(path), funscript_axis);
+  } else if (ends_with(path, ".ahap")) {
+    throw std::runtime_error(path +
+                             ": AHAP has neither directions nor torque, so it is written, but not "
+                             "read; use the track that it was made from");
+  } else if (ends_with(path, ".hjif")) {
     samples = read_hjif(read_text(path));
   } else {
     const TrackFile track = read_track_file(found.track);
@@ -138,14 +147,20 @@ void expect_own_track(const TrackCondition& condition) {
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options) {
   const std::string encoder = encoder_of(path);
-  if (encoder.empty() && !ends_with(path, ".hjif")) {
-    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif");
+  const bool is_hjif = ends_with(path, ".hjif"), is_ahap = ends_with(path, ".ahap");
+  if (encoder.empty() && !is_hjif && !is_ahap && !ends_with(path, ".funscript")) {
+    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
   }
   PartFile part(path);
   if (!encoder.empty()) {
     write_sound(part, encoder, samples, options.notes);
-  } else {
+  } else if (is_hjif) {
     part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
+  } else if (is_ahap) {
+    part.write(options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
+  } else {
+    part.write(
+        write_funscript(samples, options.axis, options.tolerance.value_or(kFunscriptTolerance)));
   }
   part.publish();
 }

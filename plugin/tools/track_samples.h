@@ -28,21 +28,30 @@ struct TrackCondition {
   TrackNotes notes;
 };
 
+/// The force upwards: the channel of formats that have only one.
+constexpr size_t kUsualAxis = 1;
+
 /// Of a track, or of a film with a track inside it or beside it. The format follows from the end of
-/// the name: HJIF (`.hjif`), else sound of any rate that spidarsink accepts. Gaps become silence,
-/// and so do samples that are not numbers, which `condition` counts. Throws std::runtime_error.
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr);
+/// the name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
+/// accepts. Gaps become silence, and so do samples that are not numbers, which `condition` counts.
+/// Throws std::runtime_error.
+std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr,
+                                    size_t funscript_axis = kUsualAxis);
 
 /// Throws std::runtime_error when the track is that of another film than the one that was given.
 void expect_own_track(const TrackCondition& condition);
 
 struct SaveOptions {
-  std::optional<double> tolerance;  ///< of HJIF, of the full scale; empty: its default
-  TrackNotes notes;                 ///< for sound
+  std::optional<double>
+      tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
+  size_t axis = kUsualAxis;  ///< the channel of a funscript
+  double gain = 1;           ///< that the samples have been multiplied by
+  TrackNotes notes;          ///< for sound
 };
 
-/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32) or `.hjif`. An
-/// existing file is replaced when the new one is complete. Throws std::runtime_error.
+/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif`,
+/// `.ahap` or `.funscript`. An existing file is replaced when the new one is complete. Throws
+/// std::runtime_error.
 void save_track(const std::string& path, const std::vector<TrackSample>& samples,
                 const SaveOptions& options = {});
 

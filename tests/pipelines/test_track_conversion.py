@@ -7,7 +7,7 @@ import math
 import unittest
 
 import track_case
-from track_case import FULL_SCALE
+from track_case import CHANNELS, FULL_SCALE
 
 # Half a step of 24 bits, and what a float below 1 is rounded by.
 HALF_STEP = 2 ** -24 + 2 ** -25
@@ -44,9 +44,48 @@ class Conversion(track_case.TrackCase):
             self.assertLessEqual(difference([[float(row[name]) / scale for name, scale in zip(columns, FULL_SCALE)]],
                                             [sample]), 1e-6)
 
+    def test_funscripts(self):
+        wide = (.1, -.2, .3, -.4, .5, -.6)
+        self.make_track(sample=lambda _: wide, count=100)
+        for axis, share in zip(CHANNELS, wide):
+            self.spidartrack("convert", "a.wav", "a.funscript", "--axis", axis, "--gain", "1")
+            script = json.loads(self.path("a.funscript").read_text())
+            self.assertEqual(script["actions"], [{"at": at, "pos": round(50 + 50 * share)} for at in (0, 99)])
+        self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
+        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx"), "")
+        read = self.samples("b.wav")
+        self.assertEqual(len(read), 101)
+        self.assertEqual((read[50], read[100]), ((.5, 0, 0, 0, 0, 0), (1, 0, 0, 0, 0, 0)))
+
+    def test_what_a_format_cannot_hold_is_said(self):
+        self.make_track(sample=lambda ms: (ms / 100, 0, 0, 0, 0, 0), count=101)
+        self.assertEqual(self.spidartrack("convert", "a.wav", "c.funscript", "--gain", "1"),
+                         "gain 1\nlost: fx up to 10 N, steps of fy below 0.2 N\n")
+        self.assertEqual(self.spidartrack("convert", "a.wav", "c.ahap", "--gain", "1"),
+                         "gain 1\nlost: the direction of the force\n")
+
+    def test_the_range_of_the_target_is_filled(self):
+        self.make_track(sample=lambda ms: (.03, .1 * math.sin(.05 * ms), .04, 0, 0, 0))
+        said = self.spidartrack("convert", "a.wav", "a.funscript")
+        self.assertEqual(said, "gain 10: the largest value fills the range; --gain 1 keeps it as it is\n"
+                         "lost: fx up to 0.3 N, fz up to 0.4 N, steps of fy below 0.02 N\n")
+        positions = [action["pos"] for action in json.loads(self.path("a.funscript").read_text())["actions"]]
+        self.assertEqual((min(positions), max(positions)), (0, 100))
+        self.assertIn("gain 8.9:", self.spidartrack("convert", "a.wav", "a.ahap"))  # of a force of .1118
+        values = [point["ParameterValue"]
+                  for event in json.loads(self.path("a.ahap").read_text())["Pattern"]
+                  for point in event.get("ParameterCurve", {}).get("ParameterCurveControlPoints", [])]
+        self.assertAlmostEqual(max(values), 1, delta=.02)  # its tolerance
+        self.make_track(sample=lambda _: (0,) * 6)
+        self.assertIn("gain 1:", self.spidartrack("convert", "a.wav", "a.funscript"))
+        self.assert_said("--gain is for .funscript and .ahap", "convert", "a.wav", "b.flac", "--gain",
+                         "2", status=2)
+
     def test_an_option_that_changes_nothing_is_an_error(self):
         self.make_track()
-        for options, why in ((("b.flac", "--tolerance", "0.1"), "--tolerance is for .hjif, not for b.flac"),
+        for options, why in ((("b.wav", "--axis", "fy"), "--axis is for .funscript, not for"),
+                             (("b.hjif", "--axis", "fy"), "--axis is for .funscript, not for"),
+                             (("b.flac", "--tolerance", "0.1"), "--tolerance is for .hjif, .ahap and .funscript, not"),
                              (("./a.wav",), "./a.wav: is to be another file than a.wav")):
             self.assert_said(why, "convert", "a.wav", *options, status=2)
         self.assert_said("ends in none of .flac .mka", "convert", "a.wav", "a.txt")
@@ -82,6 +121,8 @@ class Conversion(track_case.TrackCase):
             self.path(name).write_bytes(content[:len(content) // 2])
             self.assertIn("it is cut off: ", self.spidartrack("info", name))
             self.assert_said("s of 2.000 s are there", "check", name)
+        self.spidartrack("convert", "a.wav", "a.ahap")
+        self.assert_said("written, but not read", "info", "a.ahap")
 
     @track_case.needs("ffmpeg")
     def test_a_file_that_gstreamer_cannot_take_apart_is_refused(self):
@@ -117,9 +158,12 @@ class Conversion(track_case.TrackCase):
 
     def test_endings_may_be_in_capital_letters(self):
         self.make_track("FILM.AVI.HAPTIC.WAV")
-        for name in ("B.FLAC", "C.MKA", "D.HJIF", "F.WAV"):
+        for name in ("B.FLAC", "C.MKA", "D.HJIF", "E.FUNSCRIPT", "F.WAV"):
             self.spidartrack("convert", "FILM.AVI.HAPTIC.WAV", name)
             self.spidartrack("info", name)
+        self.spidartrack("convert", "F.WAV", "G.AHAP")
+        self.assert_said("written, but not read", "info", "G.AHAP")
+        self.assertEqual(self.path("E.FUNSCRIPT").read_bytes()[:1], b"{")
 
     def test_a_track_in_which_nothing_is_felt_is_not_ok(self):
         for sample, said in (((0,) * 6, ": the force is below 0.04 N, and there is no torque"),

@@ -21,8 +21,8 @@ class Files(track_case.TrackCase):
             with self.subTest(closed):
                 self.run_in_folder(f"{PROGRAM} record --force film.avi {closed}")
                 self.assertEqual(self.path("film.avi.haptic.flac").read_bytes(), whole)
-                self.run_in_folder(f"{PROGRAM} convert film.avi.haptic.flac a.hjif {closed}")
-                self.assertEqual(self.path("a.hjif").read_bytes()[:1], b"{")
+                self.run_in_folder(f"{PROGRAM} convert film.avi.haptic.flac a.funscript {closed}")
+                self.assertEqual(self.path("a.funscript").read_bytes()[:1], b"{")
 
     def test_a_film_has_a_track_where_the_name_of_that_fits(self):
         self.make_film()

@@ -14,6 +14,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["SPIDARTRACK"]
+CHANNELS = ("fx", "fy", "fz", "tx", "ty", "tz")
 FULL_SCALE = (10, 10, 10, 1, 1, 1)  # N, N m
 
 

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/track/funscript.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/track/keyframes.h"
+
+namespace spidar {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kMiddle = 50;
+
+struct Action {
+  size_t at_ms;
+  double share;  ///< of the full scale
+};
+
+/// A number from 0 to `most`.
+double number(const Json& action, const char* name, double most, const std::string& where) {
+  const auto found = action.is_object() ? action.find(name) : action.end();
+  if (!action.is_object() || found == action.end() || !found->is_number()) {
+    throw FunscriptError("funscript: " + where + " has no number " + name);
+  }
+  const double value = found->get<double>();
+  if (!(value >= 0 && value <= most)) {
+    std::ostringstream text;
+    text << "funscript: " << where << "." << name << " is " << value << ", not from 0 to " << most;
+    throw FunscriptError(text.str());
+  }
+  return value;
+}
+
+std::vector<Action> read_actions(const Json& root, size_t most_samples) {
+  const Json* const actions =
+      root.is_object() && root.contains("actions") ? &root["actions"] : nullptr;
+  if (!actions || !actions->is_array() || actions->empty()) {
+    throw FunscriptError("funscript: it has no actions");
+  }
+  const bool inverted = root.value("inverted", Json(false)) == Json(true);
+  constexpr double kPercent = 100;
+  const double range =
+      root.contains("range") ? number(root, "range", kPercent, "the script") : kPercent;
+  const double used = range > 0 ? range / kPercent : 1;
+  std::vector<Action> found;
+  for (size_t i = 0; i < actions->size(); ++i) {
+    const std::string where = "actions[" + std::to_string(i) + "]";
+    const double at_ms = number((*actions)[i], "at", static_cast<double>(most_samples) - 1, where);
+    const double share = used * (number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1);
+    found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -share : share});
+    if (i > 0 && found[i].at_ms <= found[i - 1].at_ms) {
+      throw FunscriptError("funscript: " + where + " is not after the one before");
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel,
+                            double tolerance) {
+  std::vector<double> shares;
+  shares.reserve(samples.size());
+  for (const TrackSample& sample : samples) {
+    const double share = sample[channel];
+    shares.push_back(std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0);
+  }
+  nlohmann::ordered_json actions = nlohmann::ordered_json::array();
+  for (const size_t i : choose_keyframes(shares, tolerance)) {
+    actions.push_back({{"at", i}, {"pos", std::lround(kMiddle + kMiddle * shares[i])}});
+  }
+  return nlohmann::ordered_json{
+             {"version", "1.0"}, {"inverted", false}, {"range", 100}, {"actions", actions}}
+             .dump() +
+         "\n";
+}
+
+std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
+                                        size_t most_samples) {
+  Json root;
+  try {
+    root = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw FunscriptError(std::string("funscript: no JSON: ") + error.what());
+  }
+  const std::vector<Action> actions = read_actions(root, most_samples);
+  std::vector<TrackSample> samples(actions.back().at_ms + 1);
+  samples[actions.front().at_ms][channel] = static_cast<float>(actions.front().share);
+  for (size_t k = 1; k < actions.size(); ++k) {
+    const Action &a = actions[k - 1], &b = actions[k];
+    const auto length_ms = static_cast<double>(b.at_ms - a.at_ms);
+    for (size_t i = a.at_ms + 1; i <= b.at_ms; ++i) {
+      const double part = static_cast<double>(i - a.at_ms) / length_ms;
+      samples[i][channel] = static_cast<float>(a.share + part * (b.share - a.share));
+    }
+  }
+  return samples;
+}
+
+}  // namespace spidar

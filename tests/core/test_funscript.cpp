@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/track/funscript.h"
+
+namespace spidar::test::funscript_test {
+namespace {
+
+TEST(Funscript, IsReadAsItWasWritten) {
+  std::vector<TrackSample> samples(5000);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double t = 1e-3 * static_cast<double>(i);
+    samples[i][4] = static_cast<float>(i % 1000 < 200 ? 0.3 : 0.9 * std::sin(6 * t));
+    samples[i][0] = 0.5F;
+  }
+  const std::vector<TrackSample> read = read_funscript(write_funscript(samples, 4), 2);
+  ASSERT_EQ(read.size(), samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    // A line differs by 0.01, and its ends by half a step of 1/50.
+    ASSERT_NEAR(read[i][2], samples[i][4], 0.02 + 1e-6) << i;
+    ASSERT_EQ(read[i][0], 0);
+  }
+}
+
+// A line over h ms that differs from the curve by e has at most the slope of the curve and 4 e / h
+// more; rounding adds one step of 2 % over h. A curve that bends by c in 1/s² leaves a line only
+// after h = √(4 e / c).
+TEST(Funscript, APlayerMovesAsFastAsTheCurve) {
+  constexpr double kPi = 3.14159265358979, kPeriod_s = 4, kAmplitude = 0.3;
+  std::vector<TrackSample> samples(10001);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double t_s = 1e-3 * static_cast<double>(i);
+    samples[i][0] = static_cast<float>(0.05 * t_s);
+    samples[i][1] = static_cast<float>(kAmplitude * std::sin(2 * kPi * t_s / kPeriod_s));
+  }
+  const double steepest = kAmplitude * 2 * kPi / kPeriod_s;
+  const double line_s = std::sqrt(4 * kFunscriptTolerance / (steepest * 2 * kPi / kPeriod_s));
+  const double most = steepest + (4 * kFunscriptTolerance + 0.02) / line_s;
+  const std::vector<TrackSample> read = read_funscript(write_funscript(samples, 1), 1);
+  for (size_t i = 1; i < read.size(); ++i) {
+    ASSERT_LE(1000 * std::fabs(read[i][1] - read[i - 1][1]), most + 1e-3) << i;
+  }
+  const std::string ramp = write_funscript(samples, 0);
+  EXPECT_EQ(ramp, R"({"version":"1.0","inverted":false,"range":100,"actions":[{"at":0,"pos":50},)"
+                  R"({"at":10000,"pos":75}]})"
+                  "\n");
+}
+
+TEST(Funscript, PositionsAreJoinedByLines) {
+  const auto samples = read_funscript(R"({"actions":[{"at":10,"pos":0},{"at":20,"pos":100}]})", 1);
+  ASSERT_EQ(samples.size(), 21u);
+  EXPECT_EQ(samples[9][1], 0);
+  EXPECT_EQ(samples[10][1], -1);
+  EXPECT_NEAR(samples[15][1], 0, 1e-6);
+  EXPECT_EQ(samples[20][1], 1);
+  const auto inverted =
+      read_funscript(R"({"inverted":true,"actions":[{"at":0,"pos":0},{"at":1,"pos":75.5}]})", 1);
+  EXPECT_EQ(inverted[0][1], 1);
+  EXPECT_NEAR(inverted[1][1], -0.51, 1e-6);
+}
+
+TEST(Funscript, OnlyTheRangeIsUsed) {
+  const auto read =
+      read_funscript(R"({"range":80,"actions":[{"at":0,"pos":0},{"at":1,"pos":100}]})", 1);
+  EXPECT_FLOAT_EQ(read[0][1], -0.8F);
+  EXPECT_FLOAT_EQ(read[1][1], 0.8F);
+  const auto all =
+      read_funscript(R"({"range":0,"actions":[{"at":0,"pos":0},{"at":1,"pos":75}]})", 1);
+  EXPECT_FLOAT_EQ(all[0][1], -1);
+  EXPECT_FLOAT_EQ(all[1][1], 0.5F);
+}
+
+TEST(Funscript, ExtremesAreClipped) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto read = read_funscript(write_funscript({{0, 3}, {0, nan}, {0, -3}}, 1), 1);
+  ASSERT_EQ(read.size(), 3u);
+  EXPECT_EQ(read[0][1], 1);
+  EXPECT_EQ(read[1][1], 0);
+  EXPECT_EQ(read[2][1], -1);
+}
+
+TEST(Funscript, MistakesAreNamed) {
+  const struct {
+    const char *text, *message;
+  } cases[] = {
+      {"", "funscript: no JSON: "},
+      {"[]", "funscript: it has no actions"},
+      {"{}", "funscript: it has no actions"},
+      {R"({"actions":7})", "funscript: it has no actions"},
+      {R"({"actions":[]})", "funscript: it has no actions"},
+      {R"({"actions":[7]})", "funscript: actions[0] has no number at"},
+      {R"({"actions":[{"at":"0","pos":0}]})", "funscript: actions[0] has no number at"},
+      {R"({"actions":[{"at":0}]})", "funscript: actions[0] has no number pos"},
+      {R"({"actions":[{"at":-1,"pos":0}]})", "funscript: actions[0].at is -1, not from 0 to"},
+      {R"({"actions":[{"at":1e300,"pos":0}]})", "funscript: actions[0].at is 1e+300, not from 0"},
+      {R"({"actions":[{"at":0,"pos":101}]})",
+       "funscript: actions[0].pos is 101, not from 0 to 100"},
+      {R"({"range":101,"actions":[{"at":0,"pos":0}]})",
+       "funscript: the script.range is 101, not from 0 to 100"},
+      {R"({"range":"all","actions":[{"at":0,"pos":0}]})", "funscript: the script has no number"},
+      {R"({"actions":[{"at":5,"pos":1},{"at":5,"pos":2}]})",
+       "funscript: actions[1] is not after the one before"},
+  };
+  for (const auto& [text, message] : cases) {
+    SCOPED_TRACE(text);
+    try {
+      read_funscript(text, 1);
+      ADD_FAILURE() << "no error";
+    } catch (const FunscriptError& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, std::string(message).size()), message);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test::funscript_test
