@@ -10,6 +10,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/listening_port.h"
 #include "spidar/transports/tty_transport.h"
@@ -121,6 +122,13 @@ BoardInfo usb_board(const UsbBoardKind& kind, const UsbDeviceInfo& device) {
   board.trial = kind.trial;
   board.note = device.accessible ? kind.note : "no permission: udev rule 70-spidar.rules";
   board.accessible = device.accessible;
+  if (!board.has_strings) return board;
+  try {
+    board.profile = remembered_profile(board.usb_id, board.serial);
+  } catch (const ProfileError& error) {
+    board.memory_trouble = error.what();
+    board.note += (board.note.empty() ? "" : "; ") + board.memory_trouble;
+  }
   return board;
 }
 

@@ -20,10 +20,11 @@ struct BoardInfo {
   Trial trial = Trial::kEmulated;
   std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
-  /// The profile with which it is driven if none is named: that of a simulation, or that of a
-  /// device without strings. Empty: none, so its motors get no force until one is named (see
-  /// profile_choice.h).
+  /// The profile with which it is driven if none is named: that of a simulation, that of a device
+  /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
+  /// no force until one is named (see profile_choice.h).
   std::string profile;
+  std::string memory_trouble;  ///< why what was confirmed cannot be read; may be empty
   /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
   /// no strings.
   std::string profile_board;

@@ -2,18 +2,35 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/profile_choice.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "spidar/profiles/replace_file.h"
 #include "spidar/session/device_factory.h"
 
 namespace spidar {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// The key of a board in the file.
+std::string key_of(const std::string& usb_id, const std::string& serial) {
+  return usb_id + " " + serial;
+}
+
 std::string without_profile(const BoardInfo& board) {
-  const std::string why = board.path.empty()
-                              ? "no profile is named"
-                              : "no profile is named for this board, and the board does not say "
-                                "which frame, motors and encoders it has";
+  std::string why = board.path.empty()
+                        ? "no board is plugged in whose profile is remembered, and none is named"
+                        : "no profile is named for this board, and the board does not say which "
+                          "frame, motors and encoders it has";
+  if (!board.memory_trouble.empty()) why += " (" + board.memory_trouble + ")";
   return board.device + ": the motors get no force: " + why + ". " + fitting_text(board) +
-         ". Name yours: profile=NAME, spidarctl --profile NAME";
+         ". Name yours (profile=NAME, spidarctl --profile NAME), or confirm it once: spidarctl "
+         "choose " +
+         board.device + " --profile NAME";
 }
 
 /// Whether profiles of this board's kind are for that board. A CyVerse board that is not plugged in
@@ -83,6 +100,79 @@ Profile profile_for(const std::string& device, const std::string& named) {
   if (!why.empty())
     throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board));
   return profile;
+}
+
+fs::path remembered_profiles_file() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return fs::path(value ? value : "");
+  };
+  // The specification ignores a relative path.
+  fs::path folder = variable("XDG_CONFIG_HOME");
+  if (!folder.is_absolute()) {
+    folder = variable("HOME");
+    if (!folder.is_absolute()) return {};
+    folder /= ".config";
+  }
+  return folder / "gst-spidar" / "boards.toml";
+}
+
+namespace {
+
+/// Empty when there is no file. Throws ProfileError when it cannot be read.
+toml::table remembered_boards(const fs::path& file) {
+  std::error_code error;
+  if (file.empty() || !fs::exists(file, error)) return {};
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& fault) {
+    throw ProfileError(file.string() + ": " + std::string(fault.description()) +
+                       "; correct or remove the file");
+  }
+}
+
+}  // namespace
+
+std::string remembered_profile(const std::string& usb_id, const std::string& serial) {
+  if (serial.empty()) return {};
+  const fs::path file = remembered_profiles_file();
+  const toml::table boards = remembered_boards(file);
+  const toml::node* const profile = boards.get(key_of(usb_id, serial));
+  if (!profile) return {};
+  if (!profile->is_string())
+    throw ProfileError(file.string() + ": \"" + key_of(usb_id, serial) +
+                       "\" must be the name of a profile, in quotes");
+  return profile->as_string()->get();
+}
+
+void require_serial(const BoardInfo& board, const std::string& profile) {
+  if (board.path.empty())
+    throw DeviceError(board.device +
+                      ": no such board is plugged in, or it is one of several; name it by its bus "
+                      "path or serial number, which spidarctl list prints");
+  if (board.serial.empty())
+    throw DeviceError(
+        board.device +
+        ": has no serial number by which its profile could be remembered; name it each "
+        "time: profile=" +
+        profile);
+}
+
+void remember_profile(const BoardInfo& board, const std::string& profile) {
+  require_serial(board, profile);
+  const fs::path file = remembered_profiles_file();
+  if (file.empty()) throw ProfileError("no profile can be remembered: HOME is not set");
+  toml::table boards = remembered_boards(file);
+  const bool is_path =
+      profile.find('/') != std::string::npos || fs::path(profile).extension() == ".toml";
+  boards.insert_or_assign(key_of(board.usb_id, board.serial),
+                          is_path ? fs::absolute(profile).string() : profile);
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  std::ostringstream text;
+  text << "# Profiles that were confirmed with spidarctl choose: \"USB-ID SERIAL\" = \"PROFILE\".\n"
+       << boards << '\n';
+  replace_file(file, text.str());
 }
 
 }  // namespace spidar

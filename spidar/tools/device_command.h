@@ -45,6 +45,7 @@ void add_info(Program& program);
 void add_monitor(Program& program);
 void add_zero(Program& program);
 void add_pull(Program& program);
+void add_choose(Program& program);
 void add_selftest(Program& program);
 void add_calibrate(Program& program);
 
@@ -81,7 +82,7 @@ void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
 /// What a command does with the motors.
 enum class Motors {
   kOff,     ///< they stay at zero, so no profile is needed
-  kZeroed,  ///< they are set to zero, and a profile that is named may not stand in the way
+  kZeroed,  ///< they are set to zero, and no profile may stand in the way, named or remembered
   kPulled,  ///< a real board needs a profile that somebody named
 };
 

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
   program.app.set_version_flag("--version", "spidarctl " SPIDAR_VERSION);
   program.app.require_subcommand(1);
   program.app.footer("spidarctl COMMAND --help explains a command.");
-  for (const auto add :
-       {add_list, add_info, add_monitor, add_zero, add_pull, add_selftest, add_calibrate})
+  for (const auto add : {add_list, add_info, add_monitor, add_zero, add_pull, add_choose,
+                         add_selftest, add_calibrate})
     add(program);
   return exit_status_of(program.app, [&] {
     check_command(program.app, argc, argv);

@@ -37,7 +37,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
   const std::pair<const char*, const char*> cases[] = {
       {"", "A subcommand is required"},
       {"dance",
-       "dance is not a command; commands are list, info, monitor, zero, pull, "
+       "dance is not a command; commands are list, info, monitor, zero, pull, choose, "
        "selftest, calibrate"},
       {"list me", "not expected: me"},
       {"info", "DEVICE is required"},
@@ -58,6 +58,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       {"calibrate usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"selftest sim --newton 5", "not a number from 0.1 to 2 N"},
       {"selftest sim --write-profile mine", "must end in .toml"},
+      {"choose sim", "a simulated device has its own profile"},
       {"selftest usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"calibrate sim --move x", "--move: \"x\" is not a number from 1 to 600 s"},
       {"calibrate sim --free grip", "grip not in {exits,scale,"},

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Which profiles boards on USB get, on an emulated bus.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -10,6 +13,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test::usb_profiles_test {
 namespace {
@@ -83,6 +87,33 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   BoardInfo nothing;
   nothing.device = "uart";
   expect_contains(NoProfile(nothing).what(), " No profile that is known here fits it. ");
+}
+
+TEST_F(UsbProfiles, AreKeptForTheSerialNumberForWhichTheyWereConfirmed) {
+  const TemporaryFolder folder;
+  setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+  plug(0, UsbKind::kSh4, "A1");
+  plug(1, UsbKind::kSh4, "A2");
+  plug(2, UsbKind::kSh4);
+  remember_profile(board_info("usb:A1"), "spidar-g6x3-v2-l");
+  remember_profile(board_info("usb:A2"), "mine.toml");
+  remember_profile(board_info("usb:A1"), "spidar-g645");
+  EXPECT_EQ(profile_for("usb:1-1", "").name, "spidar-g645");
+  EXPECT_EQ(board_info("usb:A2").profile, (std::filesystem::current_path() / "mine.toml").string());
+  EXPECT_THROW(remember_profile(board_info("usb:1-3"), "spidar-g6c"), DeviceError);
+  EXPECT_THROW(profile_for("usb:1-3", ""), NoProfile);
+  // A board of the other kind is another one, whatever its number is.
+  EXPECT_EQ(remembered_profile("0cec:0203", "A1"), "");
+  // What cannot be read is not overwritten.
+  for (const char* text : {"A1 =", "\"0cec:0205 A1\" = 5"}) {
+    std::ofstream(remembered_profiles_file()) << text;
+    expect_contains(refusal_of([] { profile_for("usb:1-1", ""); }),
+                    remembered_profiles_file().string());
+    expect_contains(board_info("usb:1-1").note, remembered_profiles_file().string());
+  }
+  std::ofstream(remembered_profiles_file()) << "A1 =";
+  EXPECT_THROW(remember_profile(board_info("usb:A1"), "spidar-g6c"), ProfileError);
+  unsetenv("XDG_CONFIG_HOME");
 }
 
 }  // namespace

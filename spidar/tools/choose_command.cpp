@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <poll.h>
+#include <unistd.h>
+
+#include "spidar/conformance/encoder_signs.h"
+#include "spidar/conformance/hold.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
+#include "spidar/tools/device_command.h"
+
+namespace spidar {
+namespace {
+
+/// Whether a line, or its end, waits on the standard input.
+bool is_line_there() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  return poll(&input, 1, 0) > 0;
+}
+
+/// The counts when the person has pressed Enter. False when interrupted.
+bool read_when_there(StringHold& hold, const std::string& question, EncoderScale::Counts& counts) {
+  std::cerr << question << " and press Enter.\n";
+  const bool whole = hold.stay(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
+    counts = reading.count;
+    return !is_line_there();
+  });
+  std::string line;
+  if (whole && !std::getline(std::cin, line))
+    throw UsageError("the standard input ended before the grip was at every side");
+  return whole;
+}
+
+/// False when interrupted.
+bool move_by_hand(ChosenDevice& chosen, HandMoves& moves) {
+  moves.distance_m = hand_move_m(chosen.profile.geometry);
+  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+  bool whole =
+      read_when_there(hold, "Pull all strings taut, hold the grip still at the centre, not turned,",
+                      moves.counts[0]);
+  for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side)
+    whole = read_when_there(hold,
+                            std::to_string(side + 1) + " of 6: from the centre, pull the grip " +
+                                shown(1e3 * moves.distance_m) + " mm " +
+                                HandMoves::kSides[side].name + ", hold it there",
+                            moves.counts[side + 1]);
+  return whole;
+}
+
+const char* text_of(EncoderSign sign) {
+  switch (sign) {
+    case EncoderSign::kAsProfile:
+      return "as in the profile";
+    case EncoderSign::kReversed:
+      return "counts the other way";
+    case EncoderSign::kStill:
+      return "did not count";
+    case EncoderSign::kUnclear:
+      return "unclear";
+  }
+  return "";
+}
+
+void print_others(const ChosenDevice& chosen, const HandMoves& moves) {
+  std::string others;
+  for (const std::string& name : fitting_profiles(chosen.board))
+    if (encoders_agree(load_profile(name), moves)) others += (others.empty() ? "" : ", ") + name;
+  std::cout << (others.empty() ? "no profile of this board has encoders that count so"
+                               : "profiles whose encoders count so: " + others)
+            << '\n';
+}
+
+int choose(const DeviceOptions& options) {
+  if (is_simulated(options.device))
+    throw UsageError(options.device + ": a simulated device has its own profile");
+  const BoardInfo board = board_info(options.device);
+  require_strings(board, "choose");
+  if (options.profile.empty())
+    throw UsageError("choose needs --profile NAME. " + fitting_text(board));
+  if (!board.memory_trouble.empty()) throw ProfileError(board.memory_trouble);
+  require_serial(board, options.profile);
+  ChosenDevice chosen = choose_device(options, Motors::kOff);
+  catch_signals();
+  HandMoves moves;
+  if (!move_by_hand(chosen, moves)) return kInterrupted;
+  const auto signs = encoder_signs(chosen.profile, moves);
+  std::cout << "  string  encoder\n";
+  for (int i = 0; i < chosen.profile.geometry.count; ++i)
+    std::cout << "  " << i << "       " << text_of(signs[static_cast<size_t>(i)]) << '\n';
+  const bool counted = std::any_of(signs.begin(), signs.end(),
+                                   [](EncoderSign sign) { return sign != EncoderSign::kStill; });
+  if (!counted) {
+    std::cout << "no encoder counted: check that they are connected to the board and that the "
+                 "strings run over them, and move the grip as far as is asked for\n";
+    return kFailed;
+  }
+  if (!encoders_agree(chosen.profile, moves)) {
+    print_others(chosen, moves);
+    return kFailed;
+  }
+  remember_profile(chosen.board, options.profile);
+  std::cout << chosen.profile.name << " is remembered for the serial number " << chosen.board.serial
+            << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void add_choose(Program& program) {
+  const auto [app, options] =
+      add_command(program, "choose",
+                  "confirm the profile of a board by moving the grip, and remember it", choose);
+  add_device(app, options);
+  app.footer(
+      "Confirms that the profile is that of a board, and remembers it for the board's serial\n"
+      "number: the board is then driven with it wherever no profile is named. You move the grip "
+      "by\n"
+      "hand to six sides; the motors stay at zero. The encoders must count as the profile says.\n"
+      "Measure the frame before: encoders do not tell a small frame from a large one.\n\n"
+      "The profiles are remembered in $XDG_CONFIG_HOME/gst-spidar/boards.toml, by default in\n"
+      "~/.config. Remove a line there to forget one.\n\n"
+      "Exit status: 0 confirmed, 1 the encoders count differently, or the board has no serial\n"
+      "number, or there is no device, 2 wrong usage, 130 interrupted.");
+}
+
+}  // namespace spidar
