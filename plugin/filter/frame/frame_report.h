@@ -101,16 +101,16 @@ struct FrameReport {
 
   /// Nothing is known of the next frame. The memory of this one stays.
   void begin() {
-    FrameReport memory = std::move(*this);
-    *this = FrameReport();
-    frame = std::move(memory.frame);
+    FrameReport next;
     frame.clear();
-    tracks = std::move(memory.tracks);
+    std::swap(next.frame, frame);
     tracks.clear();
-    lost = std::move(memory.lost);
+    next.tracks.swap(tracks);
     lost.clear();
-    felt = std::move(memory.felt);
+    next.lost.swap(lost);
     felt.clear();
+    next.felt.swap(felt);
+    *this = std::move(next);
   }
 };
 
