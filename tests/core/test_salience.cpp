@@ -81,12 +81,13 @@ LayerEvidence evidence_in_noise(double moved_px, double noise_px,
 TEST(Salience, WhatStandsOutNowAndThenOnlyIsALayer) {
   const CameraMotion moving{true, 100};
   LayerEvidence layer = evidence_in_noise(2, 1);
-  LayerEvidence object = evidence_in_noise(9, 1);
+  LayerEvidence object = evidence_in_noise(12, 1);
   // Every fifth frame differs. In the frames after 0.3 s, the mean square of the layer is at most
-  // 29, which is 0.133 · 100 + 0.867 · (4 + 0.867⁴ · (29 − 4)), and that of the object at least 50.
+  // 47, which is 0.133 · 169 + 0.867 · (4 + 0.867⁴ · (47 − 4)), and that of the object at least
+  // 107.
   for (int n = 1; n <= 25; ++n) {
-    layer = evidence_in_noise(n % 5 == 0 ? 10 : 2, 1, layer);
-    object = evidence_in_noise(n % 5 == 0 ? 2 : 9, 1, object);
+    layer = evidence_in_noise(n % 5 == 0 ? 13 : 2, 1, layer);
+    object = evidence_in_noise(n % 5 == 0 ? 2 : 12, 1, object);
     EXPECT_EQ(salience(region(25, 0, 10), layer, moving, false), 0) << n;
     EXPECT_GT(salience(region(25, 0, 2), object, moving, false), 0) << n;
   }
@@ -129,12 +130,12 @@ TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
 TEST(Salience, WhatDiffersLikeTheSceneItselfHasNone) {
   const CameraMotion moving{true, 100};
   const Region one = region(25, 0, 3);
-  const LayerEvidence weak = evidence_in_noise(2.9, 0.5);  // less than 6 standard deviations
+  const LayerEvidence weak = evidence_in_noise(3.9, 0.5);  // less than 8 standard deviations
   EXPECT_EQ(salience(one, weak, moving, false), 0);
   EXPECT_GT(salience(one, weak, moving, true), 0) << "an object that slows down";
-  EXPECT_GT(salience(one, evidence_in_noise(3.1, 0.5), moving, false), 0) << "more than 6";
+  EXPECT_GT(salience(one, evidence_in_noise(4.1, 0.5), moving, false), 0) << "more than 8";
   EXPECT_EQ(
-      salience(one, evidence_in_noise(3.1, 0.5, evidence_of({1, 0}, {0.3, 0})), moving, false), 0)
+      salience(one, evidence_in_noise(4.1, 0.5, evidence_of({1, 0}, {0.3, 0})), moving, false), 0)
       << "as much, but more like a layer";
   EXPECT_GT(salience(one, weak, {false}, false), 0) << "no camera moves";
 }
