@@ -26,6 +26,7 @@ MotionEstimator::MotionEstimator() {
 
 void MotionEstimator::keep_windows(const ImageView& frame, const FieldPlace& place) {
   const std::vector<uint32_t>& owners = objects_.owners();
+  of_objects_.reserve(owners.size());
   of_objects_.clear();
   for (size_t i = 0; i < owners.size(); ++i) {
     if (owners[i] != 0) of_objects_.push_back(i);

@@ -24,7 +24,8 @@ constexpr float kLeastVariance_grey2 = 0.5f;
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
 /// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
 /// distribution: much of a scene is further from its model than the middle of it tells. On the
-/// films that chose it, 2 and 3 list the same objects, and feel more of what stands still.
+/// films that chose it, 2 to 4 list the same objects; 2 feels more of what stands still, and 3 is
+/// more often wrong.
 constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster

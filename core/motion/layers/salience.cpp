@@ -16,7 +16,8 @@ constexpr double kBorder = 1.2;
 /// blocks around it is one of the scene's layers: the further the layers are apart, the more each
 /// differs from a single model of them all. The limit rises with the square of
 /// LayerEvidence::ratio() where that is above 1: hardly any object moves so much like a layer.
-/// Chosen on real films: with 6 and 7, more is wrong or false by as much as more is right.
+/// Chosen on real films: 6 feels motion in 0.6 % of the frames in which only the camera moves, 8 in
+/// none; the gain in frames that are right is no larger than that in wrong and false ones.
 constexpr double kNoiseSigmas = 8;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;

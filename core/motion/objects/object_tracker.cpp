@@ -170,7 +170,8 @@ double ObjectTracker::noise_around(const Life& life) {
   around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == life.key || !block.has_texture || block.was_outside || is_burned_in(i)) {
+    if (owners_[i] == life.key || !block.has_texture || block.was_outside ||
+        moving_.burned_in().holds(i)) {
       continue;
     }
     around_px_.emplace_back(block.x_px, block.y_px);

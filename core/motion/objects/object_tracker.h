@@ -55,8 +55,6 @@ class ObjectTracker {
     return {moving_.persistence(), burned_in.held(), burned_in.margins().columns(),
             burned_in.margins().rows()};
   }
-  /// Whether a block belongs to the screen, see BurnedIn.
-  bool is_burned_in(size_t block) const { return moving_.burned_in().holds(block); }
   /// A number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
