@@ -54,7 +54,7 @@ struct _GstSpidarSink {
   SinkProperties* properties;  // object lock
   spidar::TrackFaults faults;  // object lock; of the stream so far
   guint64 samples;             // object lock
-  BlockQueue* schedule;
+  BlockQueue* queue;
   HapticOutput* output;
   // Streaming thread.
   spidar::TrackInput* input;
@@ -133,7 +133,7 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
       buffer, sink->segment, gain, [self, buffer](const spidar::TrackBlock& block) {
         const GstFlowReturn waited =
             wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
-        if (waited == GST_FLOW_OK) self->schedule->add(block);
+        if (waited == GST_FLOW_OK) self->queue->add(block);
         return waited;
       });
   const bool has_time =
@@ -161,13 +161,13 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
-      self->schedule->forget();
+      self->queue->forget();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       // Flushes again, because a buffer may have been in progress when the flush began.
-      self->schedule->forget();
+      self->queue->forget();
       self->input->restart();
       if (reset_time) self->output->expect_base_time();
       break;
@@ -188,13 +188,13 @@ static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->warnings->start();
   *self->input = spidar::TrackInput();
-  self->schedule->forget();
+  self->queue->forget();
   return TRUE;
 }
 
 static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->schedule->forget();
+  self->queue->forget();
   // Reported here, because messages during the change to NULL are discarded.
   if (self->output->session()) self->output->session()->drain_trace();
   self->warnings->check_haptic_trace(self->output->session());
@@ -225,7 +225,7 @@ static bool open_device(GstSpidarSink* self) {
                           ("The force continues without it."));
     }
     self->warnings->check_opened(*self->output->session());
-    self->schedule->connect(&self->output->session()->loop());
+    self->queue->connect(&self->output->session()->loop());
     return true;
   } catch (const std::exception& refusal) {
     return self->warnings->check_refused(refusal, properties.on_device_error);
@@ -235,20 +235,18 @@ static bool open_device(GstSpidarSink* self) {
 static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
                                                          GstStateChange transition) {
   GstSpidarSink* self = GST_SPIDAR_SINK(element);
-  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self)) {
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self))
     return GST_STATE_CHANGE_FAILURE;
-  }
   if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) self->output->set_playing(false);
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->change_state(element, transition);
-  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE) {
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE)
     self->output->set_playing(true);
-  }
   const bool closes =
       transition == GST_STATE_CHANGE_READY_TO_NULL ||
       (transition == GST_STATE_CHANGE_NULL_TO_READY && result == GST_STATE_CHANGE_FAILURE);
   if (closes) {
-    self->schedule->connect(nullptr);
+    self->queue->connect(nullptr);
     self->output->close();
   }
   return result;
@@ -257,7 +255,7 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
 // --- object ------------------------------------------------------------------------------------
 
 static constexpr spidar::PropertyEffect<GstSpidarSink> kSinkEffects[] = {
-    {"mute", [](auto* self, auto* v) { self->schedule->set_muted(g_value_get_boolean(v)); }},
+    {"mute", [](auto* self, auto* v) { self->queue->set_muted(g_value_get_boolean(v)); }},
     {"max-force", [](auto* self, auto* v) { self->output->set_max_force(g_value_get_double(v)); }},
 };
 
@@ -281,7 +279,7 @@ static GstStructure* stats(GstSpidarSink* self) {
   GstStructure* structure = gst_structure_new(
       "spidar-sink-stats", "samples", G_TYPE_UINT64, samples, "samples-not-finite", G_TYPE_UINT64,
       faults.not_finite, "samples-beyond-full-scale", G_TYPE_UINT64, faults.beyond_full,
-      "samples-refused", G_TYPE_UINT64, self->schedule->refused(), nullptr);
+      "samples-refused", G_TYPE_UINT64, self->queue->refused(), nullptr);
   self->output->describe(structure);
   return structure;
 }
@@ -309,7 +307,7 @@ static void gst_spidar_sink_finalize(GObject* object) {
   delete self->warnings;
   delete self->input;
   delete self->output;
-  delete self->schedule;
+  delete self->queue;
   delete self->properties;
   g_mutex_clear(&self->setting);
   G_OBJECT_CLASS(gst_spidar_sink_parent_class)->finalize(object);
@@ -318,8 +316,8 @@ static void gst_spidar_sink_finalize(GObject* object) {
 static void gst_spidar_sink_init(GstSpidarSink* self) {
   g_mutex_init(&self->setting);
   self->properties = new SinkProperties;
-  self->schedule = new BlockQueue;
-  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->schedule->hand_on(); });
+  self->queue = new BlockQueue;
+  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->queue->hand_on(); });
   self->input = new spidar::TrackInput;
   self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
   self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
