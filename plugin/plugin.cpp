@@ -3,8 +3,7 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/spidar_motion.h"
-#include "plugin/tracks/spidar_extract.h"
-#include "plugin/tracks/spidar_sink.h"
+#include "plugin/tracks/track_elements.h"
 
 static gboolean plugin_init(GstPlugin* plugin) {
   return GST_ELEMENT_REGISTER(spidarmotion, plugin) &&

@@ -7,7 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "core/picture/serial_opencv.h"
 
 namespace spidar {

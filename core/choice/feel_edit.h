@@ -3,6 +3,7 @@
 /// Changes to the rules of what is felt, by pointing instead of writing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -23,6 +24,29 @@ struct FeelEdit {
 /// `rules` in order of time, and so is the result. Rules give way to the edit; what is left behind
 /// it of a rule about the object at a place goes, too, because nobody knows where the object is
 /// then. An edit that does not end after it begins changes nothing.
-std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit);
+inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
+  if (edit.to_ns <= edit.from_ns) return rules;
+  std::vector<FeelRule> result;
+  for (const FeelRule& rule : rules) {
+    FeelRule before = rule, after = rule;
+    before.to_ns = std::min(rule.to_ns, edit.from_ns);
+    after.from_ns = std::max(rule.from_ns, edit.to_ns);
+    const bool is_later = rule.from_ns >= edit.to_ns;
+    if (before.from_ns < before.to_ns) result.push_back(before);
+    if (after.from_ns >= after.to_ns) continue;
+    if (is_later || rule.kind != FeelKind::kObjectAt) result.push_back(after);
+  }
+  if (edit.place) {
+    FeelRule rule;
+    rule.from_ns = edit.from_ns;
+    rule.to_ns = edit.to_ns;
+    rule.kind = FeelKind::kObjectAt;
+    rule.place = *edit.place;
+    result.push_back(rule);
+  }
+  std::sort(result.begin(), result.end(),
+            [](const FeelRule& a, const FeelRule& b) { return a.from_ns < b.from_ns; });
+  return result;
+}
 
 }  // namespace spidar

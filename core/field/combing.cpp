@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/field/block_kernels.h"
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "core/picture/padded_image.h"
 #include "core/picture/vectors.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 
 namespace spidar {
 namespace {

@@ -3,8 +3,11 @@
 /// Converts the motion of the picture to a wrench in six degrees of freedom.
 #pragma once
 
+#include <cmath>
+
 #include "core/force/gain_controller.h"
 #include "core/motion/image_motion.h"
+#include "core/require.h"
 #include "core/tracking/tracker.h"
 #include "core/wrench.h"
 
@@ -18,7 +21,10 @@ struct AxisGains {
 };
 
 /// Throws std::invalid_argument when a gain is out of range.
-void validate(const AxisGains& gains);
+inline void validate(const AxisGains& gains) {
+  require_not_negative("depth gain", gains.depth);
+  require_not_negative("roll gain", gains.roll);
+}
 
 /// Growth and roll count as the speed at which they move a point at this distance from the centre:
 /// half the height of the reference frame.
@@ -36,7 +42,35 @@ constexpr double kTorqueArm_m = 0.0225;
 /// to the viewer, is −F kTorqueArm_m u₄ / |u|, because a clockwise turn on the screen turns from x
 /// to −y of the device. The force therefore never exceeds F, and the torque never exceeds F times
 /// the arm. `interval_s` is the running time since the previous frame, 0 if unknown.
-Wrench render_motion(GainController& controller, const ImageMotion& motion, const AxisGains& gains,
-                     int frame_height, double interval_s = 0);
+inline Wrench render_motion(GainController& controller, const ImageMotion& motion,
+                            const AxisGains& gains, int frame_height, double interval_s = 0) {
+  const Eigen::Vector2d velocity_px_s = kReferenceHeight_px / frame_height * motion.velocity_px_s;
+  const double noise_px_s = kReferenceHeight_px / frame_height * motion.noise_px_s;
+  const double depth_px_s = gains.depth * motion.growth_1_s * kRim_px;
+  const double roll_px_s = gains.roll * motion.roll_rad_s * kRim_px;
+  // Without growth and roll this is the plane controller to the last bit.
+  if (depth_px_s == 0 && roll_px_s == 0) {
+    return render_motion(controller, velocity_px_s, interval_s, noise_px_s);
+  }
+
+  const Eigen::Vector4d u(velocity_px_s.x(), velocity_px_s.y(), depth_px_s, roll_px_s);
+  const double speed_px_s = u.norm();
+  const double force_N = controller.force_N({speed_px_s, interval_s, noise_px_s});
+  const Eigen::Vector4d direction = u / speed_px_s;
+  Wrench wrench;
+  wrench.force_N << force_N * direction[0], -force_N * direction[1], force_N * direction[2];
+  wrench.torque_Nm.z() = -force_N * kTorqueArm_m * direction[3];
+  return wrench;
+}
+
+/// The smallest force that a hand feels, the mean of wrist, elbow and shoulder: IEEE Trans. Haptics
+/// 2013, PubMed 24808327.
+constexpr double kFeltForce_N = 0.04;
+
+/// Size of a wrench as one force, with torque divided by the arm kTorqueArm_m (see
+/// render_motion()).
+inline double size_N(const Wrench& wrench) noexcept {
+  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
+}
 
 }  // namespace spidar

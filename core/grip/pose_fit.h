@@ -3,11 +3,84 @@
 /// The searches behind the pose solver: a pose that fits measured string lengths.
 #pragma once
 
-#include "core/grip/length_model.h"
-#include "core/grip/pose.h"
+#include <cmath>
+
 #include "core/grip/string_geometry.h"
 
 namespace spidar {
+
+/// A small motion of the grip in D: a translation in metres, and a rotation vector times the grip
+/// radius, also in metres.
+using Twist = Eigen::Matrix<double, 6, 1>;
+
+/// H s = g for the step s that brings the lengths of the linearised model closest to the measured
+/// ones: H = Σ wᵢ Jᵢ Jᵢᵀ, g = −Σ wᵢ Jᵢ rᵢ, with Jᵢ the derivative of the length (minus a column of
+/// the structure matrix) and rᵢ length minus measured length.
+struct NormalEquations {
+  Eigen::Matrix<double, 6, 6> H;
+  Twist g;
+  double cost_m2;  ///< Σ wᵢ rᵢ²
+};
+
+/// The geometry of the strings by coordinates.
+struct LengthModel {
+  Eigen::Matrix<double, 3, kMaxStrings> exit_m, grip_m;
+  int count;
+  double radius_m;
+
+  explicit LengthModel(const StringGeometry& geometry)
+      : count(geometry.count), radius_m(geometry.grip_radius_m()) {
+    // Unused strings get a length, so that nothing is divided by zero.
+    exit_m.setOnes();
+    grip_m.setZero();
+    for (int i = 0; i < count; ++i) {
+      exit_m.col(i) = geometry.exit_m[static_cast<size_t>(i)];
+      grip_m.col(i) = geometry.grip_m[static_cast<size_t>(i)];
+    }
+  }
+
+  /// `weight` is 1 for strings that count and 0 for those that do not.
+  void linearise(const Pose& pose, const StringVector& length_m, const StringVector& weight,
+                 NormalEquations& equations) const noexcept {
+    constexpr double kNoLength = 1e-12;
+    const Eigen::Matrix<double, 3, kMaxStrings> arm =
+        pose.orientation.toRotationMatrix().lazyProduct(grip_m);
+    const Eigen::Matrix<double, 3, kMaxStrings> string = (exit_m - arm).colwise() - pose.position_m;
+    const StringVector length = string.colwise().norm();
+    const StringVector scale = weight.cwiseQuotient(length.cwiseMax(kNoLength));
+    const StringVector r = weight.cwiseProduct(length - length_m);
+    // −J: its sign cancels in H, and in g = −Σ J r.
+    StructureMatrix minus_J;
+    for (int i = 0; i < kMaxStrings; ++i) {
+      const Eigen::Vector3d unit = scale[i] * string.col(i);
+      minus_J.col(i) << unit, arm.col(i).cross(unit) / radius_m;
+    }
+    equations.H.noalias() = minus_J * minus_J.transpose();
+    equations.g.noalias() = minus_J * r;
+    equations.cost_m2 = r.squaredNorm();
+  }
+
+  /// Root mean square length error of the strings that count.
+  double rms_m(double cost_m2, int strings) const noexcept { return std::sqrt(cost_m2 / strings); }
+
+  Pose moved(const Pose& pose, const Twist& twist) const noexcept {
+    Pose result;
+    result.position_m = pose.position_m + twist.head<3>();
+    // Cayley's map: the rotation vector to second order, without trigonometry.
+    const Eigen::Vector3d half = twist.tail<3>() * (0.5 / radius_m);
+    const Eigen::Quaterniond turn(1, half.x(), half.y(), half.z());
+    result.orientation = (turn * pose.orientation).normalized();
+    return result;
+  }
+
+  /// The twist t with moved(from, t) = to.
+  Twist twist(const Pose& from, const Pose& to) const noexcept {
+    const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
+    Twist result;
+    result << to.position_m - from.position_m, turn.vec() * (2 * radius_m / turn.w());
+    return result;
+  }
+};
 
 /// The result of a search.
 struct PoseFit {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/grip/pose.h"
 #include "core/grip/pose_fit.h"
 #include "core/grip/string_geometry.h"
 

@@ -6,10 +6,15 @@
 #include <array>
 
 #include <Eigen/Core>
-
-#include "core/grip/pose.h"
+#include <Eigen/Geometry>
 
 namespace spidar {
+
+/// T_D_G: maps points of the grip frame G to the device frame D.
+struct Pose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
 
 constexpr int kMaxStrings = 8;
 

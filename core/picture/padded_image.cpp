@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/picture/image_view.h"
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "core/picture/luma_words.h"
 #include "core/picture/vectors.h"
 

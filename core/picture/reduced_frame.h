@@ -3,6 +3,8 @@
 /// A reduced frame, from which all measurements of motion start.
 #pragma once
 
+#include <utility>
+
 #include "core/picture/image_view.h"
 #include "core/picture/padded_image.h"
 #include "core/picture/repeated_picture.h"
@@ -15,7 +17,24 @@ class ReducedFrame {
   /// Returns picture(). A frame that repeats the picture before is skipped: the next one is
   /// compared with that picture. With `may_wait`, one that is equal within the noise of coding is,
   /// too. Throws as require_usable() does.
-  PictureKind read(const ImageView& frame, bool may_wait = false);
+  PictureKind read(const ImageView& frame, bool may_wait = false) {
+    require_usable(frame);
+    const bool is_comparable = frame.width == width_ && frame.height == height_;
+    width_ = frame.width;
+    height_ = frame.height;
+    factor_ = halving_factor(width_, height_);
+    std::swap(before_, base_);
+    reduce_blocks(frame, factor_, base_);
+    base_.repeat_border();
+    if (!is_comparable) {
+      repeated_picture_.restart();
+      return picture_ = PictureKind::kFirst;
+    }
+    picture_ = repeated_picture_.look(before_.view(), base_.view());
+    if (picture_ == PictureKind::kAlike && may_wait) picture_ = PictureKind::kSame;
+    if (picture_ == PictureKind::kSame) std::swap(before_, base_);
+    return picture_;
+  }
 
   /// Mean of each factor() × factor() block of the frame, see halving_factor(). The border is
   /// repeated.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "core/require.h"
 
 namespace spidar {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/force/wrench_timeline.h"
+#include "core/track/track_format.h"
 
 namespace spidar {
 
@@ -17,10 +18,21 @@ class TrackSampler {
  public:
   /// The first sample is the first whole millisecond at or after `from_ns` >= 0. Forgets all
   /// frames.
-  void begin(int64_t from_ns) noexcept;
+  void begin(int64_t from_ns) noexcept {
+    *this = {};
+    next_ns_ = (from_ns + kTrackPeriod_ns - 1) / kTrackPeriod_ns * kTrackPeriod_ns;
+  }
 
   /// Times must rise; otherwise returns false and adds nothing.
-  bool add(const TimedWrench& frame) noexcept;
+  bool add(const TimedWrench& frame) noexcept {
+    if (frame.time_ns <= latest_ns_ || !timeline_.push(frame)) return false;
+    latest_ns_ = frame.time_ns;
+    if (!frame.repeated) {
+      before_newest_ns_ = newest_ns_;
+      newest_ns_ = frame.time_ns;
+    }
+    return true;
+  }
 
   /// Until this time, future frames do not change the curve, unless they are further than
   /// `look_ahead_ns` from the last added one: the time of the last but one frame that does not
@@ -32,7 +44,17 @@ class TrackSampler {
   /// Time of the next sample.
   int64_t next_ns() const noexcept { return next_ns_; }
   /// The next sample; the one after it is a millisecond later.
-  Wrench take() noexcept;
+  Wrench take() noexcept {
+    const TimelineResult result = timeline_.at(next_ns_);
+    next_ns_ += kTrackPeriod_ns;
+    if (result.found != Found::kExpired) {
+      expired_ns_ = 0;
+      return result.wrench;
+    }
+    expired_ns_ = std::min(expired_ns_ + kTrackPeriod_ns, WrenchTimeline::kRamp_ns);
+    const double left = 1 - static_cast<double>(expired_ns_) / WrenchTimeline::kRamp_ns;
+    return left * left * (3 - 2 * left) * result.wrench;
+  }
 
  private:
   WrenchTimeline timeline_;

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <vector>
 
-#include "core/force/felt_force.h"
 #include "core/force/motion_rendering.h"
 #include "plugin/tools/gnuplot.h"
 

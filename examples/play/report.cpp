@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 
 namespace {
 

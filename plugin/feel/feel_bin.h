@@ -16,6 +16,9 @@ G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN
 
 G_END_DECLS
 
+/// The environment variable with properties of spidarmotion, a line NAME=VALUE each.
+#define SPIDAR_FEEL_VARIABLE "SPIDAR_FEEL"
+
 /// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
 /// element is missing, which is printed. A floating reference.
 GstElement* gst_spidar_feel_bin_new(const char* properties);

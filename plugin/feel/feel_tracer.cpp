@@ -14,12 +14,13 @@
  * Since: 0.1
  */
 #define GST_USE_UNSTABLE_API
-#include "plugin/feel/feel_tracer.h"
-
 #include <gst/gsttracer.h>
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/gobject/ref.h"
+
+#define GST_TYPE_SPIDAR_FEEL_TRACER (gst_spidar_feel_tracer_get_type())
+GType gst_spidar_feel_tracer_get_type();
 
 struct GstSpidarFeelTracer {
   GstTracer parent;
@@ -62,6 +63,13 @@ static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {
 
 static void gst_spidar_feel_tracer_class_init(GstSpidarFeelTracerClass*) {}
 
-gboolean gst_spidar_feel_tracer_register(GstPlugin* plugin) {
+static gboolean gst_spidar_feel_tracer_register(GstPlugin* plugin) {
   return gst_tracer_register(plugin, "spidarfeel", GST_TYPE_SPIDAR_FEEL_TRACER);
 }
+
+// A plugin of its own, so that GStreamer loads the tracer only for spidar-feel.
+#define PACKAGE "gst-spidar"
+GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, spidarfeel,
+                  "Lets the videos of any GStreamer player be felt",
+                  gst_spidar_feel_tracer_register, PACKAGE_VERSION, "LGPL", "gst-spidar",
+                  "https://journal.icter.org/index.php/ICTer/article/view/155")

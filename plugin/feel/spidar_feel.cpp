@@ -15,7 +15,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/feel/feel_tracer.h"
+#include "plugin/feel/feel_bin.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"

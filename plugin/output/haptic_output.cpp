@@ -10,7 +10,7 @@
 #include "core/grip/picture_size.h"
 #include "plugin/gobject/category.h"
 #include "spidar/grip/string_grip.h"
-#include "spidar/profiles/force_range.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"

@@ -25,22 +25,56 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
   WrenchBacklog() : LoopQueue(kMostWaiting, kHandedOn) {}
 
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
-  void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  double rate_multiplier() const;
+  void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto skipped = static_cast<GstClockTime>(skipped_ns_);
+    instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
+    // Frames between here and the sink were analysed at the old rate and are shown at other times
+    // now. The frame on the screen is the first of them, so that the force continues from there.
+    while (entries_.size() > 1 && entries_[1].time_ns <= static_cast<int64_t>(upstream + skipped)) {
+      entries_.pop_front();
+    }
+    hand_on_again();
+  }
+  double rate_multiplier() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return instant_rate_.multiplier();
+  }
   /// Running time at the sink of a frame that has this running time here, as far as is known.
-  int64_t at_sink_ns(int64_t running_ns) const;
+  int64_t at_sink_ns(int64_t running_ns) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return instant_rate_.at_sink(running_ns + skipped_before_ns_);
+  }
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
-  void skip(GstClockTime duration);
+  void skip(GstClockTime duration) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    skipped_ns_ += static_cast<int64_t>(duration);
+  }
   /// Since running time began, in ns.
-  int64_t skipped_ns() const;
+  int64_t skipped_ns() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return skipped_ns_;
+  }
   /// A sink that has skipped something is in time with the segment again.
-  void begin_segment();
+  void begin_segment() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    skipped_before_ns_ = skipped_ns_;
+  }
   /// Running time begins anew.
-  void restart();
+  void restart() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    instant_rate_.reset();
+    clear();
+    skipped_ns_ = skipped_before_ns_ = 0;
+  }
 
  private:
   void enter(TimedWrench& entry) override { entry.time_ns += skipped_before_ns_; }
-  TimedWrench shown(const TimedWrench& entry) const override;
+  TimedWrench shown(const TimedWrench& entry) const override {
+    TimedWrench shown = entry;
+    shown.time_ns = instant_rate_.at_sink(shown.time_ns);
+    return shown;
+  }
 
   InstantRate instant_rate_;
   int64_t skipped_ns_ = 0;         // by the sink, since the last flush

@@ -16,7 +16,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
-#include "plugin/tracks/track_notes.h"
+#include "plugin/tracks/track_file.h"
 
 namespace spidar {
 namespace {

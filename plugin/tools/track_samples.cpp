@@ -10,9 +10,7 @@
 
 #include <gst/gst.h>
 
-#include "core/track/ahap.h"
-#include "core/track/funscript.h"
-#include "core/track/hjif.h"
+#include "core/track/exchange_formats.h"
 #include "core/track/track_reader.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"

@@ -13,8 +13,8 @@
 
 #include "core/track/track_format.h"
 #include "plugin/tracks/part_file.h"
+#include "plugin/tracks/track_file.h"
 #include "plugin/tracks/track_input.h"
-#include "plugin/tracks/track_notes.h"
 
 namespace spidar {
 

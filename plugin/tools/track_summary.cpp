@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 
 namespace spidar {
 namespace {

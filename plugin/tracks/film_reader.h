@@ -1,17 +1,63 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads from a film, without decoding it, what its haptic track is compared with.
+/// Reads from a film, without decoding it, what it is recognised by and what its haptic track is
+/// compared with.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "plugin/tracks/film_fingerprint.h"
+#include <gst/gst.h>
 
 namespace spidar {
+
+/// How a packet is divided into the units of its codec.
+struct PacketFraming {
+  enum class Kind { kWhole, kStartCodes, kLengths };
+  Kind kind = Kind::kWhole;
+  size_t length_bytes = 4;  ///< of the length before each unit, for kLengths
+};
+
+/// From the caps of a parsed stream.
+PacketFraming framing_of(const GstCaps* caps);
+
+/// Hashes the end of the last unit of a packet: between one half of it and the whole, because what
+/// containers add or take away, such as parameter sets and delimiters, comes before the picture.
+/// Start codes, lengths and zeros at the end are not included. 16 hexadecimal digits.
+std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing);
+
+/// A compressed picture.
+struct FilmPacket {
+  std::string hash;  ///< hash_packet()
+  size_t size = 0;
+  int64_t time_ns = 0;  ///< stream time
+};
+
+/// The largest compressed picture at the beginning of a film: what is easy to encode, such as
+/// black, is the same in many films. It remains the same when the film is copied into another
+/// container, and differs when it is encoded anew.
+struct FilmFingerprint {
+  std::string hash;
+  int64_t time_ns = 0;
+
+  bool empty() const { return hash.empty(); }
+};
+
+FilmFingerprint fingerprint_of(const std::vector<FilmPacket>& packets);
+
+/// One word, for the metadata of a track.
+std::string to_text(const FilmFingerprint& fingerprint);
+/// An empty one when `text` is none.
+FilmFingerprint parse_fingerprint(const std::string& text);
+
+/// How much later the picture of the fingerprint comes in the film that begins with `packets`;
+/// nothing when it is another film.
+std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
+                                    const std::vector<FilmPacket>& packets);
 
 struct Film {
   std::vector<FilmPacket> packets;  ///< at its beginning, in the order of the stream

@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 
 #include "plugin/tracks/film_reader.h"
-#include "plugin/tracks/track_notes.h"
+#include "plugin/tracks/track_file.h"
 
 namespace spidar {
 

@@ -6,11 +6,9 @@
 #include <string>
 
 #include "plugin/output/device_warnings.h"
+#include "plugin/properties/device_rows.h"
 
 namespace spidar {
-
-template <typename Settings>
-class PropertyTable;
 
 struct SinkProperties {
   std::string device = "sim";
@@ -23,6 +21,36 @@ struct SinkProperties {
 };
 
 /// All of spidarsink, `stats` included; `ts-offset` is that of every sink.
-const PropertyTable<SinkProperties>& sink_properties();
+inline const PropertyTable<SinkProperties>& sink_properties() {
+  using SinkRow = Property<SinkProperties>;
+  // Never destroyed: a thread may still set a property while the process ends.
+  static const auto& table = *new PropertyTable<SinkProperties>{{
+      SinkRow::text(
+          {"device", "Device",
+           "Haptic device: 'sim' (simulated SPIDAR) or a board that 'spidarctl list' prints "
+           "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon', 'inverse3'). Opened in the "
+           "change from NULL to READY"},
+          kReady, KEPT_IN(device)),
+      profile_row<SinkProperties>(),
+      SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,
+                      20, kControllable, KEPT_IN(max_force_N)),
+      SinkRow::number(
+          {"gain", "Gain",
+           "Factor on force and torque of the track. A change takes effect after the 0.2 s "
+           "of samples that are already queued"},
+          0, 100, kControllable, KEPT_IN(gain)),
+      SinkRow::on_off(
+          {"mute", "Mute",
+           "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
+           "property is set to false"},
+          kControllable, KEPT_IN(mute)),
+      on_device_error_row<SinkProperties>(),
+      haptic_trace_row<SinkProperties>(),
+      SinkRow::statistics({"stats", "Statistics",
+                           "Statistics: samples and their faults, state and timing of the haptic "
+                           "loop"}),
+  }};
+  return table;
+}
 
 }  // namespace spidar

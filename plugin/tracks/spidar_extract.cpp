@@ -30,13 +30,12 @@
  *
  * Since: 0.1
  */
-#include "plugin/tracks/spidar_extract.h"
-
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/base/gstflowcombiner.h>
 
 #include "plugin/gobject/downstream.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_stream.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);

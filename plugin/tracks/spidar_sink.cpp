@@ -23,8 +23,6 @@
  *
  * Since: 0.1
  */
-#include "plugin/tracks/spidar_sink.h"
-
 #include <string>
 
 #include "plugin/output/device_warnings.h"
@@ -33,8 +31,8 @@
 #include "plugin/timing/instant_rate.h"
 #include "plugin/timing/loop_queue.h"
 #include "plugin/tracks/sink_properties.h"
+#include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
-#include "plugin/tracks/track_warnings.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT

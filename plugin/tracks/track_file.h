@@ -1,18 +1,38 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic track in a file.
+/// A haptic track in a file, and what it says of itself in its metadata.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <gst/gst.h>
+
 #include "core/track/track_format.h"
+#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/track_input.h"
-#include "plugin/tracks/track_notes.h"
 
 namespace spidar {
+
+/// Stored in the comment of the track, which FLAC, Matroska and WAV keep. Tracks that were made by
+/// hand have neither.
+struct TrackNotes {
+  FilmFingerprint film;  ///< that it was recorded from; empty: not known
+  /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
+  std::optional<std::string> settings;
+};
+
+/// Title, comment and full scale of a track. Owned by the caller.
+GstTagList* track_tags(const TrackNotes& notes = {});
+
+/// Adds to `notes` what `tags` contain.
+void read_notes(const GstTagList* tags, TrackNotes& notes);
+
+/// What `pad`, a linked source pad, sends gets these tags, in place of all others.
+void tag_track(GstPad* pad, const TrackNotes& notes);
 
 /// A whole track. The times of its blocks are those of the file, and rise.
 struct TrackFile {

@@ -12,7 +12,7 @@
 #include "plugin/gobject/category.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_warnings.h"
+#include "plugin/tracks/track_input.h"
 #include "spidar/realtime/thread_setup.h"
 
 #undef GST_CAT_DEFAULT

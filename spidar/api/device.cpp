@@ -15,7 +15,7 @@
 #include "spidar/api/surface.h"
 #include "spidar/api/vectors.h"
 #include "spidar/loop/stiffness_limit.h"
-#include "spidar/profiles/force_range.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"

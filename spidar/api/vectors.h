@@ -6,7 +6,7 @@
 #include <gst-spidar/picture.h>
 #include <gst-spidar/wrench.h>
 
-#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "core/picture/image_view.h"
 #include "core/wrench.h"
 

@@ -5,10 +5,13 @@
 #pragma once
 
 #include <atomic>
+#include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/grip/picture_size.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/stick_effects.h"
 #include "spidar/profiles/profile.h"
@@ -24,12 +27,27 @@ class ForceFeedbackBoard final : public ForceBoard {
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
   using Updates = StickEffects::Updates;
   ForceFeedbackBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
-                     Updates updates, const StickEffects::Options& options = {});
+                     Updates updates, const StickEffects::Options& options = {})
+      : name_(std::move(name)),
+        reach_m_(half_picture_m(profile.geometry)),
+        effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {}
   ~ForceFeedbackBoard() override { close(); }
 
-  void open() override;
-  LinkFault cycle(const ForceOutput& output, ForceReading& reading,
-                  int64_t deadline_ns) noexcept override;
+  void open() override {
+    reopening_ = false;
+    effects_->open();
+    const ff::Description& found = effects_->description();
+    force_axes_ = effects_->effects() > 1 ? 2 : found.constant;
+    position_axes_ = found.axes;
+    buttons_ = found.buttons;
+  }
+  LinkFault cycle(const ForceOutput& output, ForceReading& reading, int64_t) noexcept override {
+    const LinkFault fault = effects_->cycle(output.force_N.head<2>(), pulls(output));
+    if (fault != LinkFault::kNone) return fault;
+    reading.position_m.head<2>() = reach_m_.cwiseProduct(effects_->place());
+    reading.buttons = effects_->buttons();
+    return LinkFault::kNone;
+  }
   /// Done by the thread that makes the updates.
   void recover() noexcept override {}
   /// The centring spring stays off in the next close(), for a hand that still holds the stick.
@@ -37,8 +55,29 @@ class ForceFeedbackBoard final : public ForceBoard {
   void close() noexcept override { effects_->close(reopening_); }
   std::vector<LastWill> last_wills() const override { return effects_->last_wills(); }
   /// Includes one sentence on what the device lacks.
-  std::string description() const override;
-  GripAbilities abilities() const noexcept override;
+  std::string description() const override {
+    const ff::Description& found = effects_->description();
+    std::string text = found.name.data();
+    if (effects_->gain() < 1) {
+      char share[40];
+      std::snprintf(share, sizeof share, " at %.0f %% of its strength", 100 * effects_->gain());
+      text += share;
+    }
+    if (!found.constant)
+      return text + ", rumble only: the strength of the force is felt, not its direction";
+    if (force_axes_ > 1) return text + ", force feedback on two axes";
+    return text + ", force feedback on one axis: forces up and down are not felt";
+  }
+  GripAbilities abilities() const noexcept override {
+    const int force = force_axes_, position = position_axes_;
+    return {{true, force != 1, false},
+            false,
+            force != 0,
+            {position > 0, position > 1, false},
+            ff::kFullForce_N,
+            1000 / kUpdate_ms,
+            buttons_};
+  }
   const std::string& name() const noexcept override { return name_; }
 
  private:

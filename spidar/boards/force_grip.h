@@ -3,13 +3,16 @@
 /// A grip that takes its force as it is.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/link_thread.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 
@@ -18,11 +21,38 @@ namespace spidar {
 class ForceGrip final : public Grip {
  public:
   /// Only the settings of the guardian and of the thread are used.
-  ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings);
+  ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings)
+      : board_(std::move(board)),
+        traits_(traits_of(board_->abilities())),
+        link_(*board_, settings) {}
 
-  void open() override;
-  void check_age(int64_t now_ns) noexcept override;
-  ExchangeStatus exchange(const GripCommand& command) noexcept override;
+  void open() override {
+    link_.open();
+    trust_ = {};
+    reading_.delivered = {};
+    reading_.pose = {};
+    reading_.motion.reset();
+    reading_.trouble = trust_.trouble();
+  }
+  void check_age(int64_t now_ns) noexcept override {
+    trust_.check_age(now_ns);
+    reading_.trouble = trust_.trouble();
+  }
+  ExchangeStatus exchange(const GripCommand& command) noexcept override {
+    const ForceOutput output = output_for(command);
+    ForceReading answer;
+    const ExchangeStatus status = link_.exchange(output, answer);
+    if (status == ExchangeStatus::kOk) {
+      reading_.delivered.force_N = output.force_N;
+      see(answer, command);
+    } else {
+      // The device may not have received this tick.
+      trust_.miss(command.now_ns);
+      if (!trust_.trusted()) reading_.motion.reset();
+    }
+    reading_.trouble = trust_.trouble();
+    return status;
+  }
   const GripReading& reading() const noexcept override { return reading_; }
   void close() noexcept override { link_.close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
@@ -32,9 +62,49 @@ class ForceGrip final : public Grip {
   const std::string& name() const noexcept override { return board_->name(); }
 
  private:
-  ForceOutput output_for(const GripCommand& command) const noexcept;
-  void see(const ForceReading& answer, const GripCommand& command) noexcept;
-  PoseTrouble judge(const ForceReading& answer, int64_t now_ns) const noexcept;
+  /// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not
+  /// felt, and the lag of the drives is not known.
+  static GripTraits traits_of(const GripAbilities& can) noexcept {
+    const std::array<bool, 3> all{true, true, true};
+    const bool free = can.direction && can.force == all && can.position == all;
+    return {false, free, 0, free ? Profile::kDriveLag_s : 0};
+  }
+  ForceOutput output_for(const GripCommand& command) const noexcept {
+    const GripAbilities can = board_->abilities();
+    ForceOutput output;
+    output.on = command.power > 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (can.force[static_cast<size_t>(axis)])
+        output.force_N[axis] = command.power * command.wrench.force_N[axis];
+    const double wanted_N = output.force_N.norm();
+    if (wanted_N > can.largest_force_N) output.force_N *= can.largest_force_N / wanted_N;
+    return output;
+  }
+  void see(const ForceReading& answer, const GripCommand& command) noexcept {
+    reading_.buttons = answer.buttons;
+    const PoseTrouble trouble = judge(answer, command.now_ns);
+    if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
+      reading_.pose.position_m = answer.position_m;
+      trust_.locate(command.now_ns);
+    }
+    if (trouble == PoseTrouble::kNone) {
+      trust_.succeed(command.wrench.stacked().isZero(0));
+    } else {
+      ++reading_.pose_errors;
+      trust_.fail(trouble, trouble == PoseTrouble::kJump);
+    }
+    if (trust_.trusted())
+      reading_.motion.see(reading_.pose, trust_.located_ns());
+    else
+      reading_.motion.reset();
+  }
+  /// A stick is no hand: it snaps back, and its driver reports seldom.
+  PoseTrouble judge(const ForceReading& answer, int64_t now_ns) const noexcept {
+    if (!answer.position_m.allFinite()) return answer.trouble;
+    const double way_m = (answer.position_m - reading_.pose.position_m).norm();
+    return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump
+                                                            : PoseTrouble::kNone;
+  }
 
   const std::unique_ptr<ForceBoard> board_;
   const GripTraits traits_;

@@ -5,9 +5,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spidar/boards/board.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/transports/transport.h"
 
@@ -16,14 +18,60 @@ namespace spidar {
 /// Its grip is always at the centre.
 class MouseBoard final : public ForceBoard {
  public:
-  MouseBoard(std::string name, std::unique_ptr<Transport> transport);
+  MouseBoard(std::string name, std::unique_ptr<Transport> transport)
+      : name_(std::move(name)), transport_(std::move(transport)) {}
 
-  void open() override;
+  void open() override {
+    transport_->open();
+    mouse::encode_query(out_);
+    const LinkFault fault = open_exchange(
+        [&](int64_t deadline_ns) {
+          const Transfer transfer = transport_->exchange({out_}, in_, deadline_ns);
+          if (transfer.fault != LinkFault::kNone) return transfer.fault;
+          return mouse::is_state({in_.data(), transfer.received}) ? LinkFault::kNone
+                                                                  : LinkFault::kWrongReply;
+        },
+        *transport_);
+    if (fault != LinkFault::kNone) {
+      transport_->close();
+      throw DeviceError(name_ +
+                        ": the device with the id 04d8:003f is no SPIDAR-mouse: asked for its "
+                        "state, the answer is " +
+                        to_string(fault) + "; that id is shared by many devices, unplug others");
+    }
+    mouse::encode_start(out_);
+    transport_->exchange({out_}, {}, soon_ns());
+    started_ = true;
+    cycle_ = 0;
+  }
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
-                  int64_t deadline_ns) noexcept override;
+                  int64_t deadline_ns) noexcept override {
+    if (cycle_++ % kCyclesPerReport == 0) {
+      mouse::encode_force({output.force_N.x(), output.force_N.y()}, out_);
+      const Transfer transfer = transport_->exchange({out_}, {}, deadline_ns);
+      if (transfer.fault != LinkFault::kNone) return transfer.fault;
+    }
+    reading.position_m.setZero();
+    return LinkFault::kNone;
+  }
   void recover() noexcept override { transport_->recover(); }
-  void close() noexcept override;
-  std::vector<LastWill> last_wills() const override;
+  void close() noexcept override {
+    if (started_) {
+      const int64_t deadline_ns = soon_ns();
+      mouse::encode_force({}, out_);
+      transport_->exchange({out_}, {}, deadline_ns);
+      mouse::encode_stop(out_);
+      transport_->exchange({out_}, {}, deadline_ns);
+      started_ = false;
+    }
+    transport_->close();
+  }
+  std::vector<LastWill> last_wills() const override {
+    mouse::Report zero, stop;
+    mouse::encode_force({}, zero);
+    mouse::encode_stop(stop);
+    return wills(*transport_, {zero, stop});
+  }
   std::string description() const override { return "SPIDAR-mouse"; }
   GripAbilities abilities() const noexcept override { return kAbilities; }
   const std::string& name() const noexcept override { return name_; }

@@ -10,7 +10,6 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/singular_values.h"
 #include "core/quantile.h"
-#include "spidar/calibration/bundle_adjustment.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"
 #include "spidar/profiles/toml_field.h"

@@ -2,7 +2,15 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/calibration/model.h"
 
+#include <limits>
+#include <memory>
+
+#include <Eigen/Geometry>
+#include <ceres/ceres.h>
+
+#include "core/grip/pose_solver.h"
 #include "core/grip/singular_values.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 namespace {
@@ -83,6 +91,110 @@ Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& paramet
       by_parameter.row(i).tail(exit_directions_.cols()) =
           W.col(i).head<3>().transpose() * exit_directions_.middleRows<3>(3 * i);
   return error_m;
+}
+
+namespace {
+
+/// A pose as [position, quaternion x y z w], perturbed by a shift and a rotation in D.
+using PoseManifold =
+    ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
+constexpr int kPoseSize = 7;
+using PoseBlock = Eigen::Matrix<double, kPoseSize, 1>;
+
+PoseBlock to_block(const Pose& pose) {
+  PoseBlock block;
+  block << pose.position_m, pose.orientation.coeffs();
+  return block;
+}
+
+Pose to_pose(const double* block) {
+  return {Eigen::Map<const Eigen::Vector3d>(block),
+          Eigen::Map<const Eigen::Quaterniond>(block + 3)};
+}
+
+/// One sample: one residual for each string, in units of `unit_m`.
+class SampleErrors final : public ceres::CostFunction {
+ public:
+  SampleErrors(const CalibrationModel& model, const StringVector& paid_out_m, double unit_m)
+      : model_(model), paid_out_m_(paid_out_m), unit_m_(unit_m) {
+    set_num_residuals(model.strings());
+    *mutable_parameter_block_sizes() = {kPoseSize, model.size()};
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const int n = model_.strings();
+    const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(blocks[1], model_.size());
+    CalibrationModel::Derivatives derivatives;
+    Eigen::Map<Eigen::VectorXd>(residuals, n) =
+        model_.length_errors_m(parameters, paid_out_m_, to_pose(blocks[0]),
+                               jacobians ? &derivatives : nullptr) /
+        unit_m_;
+    if (!jacobians) return true;
+    if (jacobians[0]) {
+      // A rotation of the manifold is half a rotation vector. Ceres multiplies by dPlus, whose left
+      // inverse is dMinus.
+      Eigen::Matrix<double, 6, kPoseSize, Eigen::RowMajor> minus;
+      if (!PoseManifold().MinusJacobian(blocks[0], minus.data())) return false;
+      derivatives.by_twist.rightCols<3>() *= 2;
+      Eigen::Map<Rows>(jacobians[0], n, kPoseSize) = derivatives.by_twist * minus / unit_m_;
+    }
+    if (jacobians[1])
+      Eigen::Map<Rows>(jacobians[1], n, model_.size()) = derivatives.by_parameter / unit_m_;
+    return true;
+  }
+
+ private:
+  const CalibrationModel& model_;
+  StringVector paid_out_m_;
+  double unit_m_;
+};
+
+}  // namespace
+
+void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
+            double sigma_m, int max_iterations, Bundle& bundle) {
+  ceres::HuberLoss loss(kHuber);
+  PoseManifold manifold;
+  ceres::Problem::Options owned_here;
+  owned_here.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  owned_here.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(owned_here);
+
+  std::vector<PoseBlock> blocks(bundle.poses.size());
+  auto elimination_order = std::make_shared<ceres::ParameterBlockOrdering>();
+  double* parameters = bundle.parameters.data();
+  problem.AddParameterBlock(parameters, model.size());
+  elimination_order->AddElementToGroup(parameters, 1);
+  for (size_t k = 0; k < blocks.size(); ++k) {
+    blocks[k] = to_block(bundle.poses[k]);
+    problem.AddParameterBlock(blocks[k].data(), kPoseSize, &manifold);
+    elimination_order->AddElementToGroup(blocks[k].data(), 0);
+    problem.AddResidualBlock(new SampleErrors(model, paid_out_m[k], sigma_m), &loss,
+                             blocks[k].data(), parameters);
+  }
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_ordering = elimination_order;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-9;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  for (size_t k = 0; k < blocks.size(); ++k) bundle.poses[k] = to_pose(blocks[k].data());
+}
+
+Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m) {
+  const StringVector& centre_m = paid_out_m.front();
+  Bundle start{Eigen::VectorXd::Zero(model.size()), {}};
+  start.parameters.head(model.strings()) = -centre_m.head(model.strings());
+  const StringGeometry geometry = model.geometry(start.parameters);
+  const StringVector zero_m = string_lengths_m(geometry, {}) - centre_m;
+  PoseSolver solver(geometry, std::numeric_limits<double>::infinity());
+  for (const StringVector& lengths_m : paid_out_m)
+    start.poses.push_back(solver.solve(zero_m + lengths_m).pose);
+  return start;
 }
 
 }  // namespace spidar

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// String lengths as a function of the grip's pose and of the parameters that calibration
-/// estimates.
+/// estimates, and the fit of both to measured lengths, with Ceres.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/profiles/profile.h"
@@ -56,5 +56,24 @@ class CalibrationModel {
   int exits_at_;
   Eigen::MatrixXd exit_directions_;  ///< orthonormal columns
 };
+
+struct Bundle {
+  Eigen::VectorXd parameters;  ///< of the model
+  std::vector<Pose> poses;     ///< one for each sample
+};
+
+/// Minimises Σ ρ(‖length errors of a sample‖² / σ²), starting from `bundle`. ρ is Huber's loss with
+/// its corner at kHuber. All strings of a sample have less weight if they contradict each other,
+/// because six unknowns and eight lengths do not determine which string is at fault. `paid_out_m`
+/// has one entry for each sample.
+void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
+            double sigma_m, int max_iterations, Bundle& bundle);
+
+/// √5.99: exceeded by 5 % of the good samples, whose squared error is χ² with two degrees of
+/// freedom in units of σ².
+inline constexpr double kHuber = 2.448;
+
+/// A start: takes the first sample for one at the centre, and follows the grip from there.
+Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m);
 
 }  // namespace spidar

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <string>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 

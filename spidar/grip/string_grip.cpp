@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/force/felt_force.h"
-#include "spidar/profiles/force_range.h"
+#include "core/force/motion_rendering.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 namespace {

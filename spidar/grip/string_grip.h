@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/grip/pose.h"
 #include "core/grip/pose_solver.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "core/force/wrench_timeline.h"
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/grip/grip.h"

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <unistd.h>
 
-#include "spidar/realtime/sigpipe_block.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/realtime/thread_setup.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From a profile file's text to a Profile; looking files up is in profile.h.
+/// From a profile file's text to a Profile, and back; looking files up is in profile.h.
 ///
 /// A profile is TOML. All keys but `source` and `note` must be there, others must not:
 ///
@@ -27,6 +27,7 @@
 ///     note = "…"
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "spidar/profiles/profile.h"
@@ -36,6 +37,13 @@ namespace spidar {
 /// Reads and checks one profile. `path` is only for messages, `name` becomes Profile::name.
 /// Left-handed tables are turned into D by z → −z. Throws ProfileError.
 Profile parse_profile(const std::string& text, const std::string& path, const std::string& name);
+
+/// TOML from which load_profile() reads exactly the same profile, except for its name, which is
+/// that of the file. Geometry is in D and metres.
+std::string profile_text(const Profile& profile);
+
+/// Writes profile_text() to `path` with replace_file().
+void save_profile(const Profile& profile, const std::string& path);
 
 struct ShippedProfile {
   const char* name;  ///< of the file, without ending
@@ -51,5 +59,10 @@ struct ShippedProfiles {
 
 /// All of them, sorted by name.
 ShippedProfiles shipped_profiles() noexcept;
+
+/// Writes to a new file in the same folder, which then gets the name `file`. Follows no link at its
+/// own file's name, and replaces a link of the name `file`; does not replace a device or a folder.
+/// Throws ProfileError with the system's reason; the old file is unchanged then.
+void replace_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace spidar

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/profiles/profile_writer.h"
-
 #include <charconv>
 #include <sstream>
 
 #include <toml++/toml.h>
 
-#include "spidar/profiles/replace_file.h"
+#include "spidar/profiles/profile_file.h"
 
 namespace spidar {
 namespace {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Descriptors that a program opens: the three standard ones, and those of its output.
+/// Descriptors that a program opens: the three standard ones, and those of its output, which may
+/// be pipes whose reader is gone.
 #pragma once
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
 #include <string>
 #include <sys/file.h>
@@ -67,5 +70,33 @@ inline int open_own_output(const char* path, std::string& reason) {
   close(opened);
   return -1;
 }
+
+/// During its lifetime, SIGPIPE does not end the process when the calling thread writes to a closed
+/// pipe; the write fails with EPIPE. A library must not change the application's signal handlers,
+/// so the signal is blocked for this thread only, and a pending one is consumed at the end.
+class SigpipeBlock {
+ public:
+  SigpipeBlock() noexcept {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    sigset_t pending;
+    sigemptyset(&pending);
+    sigpending(&pending);
+    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+    pthread_sigmask(SIG_BLOCK, &pipe_, &previous_);
+  }
+  ~SigpipeBlock() {
+    constexpr timespec kNow{0, 0};
+    if (!was_pending_) sigtimedwait(&pipe_, nullptr, &kNow);
+    pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+  }
+  SigpipeBlock(const SigpipeBlock&) = delete;
+  SigpipeBlock& operator=(const SigpipeBlock&) = delete;
+
+ private:
+  sigset_t pipe_;
+  sigset_t previous_;
+  bool was_pending_;
+};
 
 }  // namespace spidar

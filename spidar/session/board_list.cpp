@@ -2,7 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/board_list.h"
 
+#include <fstream>
+#include <limits>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <unistd.h>
 
 #include "spidar/boards/usb_board.h"
@@ -12,11 +16,34 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/transports/evdev_list.h"
-#include "spidar/transports/listening_port.h"
 #include "spidar/transports/tty_transport.h"
 #include "spidar/transports/usb_bus.h"
 
 namespace spidar {
+namespace {
+
+/// Reads the table that proc_pid_net(5) describes: number, local address, remote address, state.
+bool has_listener(const char* path, uint16_t port) {
+  const std::string kListen = "0A";
+  std::ifstream list(path);
+  list.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  for (std::string line; std::getline(list, line);) {
+    std::istringstream words(line);
+    std::string number, local, remote, state;
+    words >> number >> local >> remote >> state;
+    const size_t colon = local.find(':');
+    if (state != kListen || colon == std::string::npos) continue;
+    if (std::stoul(local.substr(colon + 1), nullptr, 16) == port) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_listening(uint16_t port) {
+  return has_listener("/proc/net/tcp", port) || has_listener("/proc/net/tcp6", port);
+}
+
 namespace {
 
 /// Of simulations: the CyVerse boards output positive volts only, which the default profile is not

@@ -3,6 +3,7 @@
 /// Lists devices without opening them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,9 @@ std::string default_profile(const std::string& device);
 /// nothing is opened. If make_device() does not know the device either, the name in the result is
 /// empty.
 BoardInfo board_info(const std::string& device);
+
+/// Whether a program listens at this TCP port, on the loopback or on all addresses. Reads the
+/// kernel's list, and connects to nothing. False where that cannot be read.
+bool is_listening(uint16_t port);
 
 }  // namespace spidar

@@ -8,7 +8,7 @@
 
 #include <toml++/toml.h>
 
-#include "spidar/profiles/replace_file.h"
+#include "spidar/profiles/profile_file.h"
 #include "spidar/session/device_factory.h"
 
 namespace spidar {

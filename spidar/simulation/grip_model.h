@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 

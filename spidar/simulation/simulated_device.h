@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"

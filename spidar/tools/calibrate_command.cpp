@@ -13,14 +13,13 @@
 #include "spidar/calibration/samples.h"
 #include "spidar/conformance/conformance_report.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/profiles/profile_writer.h"
+#include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/simulation/grip_model.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/device_command.h"
-#include "spidar/tools/hand_motion.h"
 
 namespace spidar {
 namespace {

@@ -11,7 +11,7 @@
 #include "spidar/conformance/delay_test.h"
 #include "spidar/conformance/stick_test.h"
 #include "spidar/conformance/wiring_report.h"
-#include "spidar/profiles/profile_writer.h"
+#include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/session/device_factory.h"

@@ -1,8 +1,149 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Lists, inspects, tests and calibrates SPIDARs.
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include "spidar/loop/haptic_loop.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/standard_descriptors.h"
+#include "spidar/session/device_factory.h"
+#include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
+
+namespace spidar {
+namespace {
+
+std::atomic<bool> signalled{false};
+
+/// One with which the board can be read, and no motor can be pulled.
+Profile to_read_only(const BoardInfo& board) {
+  const std::vector<std::string> fitting = fitting_profiles(board);
+  if (fitting.empty()) return profile_for(board.device, "");  // throws what is wrong
+  Profile profile = load_profile(fitting.front());
+  profile.name.clear();
+  for (StringDrive& drive : profile.drives) drive.min_tension_N = drive.max_tension_N = 0;
+  return profile;
+}
+
+}  // namespace
+
+void add_device(CLI::App& app, DeviceOptions& options) {
+  app.add_option("DEVICE", options.device, "a name that spidarctl list prints")->required();
+  app.add_option("--profile", options.profile, "profile of the device, a name or a file");
+}
+
+void add_json(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "print JSON; names include units");
+}
+
+void add_yes(CLI::App& app, bool& yes) {
+  app.add_flag("--yes", yes, "do not ask for confirmation");
+}
+
+void add_seconds(CLI::App& app, double& seconds) {
+  app.add_option("--seconds", seconds, "end after this time; by default, when interrupted")
+      ->check(number(0.001, 86400, " s"));
+}
+
+CLI::Option* add_output(CLI::App& app, const std::string& name, OutputFile& file,
+                        const std::string& description) {
+  app.add_flag("--force", file.force, "replace the file of " + name + " if it exists");
+  return app.add_option(name, file.path, description);
+}
+
+void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
+                      const std::string& description) {
+  const auto check = [](const std::string& text) {
+    const bool good = std::filesystem::path(text).extension() == ".toml";
+    return good ? std::string() : "\"" + text + "\" must end in .toml, as profile files do";
+  };
+  add_output(app, name, file, description)->check(CLI::Validator(check, "FILE.toml"));
+}
+
+ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZero count_zero) {
+  ChosenDevice chosen;
+  chosen.board = board_info(options.device);
+  const bool named = !options.profile.empty() || !chosen.board.profile.empty();
+  if ((named && motors != Motors::kZeroed) || motors == Motors::kPulled)
+    chosen.profile = profile_for(options.device, options.profile);
+  else
+    chosen.profile = to_read_only(chosen.board);
+  BoardSettings settings;
+  settings.count_zero = count_zero;
+  // No tool is in such a hurry that it could not wait for an exchange.
+  settings.threaded = false;
+  if (chosen.board.has_strings)
+    chosen.device = make_device(options.device, chosen.profile, settings);
+  else
+    chosen.grip = make_grip(options.device, chosen.profile, settings);
+  return chosen;
+}
+
+void require_strings(const BoardInfo& board, const std::string& command) {
+  if (!board.has_strings)
+    throw DeviceError(board.device + ": " + command +
+                      " is for devices with strings and encoders; this device has neither");
+}
+
+bool can_reverse(const std::string& device, Profile profile) {
+  profile.drives[0].motor_sign = -1;
+  return can_drive(device, profile);
+}
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { signalled = true; };
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
+
+bool interrupted() {
+  return signalled;
+}
+
+Pace every_millisecond() {
+  return [next_ns = monotonic_now_ns()]() mutable {
+    next_ns = std::max(next_ns + kTick_ns, monotonic_now_ns());
+    sleep_until_ns(next_ns);
+    return !interrupted();
+  };
+}
+
+bool confirm(const std::string& question) {
+  if (isatty(STDIN_FILENO) == 0)
+    throw UsageError(
+        "there is no terminal to ask for confirmation; use --yes to continue without it");
+  std::cerr << question << " [y/N] " << std::flush;
+  std::string answer;
+  return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
+}
+
+bool may_move(const std::string& device, bool yes, const std::string& question) {
+  if (yes || is_simulated(device) || confirm(question)) return true;
+  std::cerr << "nothing was moved\n";
+  return false;
+}
+
+void OutputFile::check() const {
+  if (path.empty()) return;
+  const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
+  if (access(parent.c_str(), W_OK) != 0)
+    throw ProfileError(path + ": cannot be written: " + parent.string() + ": " +
+                       std::strerror(errno));
+  std::error_code error;
+  if (!force && std::filesystem::exists(path, error))
+    throw ProfileError(path + ": exists; name another file, or replace it with --force");
+}
+
+}  // namespace spidar
 
 int main(int argc, char** argv) {
   using namespace spidar;

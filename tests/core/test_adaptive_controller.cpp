@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/adaptive_controller.h"
+#include "core/force/gain_controller.h"
 
 namespace spidar::test::adaptive_controller_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/track/ahap.h"
+#include "core/track/exchange_formats.h"
 
 namespace spidar::test::ahap_test {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/choice/boxed_object.h"
 #include "core/choice/object_choice.h"
 
 namespace spidar::test::boxed_object_test {

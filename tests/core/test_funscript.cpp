@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/track/funscript.h"
+#include "core/track/exchange_formats.h"
 
 namespace spidar::test::funscript_test {
 namespace {

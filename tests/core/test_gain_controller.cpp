@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/adaptive_controller.h"
 #include "core/force/gain_controller.h"
 
 namespace spidar::test::gain_controller_test {

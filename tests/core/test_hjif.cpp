@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/track/hjif.h"
+#include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
 namespace spidar::test::hjif_test {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
 #include "tests/support/word_picture.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/force/adaptive_controller.h"
+#include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 
 namespace spidar::test::motion_filter_test {

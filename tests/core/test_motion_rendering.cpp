@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/force_renderer.h"
 #include "core/force/motion_rendering.h"
-#include "core/force/wrench_fade.h"
 
 namespace spidar::test::motion_rendering_test {
 namespace {

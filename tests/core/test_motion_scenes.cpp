@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/analysis/force_renderer.h"
 #include "core/analysis/motion_analyzer.h"
-#include "core/force/wrench_fade.h"
 #include "tests/support/moving_scene.h"
 
 namespace spidar::test::motion_scenes_test {

@@ -14,7 +14,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/filter/reports/message_and_meta.h"
-#include "plugin/tracks/spidar_extract.h"
+#include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_stream.h"
 
 namespace spidar::test {

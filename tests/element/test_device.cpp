@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/profiles/force_range.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"

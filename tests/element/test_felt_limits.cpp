@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "spidar/loop/wrench_limits.h"
 #include "tests/element/no_force_reason_test.h"
 

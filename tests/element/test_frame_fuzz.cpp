@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/picture/luma_row.h"
+#include "core/picture/luma.h"
 #include "plugin/filter/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/guarded_frame.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "core/motion/camera/background.h"
 #include "plugin/filter/reports/no_force_watch.h"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/track/funscript.h"
+#include "core/track/exchange_formats.h"
 
 using namespace spidar;
 

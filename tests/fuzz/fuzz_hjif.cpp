@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-#include "core/track/hjif.h"
+#include "core/track/exchange_formats.h"
 
 using namespace spidar;
 

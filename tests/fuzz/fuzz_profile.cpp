@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "spidar/profiles/profile_file.h"
-#include "spidar/profiles/profile_writer.h"
 
 using namespace spidar;
 

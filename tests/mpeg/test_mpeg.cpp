@@ -16,7 +16,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "core/track/hjif.h"
+#include "core/track/exchange_formats.h"
 #include "core/track/track_format.h"
 #include "plugin/tools/track_samples.h"
 #include "tests/support/temporary_folder.h"

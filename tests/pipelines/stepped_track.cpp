@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "plugin/tracks/spidar_sink.h"
+#include "plugin/tracks/track_elements.h"
 #include "tests/support/element_harness.h"
 
 namespace spidar::test {

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/tracks/spidar_extract.h"
+#include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_file.h"
 #include "spidar/profiles/profile.h"
 #include "tests/pipelines/stepped_pipeline.h"

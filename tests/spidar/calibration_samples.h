@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "spidar/calibration/calibration.h"
+#include "spidar/calibration/samples.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/tools/hand_motion.h"
 
 namespace spidar::test {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/simulation/simulated_device.h"

@@ -11,8 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/profiles/profile_writer.h"
-#include "spidar/profiles/replace_file.h"
+#include "spidar/profiles/profile_file.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/temporary_folder.h"
 

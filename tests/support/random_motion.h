@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/grip/pose.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar::test {
 

@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"

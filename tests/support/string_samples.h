@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 
 namespace spidar::test {

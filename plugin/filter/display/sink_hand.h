@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "plugin/filter/choice/sink_mouse.h"
 #include "plugin/filter/frame/frame_report.h"
@@ -19,10 +20,35 @@ class SinkHand {
   explicit SinkHand(HapticOutput& output) : output_(output) {}
 
   /// Of each frame, which is `width` × `height` pixels large.
-  void see(const FrameReport& report, int width, int height);
+  void see(const FrameReport& report, int width, int height) {
+    if (!report.analyzed) return;
+    const bool touched = report.touch.on && width > 0 && height > 0;
+    if (!touched) return let_go();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    touched_ = true;
+    map_ = report.touch.map;
+    const double w = width, h = height;
+    const VisiblePart& part = report.visible;
+    picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
+  }
   /// False when there is no hand to lead: nothing is touched, or the device is not simulated.
-  bool take(const SinkMouse& mouse);
-  void let_go();
+  bool take(const SinkMouse& mouse) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!touched_) return false;
+    mouse_.at_px = mouse.place;
+    mouse_.shift = mouse.shift;
+    mouse_.wheel = mouse.wheel;
+    if (mouse.act == SinkMouse::Act::kPress) mouse_.down = true;
+    if (mouse.act == SinkMouse::Act::kRelease) mouse_.down = false;
+    return output_.lead_hand(hand_.update(mouse_, picture_, map_));
+  }
+  void let_go() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!touched_) return;
+    touched_ = mouse_.down = false;
+    hand_.let_go();
+    output_.lead_hand(std::nullopt);
+  }
 
  private:
   HapticOutput& output_;

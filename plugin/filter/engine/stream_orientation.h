@@ -6,10 +6,33 @@
 #include <optional>
 
 #include <gst/gst.h>
+#include <gst/video/video.h>
 
 #include "core/picture_turn.h"
+#include "plugin/gobject/downstream.h"
 
 namespace spidar {
+
+inline PictureTurn turn_of(GstVideoOrientationMethod method) {
+  switch (method) {
+    case GST_VIDEO_ORIENTATION_90R:
+      return PictureTurn(1);
+    case GST_VIDEO_ORIENTATION_180:
+      return PictureTurn(2);
+    case GST_VIDEO_ORIENTATION_90L:
+      return PictureTurn(3);
+    case GST_VIDEO_ORIENTATION_HORIZ:
+      return PictureTurn(0, true);
+    case GST_VIDEO_ORIENTATION_UR_LL:  // exchanges the upper left corner and the lower right one
+      return PictureTurn(1, true);
+    case GST_VIDEO_ORIENTATION_VERT:
+      return PictureTurn(2, true);
+    case GST_VIDEO_ORIENTATION_UL_LR:  // exchanges the other two
+      return PictureTurn(3, true);
+    default:
+      return PictureTurn();
+  }
+}
 
 /// Follows the tag `image-orientation` by the rules of videoflip: the tag of the stream counts, and
 /// that of the whole film where the stream has none.
@@ -17,7 +40,13 @@ class StreamOrientation {
  public:
   /// Another stream begins, whose tags are not known yet.
   void begin_stream() { *this = {}; }
-  void take(const GstTagList* tags);
+  void take(const GstTagList* tags) {
+    GstVideoOrientationMethod method;
+    // The function does not change the tags.
+    if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;
+    const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
+    (of_film ? of_film_ : of_stream_) = turn_of(method);
+  }
   PictureTurn turn() const { return of_stream_.value_or(of_film_.value_or(PictureTurn())); }
 
  private:
@@ -26,6 +55,13 @@ class StreamOrientation {
 
 /// Whether an element before `sink` turns the picture by the tag. The videoflip of GStreamer 1.22
 /// passes the tag on all the same, where newer ones replace it by "rotate-0".
-bool follows_tag_upstream(GstPad* sink);
+inline bool follows_tag_upstream(GstPad* sink) {
+  return is_upstream(sink, [](GstElement* element) {
+    if (!GST_IS_VIDEO_DIRECTION(element)) return false;
+    GstVideoOrientationMethod method;
+    g_object_get(element, "video-direction", &method, nullptr);
+    return method == GST_VIDEO_ORIENTATION_AUTO;
+  });
+}
 
 }  // namespace spidar

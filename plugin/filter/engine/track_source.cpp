@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "plugin/timing/frame_pacer.h"
 
 namespace spidar {

@@ -6,8 +6,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/picture/luma_row.h"
-#include "core/picture/packed_luma.h"
+#include "core/picture/luma.h"
 
 namespace spidar {
 namespace {

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/frame/no_force_reason.h"
 
-#include "core/force/felt_force.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/cadence.h"

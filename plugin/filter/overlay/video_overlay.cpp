@@ -8,7 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "plugin/filter/frame/track_owners.h"
 #include "plugin/filter/overlay/arrow.h"
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "core/analysis/analysis_json.h"
-#include "spidar/realtime/sigpipe_block.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {

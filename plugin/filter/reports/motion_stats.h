@@ -17,15 +17,47 @@ namespace spidar {
 /// Since the stream began. Thread-safe.
 class MotionStats {
  public:
-  void reset();
-  void add(const Frame& frame, int64_t took_ns);
+  void reset() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    frames_ = 0;
+    restarts_ = 0;
+    features_ = 0;
+    tracked_ = 0;
+    model_.reset();
+    objects_ = 0;
+    analysis_.reset();
+  }
+  void add(const Frame& frame, int64_t took_ns) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++frames_;
+    if (frame.picture == PictureKind::kFirst) ++restarts_;
+    features_ = frame.features;
+    tracked_ = frame.motion.tracked;
+    model_.reset();
+    if (frame.background) model_ = frame.background->model.kind;
+    objects_ = static_cast<int>(frame.objects.size());
+    analysis_.add(took_ns);
+  }
 
-  uint64_t frames() const;
+  uint64_t frames() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return frames_;
+  }
 
   /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
   /// the background in the last frame, 'none' when the motion that is felt needs none), objects
   /// (uint, in the last frame), analysis-median, analysis-p95, analysis-max (uint64, ns).
-  void describe(GstStructure* structure) const;
+  void describe(GstStructure* structure) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    gst_structure_set(
+        structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64, restarts_,
+        "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked", G_TYPE_UINT,
+        static_cast<guint>(tracked_), "model", G_TYPE_STRING, model_ ? to_string(*model_) : "none",
+        "objects", G_TYPE_UINT, static_cast<guint>(objects_), "analysis-median", G_TYPE_UINT64,
+        static_cast<guint64>(analysis_.quantile_ns(0.5)), "analysis-p95", G_TYPE_UINT64,
+        static_cast<guint64>(analysis_.quantile_ns(0.95)), "analysis-max", G_TYPE_UINT64,
+        static_cast<guint64>(analysis_.max_ns()), nullptr);
+  }
 
  private:
   // 10 µs to 50 ms: more than that is too slow for any video.

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 
 namespace spidar {
 namespace {

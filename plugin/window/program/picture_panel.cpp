@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/force/felt_force.h"
+#include "core/force/motion_rendering.h"
 #include "plugin/filter/frame/track_owners.h"
 #include "plugin/filter/overlay/arrow.h"
 #include "plugin/window/program/panels.h"

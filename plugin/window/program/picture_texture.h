@@ -3,9 +3,12 @@
 /// A frame of video as a texture.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include <GLFW/glfw3.h>
 #include <gst/video/video.h>
 
 #include "plugin/window/view/shared_pictures.h"
@@ -14,17 +17,65 @@ namespace spidar {
 
 class PictureTexture {
  public:
-  PictureTexture();
-  ~PictureTexture();
+  PictureTexture() {
+    glGenTextures(1, &id_);
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  }
+  ~PictureTexture() {
+    glDeleteTextures(1, &id_);
+    if (converter_) gst_video_converter_free(converter_);
+    gst_clear_buffer(&converted_);
+  }
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
 
   /// Converts to RGB in the frame's own colorimetry, scaled down when it is more than `most_width`
   /// pixels wide, and uploads it. False when the frame cannot be converted: the texture stays.
-  bool load(const SharedPicture& picture, int most_width);
+  bool load(const SharedPicture& picture, int most_width) {
+    const GstVideoInfo& info = picture.info();
+    const int frame_width = GST_VIDEO_INFO_WIDTH(&info),
+              frame_height = GST_VIDEO_INFO_HEIGHT(&info);
+    const int width = std::clamp(most_width, 1, frame_width);
+    const int height =
+        std::max(1, static_cast<int>(static_cast<int64_t>(frame_height) * width / frame_width));
+    GstVideoFrame source, target;
+    if (!prepare(info, width, height)) return false;
+    const gsize bytes = GST_VIDEO_INFO_SIZE(&info);
+    // Read only: its pixels stay as they are.
+    GstBuffer* const buffer = gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY,
+                                                          const_cast<uint8_t*>(picture.pixels()),
+                                                          bytes, 0, bytes, nullptr, nullptr);
+    const bool is_mapped = gst_video_frame_map(&source, &source_, buffer, GST_MAP_READ) != FALSE;
+    gst_buffer_unref(buffer);
+    if (!is_mapped) return false;
+    if (!gst_video_frame_map(&target, &target_, converted_, GST_MAP_READWRITE)) {
+      gst_video_frame_unmap(&source);
+      return false;
+    }
+    gst_video_converter_frame(converter_, &source, &target);
+    upload(GST_VIDEO_FRAME_PLANE_DATA(&target, 0), width, height);
+    frame_width_ = frame_width;
+    frame_height_ = frame_height;
+    pixel_aspect_ = static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
+    gst_video_frame_unmap(&target);
+    gst_video_frame_unmap(&source);
+    return true;
+  }
 
   /// RGBA, rows from the top, without padding.
-  void upload(const void* rgba, int width, int height);
+  void upload(const void* rgba, int width, int height) {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    if (width == width_ && height == height_) {
+      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    } else {
+      glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    }
+    width_ = width;
+    height_ = height;
+  }
 
   /// Of the frame that it was made from.
   int frame_width() const { return frame_width_; }
@@ -37,7 +88,24 @@ class PictureTexture {
   unsigned id() const { return id_; }
 
  private:
-  bool prepare(const GstVideoInfo& source, int width, int height);
+  bool prepare(const GstVideoInfo& source, int width, int height) {
+    if (converter_ && gst_video_info_is_equal(&source, &source_) &&
+        GST_VIDEO_INFO_WIDTH(&target_) == width && GST_VIDEO_INFO_HEIGHT(&target_) == height) {
+      return true;
+    }
+    if (converter_) gst_video_converter_free(converter_);
+    gst_clear_buffer(&converted_);
+    source_ = source;
+    gst_video_info_set_format(&target_, GST_VIDEO_FORMAT_RGBA, static_cast<guint>(width),
+                              static_cast<guint>(height));
+    converter_ = gst_video_converter_new(
+        &source_, &target_,
+        gst_structure_new("options", GST_VIDEO_CONVERTER_OPT_RESAMPLER_METHOD,
+                          GST_TYPE_VIDEO_RESAMPLER_METHOD, GST_VIDEO_RESAMPLER_METHOD_LINEAR,
+                          nullptr));
+    converted_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&target_), nullptr);
+    return converter_ && converted_;
+  }
 
   unsigned id_ = 0;
   int width_ = 0, height_ = 0;

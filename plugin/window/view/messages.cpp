@@ -264,7 +264,9 @@ bool read_kind(WireReader& wire, size_t kind, Message& message) {
     return false;
   } else {
     if (kind != kKind) return read_kind<Message, kKind + 1>(wire, kind, message);
-    wire(message.template emplace<kKind>());
+    std::variant_alternative_t<kKind, Message> content;
+    wire(content);
+    message = std::move(content);
     return true;
   }
 }

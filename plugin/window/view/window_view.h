@@ -3,7 +3,9 @@
 /// All that a debug window shows, as plain data: no GL, no GObject.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,15 +42,40 @@ struct ElementState {
   std::shared_ptr<const FeelRules> rules;  ///< of `feel`; null: there are none
 
   /// Null when there is none of this name.
-  const Setting* setting(const std::string& setting_name) const;
-  double value(const std::string& setting_name, double otherwise) const;
+  const Setting* setting(const std::string& setting_name) const {
+    const auto found = std::find_if(settings.begin(), settings.end(),
+                                    [&](const Setting& s) { return s.name == setting_name; });
+    return found == settings.end() ? nullptr : &*found;
+  }
+  double value(const std::string& setting_name, double otherwise) const {
+    const Setting* found = setting(setting_name);
+    return found ? found->value : otherwise;
+  }
 };
 
 /// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
 /// that the device gets less stiffness than is set.
-std::string felt_line(const ElementState& state, const TouchScene& touch = {});
+inline std::string felt_line(const ElementState& state, const TouchScene& touch = {}) {
+  if (!state.no_force.empty()) return "not felt: " + state.no_force;
+  const double wanted_N_m = state.value("touch-stiffness", 0);
+  if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
+  char text[96];
+  std::snprintf(text, sizeof text,
+                "felt, at %.0f N/m instead of %.0f: the device's drives are slow",
+                touch.stiffness_N_m, wanted_N_m);
+  return text;
+}
 
 /// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
-double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains, int frame_height);
+inline double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains,
+                                    int frame_height) {
+  if (frame_height <= 0) return 0;
+  const Eigen::Vector2d velocity_px_s =
+      motion.velocity_px_s * (kReferenceHeight_px / static_cast<double>(frame_height));
+  return Eigen::Vector4d(velocity_px_s.x(), velocity_px_s.y(),
+                         gains.depth * motion.growth_1_s * kRim_px,
+                         gains.roll * motion.roll_rad_s * kRim_px)
+      .norm();
+}
 
 }  // namespace spidar

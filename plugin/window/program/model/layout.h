@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/grip/pose.h"
 #include "core/grip/string_geometry.h"
 #include "plugin/window/view/rect.h"
 

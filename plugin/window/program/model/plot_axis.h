@@ -3,6 +3,9 @@
 /// Axes of a plot: which range they show, and the round numbers on them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -10,24 +13,63 @@ namespace spidar {
 
 /// A range of values with ticks at multiples of `step`.
 struct PlotAxis {
+  /// Of a step: rounding of low / step must neither add nor lose a tick at the end of the range.
+  static constexpr double kRounding = 1e-9;
+
   double low = 0, high = 1;
   double step = 1;   ///< 1, 2 or 5 times a power of ten
   int decimals = 0;  ///< that tell neighbouring ticks apart
 
   /// Multiples of `step` from `low` to `high`, rising.
-  std::vector<double> ticks() const;
-  std::string label(double value) const;
+  std::vector<double> ticks() const {
+    std::vector<double> values;
+    const double first = std::ceil(low / step - kRounding),
+                 last = std::floor(high / step + kRounding);
+    for (double n = first; n <= last; ++n) values.push_back(n * step);
+    return values;
+  }
+  std::string label(double value) const {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // no "-0"
+    return text;
+  }
   /// 0 at `low`, 1 at `high`; values beyond are beyond.
   double share(double value) const { return (value - low) / (high - low); }
 };
 
+/// The smallest of 1, 2, 5 times a power of ten that is not below `least` (> 0).
+inline double round_step(double least) {
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least * (1 - PlotAxis::kRounding)) return factor * power;
+  }
+  return 10 * power;
+}
+
 /// An axis over exactly this range with at most `most_steps` (≥ 1) steps. A range that is empty,
 /// reversed or not finite becomes one of width 1 from `low`, or from 0.
-PlotAxis make_axis(double low, double high, int most_steps);
+inline PlotAxis make_axis(double low, double high, int most_steps) {
+  PlotAxis axis;
+  axis.low = std::isfinite(low) ? low : 0;
+  axis.high = std::isfinite(high) && high > axis.low ? high : axis.low + 1;
+  axis.step = round_step((axis.high - axis.low) / std::max(most_steps, 1));
+  axis.decimals =
+      std::clamp(static_cast<int>(-std::floor(std::log10(axis.step) + PlotAxis::kRounding)), 0, 9);
+  return axis;
+}
 
 /// Upper end of a range from 0 for these values (≥ 0), which a few outliers do not stretch: the
 /// largest, but at most 1.5 times the value that 95 % of them do not exceed. Where 95 % are zero
 /// there is nothing that an outlier could flatten, and it is the largest. 0 without values.
-double robust_largest(std::vector<double> values);
+inline double robust_largest(std::vector<double> values) {
+  constexpr double kUsual = 0.95, kHeadroom = 1.5;
+  if (values.empty()) return 0;
+  const double largest = *std::max_element(values.begin(), values.end());
+  const auto at =
+      values.begin() +
+      static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(values.size()))) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at > 0 ? std::min(largest, kHeadroom * *at) : largest;
+}
 
 }  // namespace spidar

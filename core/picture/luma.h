@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Luma of packed RGB.
+/// Luma in 8 bits, of frames of any supported depth and of packed RGB.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,12 @@
 #include "core/picture/image_view.h"
 
 namespace spidar {
+
+/// Copies `columns` pixels of row `y` from column `x` on, all inside the frame.
+void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to);
+
+/// Returns the frame itself if it has 8 bits, otherwise a converted copy in `buffer`.
+ImageView in_8_bits(const ImageView& frame, std::vector<uint8_t>& buffer);
 
 /// Order of the bytes of a pixel; x is padding or alpha and is ignored.
 enum class PackedOrder { kRgb, kBgr, kRgbx, kBgrx };

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Haptic tracks in the formats of others: MPEG's HJIF (ISO/IEC 23090-31), funscripts, which are
+/// the positions of a linear device over time, and AHAP, the files of Core Haptics.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/track/track_format.h"
+
+namespace spidar {
+
+/// Says what was wrong with a file, and where.
+class HjifError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// HJIF of a track of 1000 samples a second: one perception of modality Force with six channels, fx
+/// fy fz tx ty tz, 1.0 of which is the full scale. HJIF has no modality for torque, so the
+/// descriptions of the channels name it. Each channel is one curve of straight lines whose
+/// keyframes are samples. The curve differs from the other samples by at most `tolerance` of the
+/// full scale, and from the keyframes by half of 1e-5. Amplitudes beyond the full scale are
+/// clipped, as the format requires; NaN becomes 0.
+std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
+
+/// The longest track that read_hjif() takes: 12 h.
+constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
+
+/// Samples, 1000 a second, of the first perception of modality Force, which must have six channels.
+/// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
+/// effect is silent before its first and after its last keyframe. Throws HjifError: not JSON, a
+/// value that is missing or out of range, other bands or curves, or more than `most_samples`.
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples);
+
+/// Says what was wrong with a file, and where.
+class FunscriptError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// As much as the rounding of a position differs from the curve: half a step of 2 %.
+constexpr double kFunscriptTolerance = 0.01;
+
+/// One channel: −1, 0 and 1 are the positions 0, 50 and 100, whole numbers. Players draw straight
+/// lines between them, and move at the speed that these ask for; they differ from the curve by at
+/// most `tolerance`, a share of the full scale, and the rounding of a position, 0.01. Amplitudes
+/// beyond the full scale are clipped, and NaN becomes 0.
+std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel,
+                            double tolerance = kFunscriptTolerance);
+
+/// The longest funscript that is read: 12 h.
+constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;
+
+/// Samples, 1000 a second, of straight lines between the positions, in `channel`; the others are 0.
+/// Before the first position they are 0, too. "range" is the percentage of the full scale that is
+/// used: launchcontrol, the player that the format comes from, scales the positions by it, and its
+/// usual limits put them about the middle. As there, 0 and a script without it stand for all.
+/// Throws FunscriptError: not JSON, no actions, a position or range that is not from 0 to 100, or a
+/// time that does not rise or is too late.
+std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
+                                        size_t most_samples = kMostFunscriptSamples);
+
+/// A vibration as strong as the force: a continuous event whose intensity is the magnitude of the
+/// force as a share of the full scale, along straight lines that differ from it by at most
+/// `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are lost.
+/// Magnitudes beyond the full scale are clipped, and NaN becomes 0.
+///
+/// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
+/// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.
+std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance = 0.02);
+
+}  // namespace spidar
