@@ -33,27 +33,32 @@ constexpr double kRim_px = kReferenceHeight_px / 2;
 /// Lever arm of the torque: the radius of the grip.
 constexpr double kTorqueArm_m = 0.0225;
 
+/// Velocity, growth and roll as speeds in px/s of the reference frame: u = (v_x, v_y, depth ·
+/// growth · R, roll gain · roll · R) with R = kRim_px. `frame_height` > 0.
+inline Eigen::Vector4d reference_speeds_px_s(const ImageMotion& motion, const AxisGains& gains,
+                                             int frame_height) {
+  const Eigen::Vector2d velocity_px_s = kReferenceHeight_px / frame_height * motion.velocity_px_s;
+  return {velocity_px_s.x(), velocity_px_s.y(), gains.depth * motion.growth_1_s * kRim_px,
+          gains.roll * motion.roll_rad_s * kRim_px};
+}
+
 /// The wrench for a motion in a frame of `frame_height` pixels, in the device frame D.
 ///
-/// Velocity, growth and roll become speeds in px/s of the reference frame, u = (v_x, v_y,
-/// depth · growth · R, roll gain · roll · R) with R = kRim_px. The controller
-/// turns |u| into a force F, which is divided in proportion to u: the force is F (u₁, −u₂, u₃) /
-/// |u|, because y points down in the picture and up in the device; the torque about z, which points
-/// to the viewer, is −F kTorqueArm_m u₄ / |u|, because a clockwise turn on the screen turns from x
-/// to −y of the device. The force therefore never exceeds F, and the torque never exceeds F times
-/// the arm. `interval_s` is the running time since the previous frame, 0 if unknown.
+/// The controller turns |u| of reference_speeds_px_s() into a force F, which is divided in
+/// proportion to u: the force is F (u₁, −u₂, u₃) / |u|, because y points down in the picture and up
+/// in the device; the torque about z, which points to the viewer, is −F kTorqueArm_m u₄ / |u|,
+/// because a clockwise turn on the screen turns from x to −y of the device. The force therefore
+/// never exceeds F, and the torque never exceeds F times the arm. `interval_s` is the running time
+/// since the previous frame, 0 if unknown.
 inline Wrench render_motion(GainController& controller, const ImageMotion& motion,
                             const AxisGains& gains, int frame_height, double interval_s = 0) {
-  const Eigen::Vector2d velocity_px_s = kReferenceHeight_px / frame_height * motion.velocity_px_s;
+  const Eigen::Vector4d u = reference_speeds_px_s(motion, gains, frame_height);
   const double noise_px_s = kReferenceHeight_px / frame_height * motion.noise_px_s;
-  const double depth_px_s = gains.depth * motion.growth_1_s * kRim_px;
-  const double roll_px_s = gains.roll * motion.roll_rad_s * kRim_px;
   // Without growth and roll this is the plane controller to the last bit.
-  if (depth_px_s == 0 && roll_px_s == 0) {
-    return render_motion(controller, velocity_px_s, interval_s, noise_px_s);
+  if (u[2] == 0 && u[3] == 0) {
+    return render_motion(controller, u.head<2>(), interval_s, noise_px_s);
   }
 
-  const Eigen::Vector4d u(velocity_px_s.x(), velocity_px_s.y(), depth_px_s, roll_px_s);
   const double speed_px_s = u.norm();
   const double force_N = controller.force_N({speed_px_s, interval_s, noise_px_s});
   const Eigen::Vector4d direction = u / speed_px_s;

@@ -32,19 +32,7 @@ class BusWarnings {
                    const TouchProperties& wanted);
   /// The grip is to point: does the device know where it is?
   void check_pointer(const MotionEngine& engine);
-  /// See DeviceWarnings.
-  bool check_refused(const std::exception& refusal, OnDeviceError policy) const {
-    return device_.check_refused(refusal, policy);
-  }
-  void check_opened(const MotionEngine& engine) const {
-    if (const HapticSession* session = engine.output().session()) device_.check_opened(*session);
-  }
-  void check_haptic_trace(const MotionEngine& engine) {
-    device_.check_haptic_trace(engine.output().session());
-  }
-  bool check_device(const MotionEngine& engine, OnDeviceError policy) {
-    return device_.check(engine.output().session(), policy);
-  }
+  DeviceWarnings& device() { return device_; }
 
  private:
   GstElement* const element_;

@@ -137,10 +137,10 @@ static bool open_device(GstSpidarMotion* self, const MotionProperties& propertie
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force continue without it."));
     }
-    self->warnings->check_opened(engine);
+    self->warnings->device().check_opened(engine.output().session());
     return true;
   } catch (const std::exception& refusal) {
-    return self->warnings->check_refused(refusal, properties.on_device_error);
+    return self->warnings->device().check_refused(refusal, properties.on_device_error);
   }
 }
 
@@ -225,27 +225,15 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kUnlockedEffects[] = {
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  g_mutex_lock(&self->setting);
-  GST_OBJECT_LOCK(self);
-  const bool known = spidar::motion_properties().set(*self->properties, id, value);
-  GST_OBJECT_UNLOCK(self);
-  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  spidar::follow_property(kEffects, self, spec, value);
-  g_mutex_unlock(&self->setting);
+  spidar::set_property(spidar::motion_properties(), self, kEffects, id, value, spec);
   spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
                                            GParamSpec* spec) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {  // stats
-    g_value_take_boxed(value, self->engine->stats());
-    return;
-  }
-  GST_OBJECT_LOCK(self);
-  const bool known = spidar::motion_properties().get(*self->properties, id, value);
-  GST_OBJECT_UNLOCK(self);
-  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  const auto stats = [](GstSpidarMotion* self) { return self->engine->stats(); };
+  spidar::get_property<MotionProperties, GstSpidarMotion>(
+      spidar::motion_properties(), GST_SPIDAR_MOTION(object), stats, id, value, spec);
 }
 
 static void gst_spidar_motion_finalize(GObject* object) {

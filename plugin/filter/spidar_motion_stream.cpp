@@ -108,6 +108,10 @@ static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffe
       found.has_motion_before() ? "" : ", restarted", found.goes_on() ? ", goes on" : "");
 }
 
+static bool device_goes_on(GstSpidarMotion* self, OnDeviceError policy) {
+  return self->warnings->device().check(self->engine->output().session(), policy);
+}
+
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
                                                           GstVideoFrame* frame) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
@@ -145,8 +149,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   if (report->analyzed && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, *report, &self->unread_messages);
   }
-  return self->warnings->check_device(*self->engine, on_device_error) ? GST_FLOW_OK
-                                                                      : GST_FLOW_ERROR;
+  return device_goes_on(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// A frame without a picture is not mapped, because mapping may have to wait for its memory.
@@ -161,8 +164,7 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
   const bool passed = spidar::guarded(GST_ELEMENT(self), "passing a gap",
                                       [&] { self->engine->pass_gap(buffer, trans->segment); });
   self->display->skip();
-  return passed && self->warnings->check_device(*self->engine, on_device_error) ? GST_FLOW_OK
-                                                                                : GST_FLOW_ERROR;
+  return passed && device_goes_on(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// In passthrough the buffer may not be writable. A meta belongs to the buffer and not to its
@@ -309,7 +311,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   }
   // Reported here, because messages during the change to NULL are discarded.
   if (self->engine->output().session()) self->engine->output().session()->drain_trace();
-  self->warnings->check_haptic_trace(*self->engine);
+  self->warnings->device().check_haptic_trace(self->engine->output().session());
   return TRUE;
 }
 

@@ -44,15 +44,16 @@ bool DeviceWarnings::check_refused(const std::exception& refusal, OnDeviceError 
   return true;
 }
 
-void DeviceWarnings::check_opened(const HapticSession& session) const {
-  const GripAbilities can = session.grip().abilities();
+void DeviceWarnings::check_opened(const HapticSession* session) const {
+  if (!session) return;
+  const GripAbilities can = session->grip().abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
-  const bool force_feedback = session.grip().name().compare(0, 2, "ff") == 0;
+  const bool force_feedback = session->grip().name().compare(0, 2, "ff") == 0;
   const bool whole = can.force[0] && can.force[1] && can.direction;
   if (whole && !force_feedback) return;
   GST_ELEMENT_INFO(
-      element_, RESOURCE, SETTINGS, ("%s.", session.opened().c_str()),
+      element_, RESOURCE, SETTINGS, ("%s.", session->opened().c_str()),
       ("The device works%s%s.",
        whole ? "" : ", but renders nothing else of the force and the torque",
        force_feedback ? "; device=ff:PATH,gain=PERCENT sets how much of its strength is "

@@ -26,7 +26,7 @@ class DeviceWarnings {
   bool check_refused(const std::exception& refusal, OnDeviceError policy) const;
   /// Posts an information message if a device that was just opened renders only a part of what is
   /// to be seen in the picture.
-  void check_opened(const HapticSession& session) const;
+  void check_opened(const HapticSession* session) const;
   /// The element begins: everything may be said again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.

@@ -194,4 +194,33 @@ void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* 
     if (std::strcmp(effect.property, spec->name) == 0) effect.follow(element, value);
 }
 
+/// GObjectClass::set_property of an element with `properties`, under its object lock, and the mutex
+/// `setting`, so that the effects of settings come in the order in which they were made.
+template <typename Settings, typename Element, size_t kCount>
+void set_property(const PropertyTable<Settings>& table, Element* element,
+                  const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
+                  GParamSpec* spec) {
+  g_mutex_lock(&element->setting);
+  GST_OBJECT_LOCK(element);
+  const bool known = table.set(*element->properties, id, value);
+  GST_OBJECT_UNLOCK(element);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
+  follow_property(effects, element, spec, value);
+  g_mutex_unlock(&element->setting);
+}
+
+/// GObjectClass::get_property of such an element, with `stats` for the statistics.
+template <typename Settings, typename Element>
+void get_property(const PropertyTable<Settings>& table, Element* element,
+                  GstStructure* (*stats)(Element*), guint id, GValue* value, GParamSpec* spec) {
+  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {
+    g_value_take_boxed(value, stats(element));
+    return;
+  }
+  GST_OBJECT_LOCK(element);
+  const bool known = table.get(*element->properties, id, value);
+  GST_OBJECT_UNLOCK(element);
+  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
+}
+
 }  // namespace spidar

@@ -222,7 +222,7 @@ static bool open_device(GstSpidarSink* self) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
-    self->warnings->check_opened(*self->output->session());
+    self->warnings->check_opened(self->output->session());
     self->queue->connect(&self->output->session()->loop());
     return true;
   } catch (const std::exception& refusal) {
@@ -259,14 +259,8 @@ static constexpr spidar::PropertyEffect<GstSpidarSink> kSinkEffects[] = {
 
 static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
                                          GParamSpec* spec) {
-  GstSpidarSink* self = GST_SPIDAR_SINK(object);
-  g_mutex_lock(&self->setting);
-  GST_OBJECT_LOCK(self);
-  const bool known = spidar::sink_properties().set(*self->properties, id, value);
-  GST_OBJECT_UNLOCK(self);
-  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  spidar::follow_property(kSinkEffects, self, spec, value);
-  g_mutex_unlock(&self->setting);
+  spidar::set_property(spidar::sink_properties(), GST_SPIDAR_SINK(object), kSinkEffects, id, value,
+                       spec);
 }
 
 static GstStructure* stats(GstSpidarSink* self) {
@@ -284,15 +278,7 @@ static GstStructure* stats(GstSpidarSink* self) {
 
 static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* value,
                                          GParamSpec* spec) {
-  GstSpidarSink* self = GST_SPIDAR_SINK(object);
-  if (G_PARAM_SPEC_VALUE_TYPE(spec) == GST_TYPE_STRUCTURE) {
-    g_value_take_boxed(value, stats(self));
-    return;
-  }
-  GST_OBJECT_LOCK(self);
-  const bool known = spidar::sink_properties().get(*self->properties, id, value);
-  GST_OBJECT_UNLOCK(self);
-  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  spidar::get_property(spidar::sink_properties(), GST_SPIDAR_SINK(object), stats, id, value, spec);
 }
 
 static void follow_ts_offset(GstSpidarSink* self) {

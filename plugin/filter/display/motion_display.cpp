@@ -8,6 +8,7 @@
 
 #include <gst/base/gstbasetransform.h>
 
+#include "core/force/motion_rendering.h"
 #include "plugin/filter/display/element_source.h"
 #include "plugin/filter/frame/object_metas.h"
 #include "plugin/filter/overlay/video_overlay.h"
@@ -29,7 +30,8 @@ void MotionDisplay::show(FrameReport& report, const DisplayProperties& propertie
   if (shown_in) {
     follow_film(report);
     report.film = film_;
-    report.speed_px_s = controller_speed_px_s(report.frame.motion, gains, report.visible.height);
+    report.speed_px_s =
+        reference_speeds_px_s(report.frame.motion, gains, report.visible.height).norm();
   }
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (shown_in && shown_in->wants_frame()) shown_in->give(frame, report);

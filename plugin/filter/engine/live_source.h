@@ -27,15 +27,10 @@ class LiveSource : public WrenchSource {
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
-  void connect(HapticLoop* loop) override { schedule_.connect(loop); }
-  void hand_on() override { schedule_.hand_on(); }
-  void set_muted(bool muted) override { schedule_.set_muted(muted); }
-  void forget() override { schedule_.forget(); }
-  void restart() override { analyzer_.restart(); }
+  /// The next frame has nothing to do with the one before.
+  void restart() { analyzer_.restart(); }
   bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
   void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
-
-  // --- streaming thread
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.

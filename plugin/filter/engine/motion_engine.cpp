@@ -15,16 +15,16 @@ std::string MotionEngine::open(const MotionProperties& properties) {
       output_.open(properties.device, properties.profile, properties.haptic_trace);
   if (!output_.session()) return trace_problem;
   HapticLoop* const loop = &output_.session()->loop();
-  live_.connect(loop);
-  track_.connect(loop);
+  schedule_.connect(loop);
+  track_samples_.connect(loop);
   touch_.connect();
   no_force_watch_.set_can_touch(output_.session()->grip().abilities().can_touch());
   return trace_problem;
 }
 
 void MotionEngine::close() {
-  live_.connect(nullptr);
-  track_.connect(nullptr);
+  schedule_.connect(nullptr);
+  track_samples_.connect(nullptr);
   output_.close();
   touch_.disconnect();
 }
@@ -41,15 +41,15 @@ bool MotionEngine::stop() {
 }
 
 void MotionEngine::set_muted(bool muted) {
-  live_.set_muted(muted);
-  track_.set_muted(muted);
+  schedule_.set_muted(muted);
+  track_samples_.set_muted(muted);
   no_force_watch_.set_muted(muted);
   touch_.set_muted(muted);
 }
 
 void MotionEngine::flush() {
-  live_.forget();
-  track_.forget();
+  schedule_.forget();
+  track_samples_.forget();
   touch_.forget();
 }
 
@@ -100,7 +100,7 @@ void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
   // because what the schedule hands on after it must stay.
-  track_.forget();
+  track_samples_.forget();
   schedule_.change_rate(multiplier, running_time, upstream);
 }
 

@@ -30,8 +30,8 @@ class MotionEngine {
  public:
   explicit MotionEngine(GstElement* element)
       : output_(element, [this] {
-          live_.hand_on();
-          track_.hand_on();
+          schedule_.hand_on();
+          track_samples_.hand_on();
         }) {}
 
   /// The device and where playback is.
@@ -105,11 +105,12 @@ class MotionEngine {
 
   // These outlive the output's thread, which hands on what waits.
   WrenchBacklog schedule_;
+  BlockQueue track_samples_;
   NoForceWatch no_force_watch_;
   PictureTurn turn_;
   FrameTouch touch_{output_};
   LiveSource live_{schedule_, no_force_watch_, touch_, turn_};
-  TrackSource track_{output_, schedule_, no_force_watch_, touch_};
+  TrackSource track_{output_, track_samples_, schedule_, no_force_watch_, touch_};
   std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
   HapticOutput output_;
   // Streaming thread.

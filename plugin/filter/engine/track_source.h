@@ -63,10 +63,11 @@ class TrackReplay {
 
 class TrackSource : public WrenchSource {
  public:
-  /// All are the engine's, and outlive this. `times` knows when the sink shows a frame.
-  TrackSource(const HapticOutput& output, const WrenchBacklog& times, NoForceWatch& limits,
-              FrameTouch& touch)
-      : output_(output), times_(times), limits_(limits), touch_(touch) {}
+  /// All are the engine's, and outlive this. `samples` takes those of the track; `times` knows when
+  /// the sink shows a frame.
+  TrackSource(const HapticOutput& output, BlockQueue& samples, const WrenchBacklog& times,
+              NoForceWatch& limits, FrameTouch& touch)
+      : output_(output), samples_(samples), times_(times), limits_(limits), touch_(touch) {}
 
   /// What was given of the track before is felt nevertheless: its frames are on their way to the
   /// screen.
@@ -75,11 +76,8 @@ class TrackSource : public WrenchSource {
   /// Since set_track(). Any thread.
   uint64_t frames() const { return frames_; }
 
-  void connect(HapticLoop* loop) override { samples_.connect(loop); }
-  void hand_on() override { samples_.hand_on(); }
-  void set_muted(bool muted) override { samples_.set_muted(muted); }
-  void forget() override { samples_.forget(); }
-  void restart() override { replay_.restart(); }
+  /// The next frame has nothing to do with the one before.
+  void restart() { replay_.restart(); }
   /// The report's wrench is the largest of the track while the frame is shown.
   bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
   void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
@@ -89,10 +87,10 @@ class TrackSource : public WrenchSource {
             int64_t running_ns, FrameReport& report);
 
   const HapticOutput& output_;
+  BlockQueue& samples_;
   const WrenchBacklog& times_;
   NoForceWatch& limits_;
   FrameTouch& touch_;
-  BlockQueue samples_;
   TrackReplay replay_;
   std::atomic<uint64_t> frames_{0};
 };

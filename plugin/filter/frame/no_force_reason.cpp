@@ -123,15 +123,6 @@ bool is_withheld(const Frame& frame) {
   return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
 }
 
-/// Of the reference frame.
-double speed_px_s(const ImageMotion& motion, int frame_height) {
-  const Eigen::Vector2d velocity_px_s =
-      motion.velocity_px_s * (kReferenceHeight_px / static_cast<double>(frame_height));
-  return Eigen::Vector4d(velocity_px_s.x(), velocity_px_s.y(), motion.growth_1_s * kRim_px,
-                         motion.roll_rad_s * kRim_px)
-      .norm();
-}
-
 }  // namespace
 
 const char* nick(NoForceReason limit) noexcept {
@@ -147,7 +138,8 @@ NoForceReason limit_of(const Frame& frame, MotionKind motion) {
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
-  if (frame.height > 0 && speed_px_s(frame.motion, frame.height) >= kMoving_px_s) {
+  if (frame.height > 0 &&
+      reference_speeds_px_s(frame.motion, {}, frame.height).norm() >= kMoving_px_s) {
     return NoForceReason::kTooWeak;
   }
   if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/choice/feel_rules.h"
-#include "core/force/motion_rendering.h"
 #include "plugin/filter/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
@@ -64,18 +63,6 @@ inline std::string felt_line(const ElementState& state, const TouchScene& touch 
                 "felt, at %.0f N/m instead of %.0f: the device's drives are slow",
                 touch.stiffness_N_m, wanted_N_m);
   return text;
-}
-
-/// Speed that the gain controller would be given for this motion (see render_motion()), px/s.
-inline double controller_speed_px_s(const ImageMotion& motion, const AxisGains& gains,
-                                    int frame_height) {
-  if (frame_height <= 0) return 0;
-  const Eigen::Vector2d velocity_px_s =
-      motion.velocity_px_s * (kReferenceHeight_px / static_cast<double>(frame_height));
-  return Eigen::Vector4d(velocity_px_s.x(), velocity_px_s.y(),
-                         gains.depth * motion.growth_1_s * kRim_px,
-                         gains.roll * motion.roll_rad_s * kRim_px)
-      .norm();
 }
 
 }  // namespace spidar
