@@ -3,6 +3,7 @@
 /// The velocity of the grip.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -39,7 +40,24 @@ class GripMotion {
   static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
   /// The grip was at `pose` at `at_ns`. The same time again is no new pose.
-  void see(const Pose& pose, int64_t at_ns) noexcept;
+  void see(const Pose& pose, int64_t at_ns) noexcept {
+    const double dt_s = 1e-9 * static_cast<double>(at_ns - at_ns_);
+    if (started_ && !(dt_s > 0)) return;
+    if (started_) {
+      std::copy_backward(velocity_.begin(), velocity_.end() - 1, velocity_.end());
+      const double share = share_passed(dt_s, 1 / (2 * M_PI * kCutoff_Hz));
+      const Eigen::Quaterniond turn = pose.orientation * last_.orientation.conjugate();
+      // For the small angles of a tick the rotation vector is twice the vector part.
+      const Eigen::Vector3d turn_rad = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
+      GripVelocity& now = velocity_[0];
+      now.linear_m_s += share * ((pose.position_m - last_.position_m) / dt_s - now.linear_m_s);
+      now.angular_rad_s += share * (turn_rad / dt_s - now.angular_rad_s);
+      dt_s_ = dt_s;
+    }
+    started_ = true;
+    at_ns_ = at_ns;
+    last_ = pose;
+  }
 
   /// The pose is not known: the velocity is zero until there are two poses again.
   void reset() noexcept { *this = {}; }
@@ -47,10 +65,22 @@ class GripMotion {
   const GripVelocity& velocity() const noexcept { return velocity_[0]; }
 
   /// Where a grip at `pose` is `ahead_s` later at the present velocity.
-  Pose pose_in(const Pose& pose, double ahead_s) const noexcept;
+  Pose pose_in(const Pose& pose, double ahead_s) const noexcept {
+    Eigen::Quaterniond turn;
+    turn.w() = 1;
+    turn.vec() = 0.5 * ahead_s * velocity().angular_rad_s;
+    return {pose.position_m + ahead_s * velocity().linear_m_s,
+            (turn * pose.orientation).normalized()};
+  }
 
   /// The velocity `ahead_s` after the newest pose, with the present acceleration.
-  GripVelocity velocity_in(double ahead_s) const noexcept;
+  GripVelocity velocity_in(double ahead_s) const noexcept {
+    const GripVelocity& now = velocity_.front();
+    const GripVelocity& before = velocity_.back();
+    const double slopes = (ahead_s + kLag_s) / (kSlope * dt_s_);
+    return {now.linear_m_s + slopes * (now.linear_m_s - before.linear_m_s),
+            now.angular_rad_s + slopes * (now.angular_rad_s - before.angular_rad_s)};
+  }
 
  private:
   static constexpr int kSlope = 3;  ///< ticks over which the acceleration is measured

@@ -5,9 +5,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <future>
 #include <thread>
+#include <utility>
 
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
@@ -34,18 +37,53 @@ class LoopThread {
 
   /// Returns when the thread runs and its scheduling is known. Throws std::system_error if the
   /// thread cannot be created. `loop` must outlive this object.
-  LoopThread(HapticLoop& loop, bool ask_for_real_time);
+  LoopThread(HapticLoop& loop, bool ask_for_real_time) : loop_(loop) {
+    std::promise<Scheduling> scheduled;
+    std::future<Scheduling> scheduling = scheduled.get_future();
+    auto body = [this, ask_for_real_time, scheduled = std::move(scheduled)]() mutable {
+      request_exact_timers();
+      scheduled.set_value(ask_for_real_time
+                              ? request_real_time()
+                              : Scheduling{false, "real-time priority not asked for"});
+      run();
+    };
+    thread_ = start_thread("spidar-haptic", std::move(body));
+    scheduling_ = scheduling.get();
+  }
   /// stop()
-  ~LoopThread();
+  ~LoopThread() { stop(); }
 
   /// Ramps to zero, closes the device, ends the thread. Safe to call twice.
-  void stop() noexcept;
+  void stop() noexcept {
+    loop_.begin_close();
+    if (thread_.joinable()) thread_.join();
+  }
 
   const Scheduling& scheduling() const noexcept { return scheduling_; }
   const LoopTiming& timing() const noexcept { return timing_; }
 
  private:
-  void run() noexcept;
+  void run() noexcept {
+    int64_t deadline = monotonic_now_ns() + kTick_ns;
+    int64_t next_try = 0;
+    for (;;) {
+      sleep_until_ns(deadline);
+      const int64_t begin = monotonic_now_ns();
+      loop_.tick(deadline, begin);
+      const int64_t end = monotonic_now_ns();
+      timing_.lateness.add(begin - deadline);
+      timing_.cycle.add(end - begin);
+      if (loop_.released()) break;
+      deadline = next_deadline_ns(deadline, end);
+      if (loop_.lost() && end >= next_try) {
+        loop_.reopen();
+        next_try = monotonic_now_ns() + kRetry_ns;
+        // The duration of this says nothing about the scheduler.
+        deadline = monotonic_now_ns() + kTick_ns;
+      }
+    }
+    loop_.close();
+  }
 
   HapticLoop& loop_;
   Scheduling scheduling_;
