@@ -3,7 +3,6 @@
 #include "core/analysis/force_renderer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -39,7 +38,7 @@ uint64_t felt_thing(const Chosen& choice, uint32_t object) {
 
 /// The wrench of a rule, within what the controller may give.
 Wrench amplified(const Wrench& wrench, double gain, double most_N) {
-  const double force_N = std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
+  const double force_N = size_N(wrench);
   if (gain == 1 || force_N == 0) return wrench;
   const double factor = std::min(gain, std::max(most_N / force_N, std::min(gain, 1.0)));
   return {factor * wrench.force_N, factor * wrench.torque_Nm};

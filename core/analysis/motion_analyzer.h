@@ -4,11 +4,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include "core/analysis/analyzer_settings.h"
+#include "core/analysis/force_renderer.h"
 #include "core/analysis/frame.h"
+#include "core/motion/cadence.h"
+#include "core/motion/motion_estimator.h"
 #include "core/picture/image_view.h"
+#include "core/picture/reduced_frame.h"
+#include "core/tracking/tracker.h"
 
 namespace spidar {
 
@@ -22,8 +27,8 @@ namespace spidar {
 class MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
-  explicit MotionAnalyzer(const AnalyzerSettings& settings = {});
-  ~MotionAnalyzer();
+  explicit MotionAnalyzer(const AnalyzerSettings& settings = {})
+      : settings_(settings), tracker_(settings.tracker), renderer_(settings) {}
 
   /// Takes effect with the next frame; what the controller has learnt stays unless its kind
   /// changes, and so do the tracks. Throws std::invalid_argument when a setting is out of range,
@@ -48,8 +53,22 @@ class MotionAnalyzer {
   void restart();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  bool by_points() const { return settings_.motion == MotionKind::kMean; }
+  void take(const Cadence::Step& step);
+  bool measure(const ImageView& image, int64_t running_ns);
+  bool find_mean(const TrackedFrame& tracked);
+  void restart_measuring();
+
+  AnalyzerSettings settings_;
+  ReducedFrame reduced_;
+  OpenCvTracker tracker_;   // for the mean
+  MotionEstimator motion_;  // for all else
+  Cadence cadence_;
+  ForceRenderer renderer_;
+  std::optional<int64_t> last_running_ns_;
+  bool anew_ = true;
+  FilmPlace film_;
+  Frame frame_;
 };
 
 }  // namespace spidar

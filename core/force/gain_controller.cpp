@@ -18,10 +18,6 @@ double LinearController::force_N(const MeasuredSpeed& measured) {
   return max_speed_px_s_ > 0 ? max_force_N_ * (speed_px_s / max_speed_px_s_) : 0;
 }
 
-double LinearController::gain_N_s_px() const {
-  return max_speed_px_s_ > 0 ? max_force_N_ / max_speed_px_s_ : 0;
-}
-
 double NonlinearController::force_N(const MeasuredSpeed& measured) {
   return 2 * max_force_N_ / M_PI * std::atan(alpha_s_px_ * measured.speed_px_s);
 }

@@ -58,8 +58,6 @@ class LinearController final : public GainController {
     max_force_N_ = settings.max_force_N;
   }
   void reset() override { max_speed_px_s_ = 0; }
-  /// k of eq. 12, N per px/s; 0 while nothing has moved.
-  double gain_N_s_px() const;
 
  private:
   double max_force_N_;

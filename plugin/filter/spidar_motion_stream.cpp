@@ -9,6 +9,7 @@
 #include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/gobject/exceptions.h"
+#include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/sidecar.h"
 
 #undef GST_CAT_DEFAULT
@@ -23,22 +24,8 @@ static GstBaseTransformClass* parent_class() {
   return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
 }
 
-/// GST_CLOCK_TIME_NONE when the segment is not in time format, as from a file source without a
-/// parser.
-static GstClockTime running_time_of(const GstSegment& segment, GstClockTime time) {
-  return segment.format == GST_FORMAT_TIME
-             ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, time)
-             : GST_CLOCK_TIME_NONE;
-}
-
-static GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time) {
-  return segment.format == GST_FORMAT_TIME
-             ? gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, time)
-             : GST_CLOCK_TIME_NONE;
-}
-
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
-  const GstClockTime time = stream_time_of(trans->segment, GST_BUFFER_PTS(buffer));
+  const GstClockTime time = spidar::stream_time_of(trans->segment, GST_BUFFER_PTS(buffer));
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
 }
 
@@ -58,10 +45,9 @@ static void begin_to_load_track(GstSpidarMotion* self) {
 static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
   std::optional<spidar::LoadedTrack> loaded = self->loader->take();
   if (!loaded) return;
-  const GstClockTime frame =
-      info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
+  const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
   std::optional<spidar::TrackFile> track =
-      spidar::judge_track(GST_ELEMENT(self), std::move(*loaded), static_cast<gint64>(frame));
+      spidar::judge_track(GST_ELEMENT(self), std::move(*loaded), frame_ns);
   if (!track) return;
   // The wrenches of frames that came before it stay: some of them may be the end of another film.
   self->engine->set_track(std::move(track));
@@ -236,7 +222,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
-      engine.begin_gap(running_time_of(trans->segment, time));
+      engine.begin_gap(spidar::running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:

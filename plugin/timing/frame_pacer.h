@@ -9,6 +9,19 @@
 
 namespace spidar {
 
+/// GST_CLOCK_TIME_NONE when the segment is not in time format, as from a file source without a
+/// parser.
+inline GstClockTime running_time_of(const GstSegment& segment, GstClockTime time) {
+  return segment.format == GST_FORMAT_TIME
+             ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, time)
+             : GST_CLOCK_TIME_NONE;
+}
+inline GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time) {
+  return segment.format == GST_FORMAT_TIME
+             ? gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, time)
+             : GST_CLOCK_TIME_NONE;
+}
+
 /// As the caps say it; 0 where they do not.
 GstClockTime nominal_duration(const GstVideoInfo& info);
 

@@ -8,6 +8,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/track_input.h"
 
 namespace spidar {
@@ -172,10 +173,7 @@ GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer) {
   if (!event) return GST_CLOCK_TIME_NONE;
   const GstSegment* segment = nullptr;
   gst_event_parse_segment(event, &segment);
-  const GstClockTime time =
-      segment->format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(buffer)
-          ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer))
-          : GST_CLOCK_TIME_NONE;
+  const GstClockTime time = stream_time_of(*segment, GST_BUFFER_PTS(buffer));
   gst_event_unref(event);
   return time;
 }

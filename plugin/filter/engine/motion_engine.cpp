@@ -154,10 +154,7 @@ FrameReport& MotionEngine::process(const PassingFrame& frame) {
 }
 
 void MotionEngine::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
-  const GstClockTime running_time =
-      segment.format == GST_FORMAT_TIME
-          ? gst_segment_to_running_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer))
-          : GST_CLOCK_TIME_NONE;
+  const GstClockTime running_time = running_time_of(segment, GST_BUFFER_PTS(buffer));
   if (is_time(running_time)) {
     source_->pass_gap(buffer, segment, static_cast<int64_t>(running_time));
   } else {
