@@ -73,6 +73,7 @@ struct GripCommand {
 struct GripReading {
   /// The wrench that the hand gets. Computed for `pose`, even if that is not known any more.
   Wrench delivered;
+  Wrench at_rest;  ///< what of it the strings exert without a command
   StringVector tension_N = StringVector::Zero();  ///< told; zero for a grip without strings
   bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
 

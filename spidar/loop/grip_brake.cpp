@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spidar/grip/grip.h"
+
 namespace spidar {
 namespace {
 
@@ -44,6 +46,19 @@ constexpr double kStored_s = 0.2;
 /// From a pose to the force that depends on it: a tick until the next exchange, and half a tick in
 /// which it is held.
 constexpr double kLoop_s = 1.5e-3;
+/// No force is followed for longer: in a loose hand the acceleration is another one by then.
+constexpr double kLongestFall_s = 0.02;
+
+/// How much longer `force_N` accelerates the grip along `velocity_m_s` than if it ended at once. It
+/// falls with `max_slew_N_s`, and what it does meanwhile, its present strength does in half of the
+/// time.
+double still_pushes_s(const Eigen::Vector3d& force_N, const Eigen::Vector3d& velocity_m_s,
+                      double max_slew_N_s) {
+  const double along_N_m_s = force_N.dot(velocity_m_s);
+  if (!(along_N_m_s > 0)) return 0;
+  const double along_N = along_N_m_s / velocity_m_s.norm();
+  return 0.5 * std::min(kLongestFall_s, along_N / non_negative(max_slew_N_s));
+}
 
 /// Reduces the part of `vector` along `velocity` to the share that the speed leaves. A turn has the
 /// speed at the end of an arm of `metres`. `earlier_m_s` is added to the speed.
@@ -71,6 +86,7 @@ Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, double e
 
 void GripBrake::reset() noexcept {
   strings_N_.setZero();
+  rest_N_.setZero();
   acting_N_.setZero();
   late_N_.setZero();
   given_m_s_.setZero();
@@ -79,25 +95,27 @@ void GripBrake::reset() noexcept {
   located_ = false;
 }
 
-void GripBrake::pull(const Wrench& strings, double dt_s) noexcept {
+void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept {
   // What was told before acts until now.
   acting_N_ += share_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
   late_N_ += share_passed(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
   given_m_s_ += dt_s / kBareGrip_kg * late_N_;
   given_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
   strings_N_ = strings.force_N;
+  rest_N_ = at_rest.force_N;
 }
 
 void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
                     double dt_s) noexcept {
-  compare_with_force(position_m, dt_s);
   const Eigen::Vector3d& now_m_s = motion.velocity().linear_m_s;
+  compare_with_force(position_m, now_m_s, dt_s);
   seen_m_s_ += now_m_s - last_m_s_;
   seen_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
   last_m_s_ = now_m_s;
 }
 
-void GripBrake::compare_with_force(const Eigen::Vector3d& position_m, double dt_s) noexcept {
+void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
+                                   const Eigen::Vector3d& velocity_m_s, double dt_s) noexcept {
   if (resting_s_ > 0 || !located_) {
     from_m_ = position_m;
     gone_m_.setZero();
@@ -106,22 +124,41 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m, double dt_
     located_ = true;
   }
   const double share = share_passed(dt_s, kYieldTime_s);
-  gone_m_ += share * (position_m - from_m_ - gone_m_);
+  const Eigen::Vector3d way_m = position_m - from_m_;
+  gone_m_ += share * (way_m - gone_m_);
   pulled_N_ += share * (strings_N_ - pulled_N_);
-  loose_s_ = has_yielded() ? kStored_s : loose_s_ - dt_s;
+  const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
+  loose_s_ = has_yielded() || thrown ? kStored_s : loose_s_ - dt_s;
   const double force_N = pulled_N_.norm();
   if (force_N < kFirmForce_N) return;
   const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
   withstood_s_ = firm ? withstood_s_ + dt_s : 0;
 }
 
-/// Further than a hand lets it, and if there was none that withstood the force, far.
-bool GripBrake::has_yielded() const noexcept {
+bool GripBrake::is_withstood() const noexcept {
+  return withstood_s_ >= kWithstands_s;
+}
+
+/// The grip has followed the force for `way_m`, which is further than a hand lets it.
+bool GripBrake::is_loose(const Eigen::Vector3d& way_m) const noexcept {
   const double force_N = pulled_N_.norm();
   if (!(force_N > kTellingForce_N)) return false;
-  const double along_m = pulled_N_.dot(gone_m_) / force_N;
-  if (along_m < kLeastYield_m || kLooseHand_N_m * along_m < force_N) return false;
-  return share_ < 1 || (withstood_s_ < kWithstands_s && gone_m_.norm() > kThrown_m);
+  const double along_m = pulled_N_.dot(way_m) / force_N;
+  return along_m >= kLeastYield_m && kLooseHand_N_m * along_m >= force_N;
+}
+
+/// If there was no hand that withstood the force, it has also gone far.
+bool GripBrake::has_yielded() const noexcept {
+  if (!is_loose(gone_m_)) return false;
+  return share_ < 1 || (!is_withstood() && gone_m_.norm() > kThrown_m);
+}
+
+/// Springs store by where the grip is now: at 0.5 m/s the smoothed way is 25 mm behind. To a loose
+/// hand, the strings add what pulls the grip back to their rest.
+bool GripBrake::has_stored(const Eigen::Vector3d& way_m) const noexcept {
+  if (is_withstood() || !is_loose(way_m)) return false;
+  const double twice_J = kLooseHand_N_m * way_m.squaredNorm() - rest_N_.dot(way_m);
+  return twice_J > kLooseHand_N_m * kThrown_m * kThrown_m;
 }
 
 bool GripBrake::yields(const GripMotion& motion) const noexcept {
@@ -143,7 +180,8 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 
-Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
+Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double max_slew_N_s,
+                        double dt_s) noexcept {
   if (is_released(motion) || (resting_s_ <= 0 && yields(motion))) resting_s_ = kRest_s;
   if (resting_s_ > 0) {
     resting_s_ -= dt_s;
@@ -151,8 +189,11 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   } else {
     share_ = std::min(1.0, share_ + dt_s / kReturn_s);
   }
-  const GripVelocity then = motion.velocity_in(kLoop_s + drive_lag_s_);
-  const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
+  const bool loose = loose_s_ > 0;
+  const double earlier_m_s = loose ? kEarlier_m_s : 0;
+  const double falls_s =
+      loose ? still_pushes_s(strings_N_, motion.velocity().linear_m_s, max_slew_N_s) : 0;
+  const GripVelocity then = motion.velocity_in(kLoop_s + drive_lag_s_ + falls_s);
   const Wrench left{faded(share_ * wanted.force_N, then.linear_m_s, 1, earlier_m_s),
                     faded(share_ * wanted.torque_Nm, then.angular_rad_s, radius_m_, earlier_m_s)};
   return left + Wrench{damping(then.linear_m_s, 1, earlier_m_s),

@@ -22,9 +22,10 @@ namespace spidar {
 ///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
 ///   film reverses its force. Until a hand has withstood a force, a fast grip that has gone far
-///   along the force is one that yields, too. With a slow one, fading and damping begin
-///   kEarlier_m_s below their speeds, because what it has stored comes on top of a force that is
-///   reversed.
+///   along the force is one that yields, too. With a slow one, and with one that comes back from a
+///   swing as far as that, fading and damping begin kEarlier_m_s below their speeds: what the hand
+///   and the strings at rest have stored comes on top of a force that is reversed. The speed is
+///   then foreseen for as long as the force that still acts along it needs to fall.
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
@@ -51,25 +52,33 @@ class GripBrake {
 
   /// Position and velocity after an exchange, `dt_s` after the last call.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double dt_s) noexcept;
-  /// The wrench that the strings are told to exert until the next exchange.
-  void pull(const Wrench& strings, double dt_s) noexcept;
+  /// The wrench that the strings are told to exert until the next exchange, and the one of their
+  /// rest, which is a part of it.
+  void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
-  /// What is left of the wrench that is wanted.
-  Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
+  /// What is left of the wrench that is wanted. `max_slew_N_s` is how fast the force may change
+  /// after the brake.
+  Wrench apply(const Wrench& wanted, const GripMotion& motion, double max_slew_N_s,
+               double dt_s) noexcept;
 
   /// False from when the grip was found to be released until the full wrench has returned.
   bool held() const noexcept { return share_ >= 1 && resting_s_ <= 0; }
 
  private:
   bool is_released(const GripMotion& motion) const noexcept;
+  bool is_withstood() const noexcept;
+  bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
   bool has_yielded() const noexcept;
+  bool has_stored(const Eigen::Vector3d& way_m) const noexcept;
   bool yields(const GripMotion& motion) const noexcept;
-  void compare_with_force(const Eigen::Vector3d& position_m, double dt_s) noexcept;
+  void compare_with_force(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
+                          double dt_s) noexcept;
 
   const double radius_m_;
   const double drive_lag_s_;
   // What the strings gave a bare grip in the last kMemory_s, and what was seen.
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< told
+  Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();     ///< what of it pulls to the centre
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
   Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();     ///< as late as the velocity is
   Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();

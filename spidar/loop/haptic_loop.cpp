@@ -197,8 +197,9 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   }
   const GripReading& grip = grip_->reading();
   const Wrench allowed = vibration_.share() * record.wanted;
-  const Wrench braked =
-      grip_->traits().can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
+  const Wrench braked = grip_->traits().can_fly
+                            ? brake_.apply(allowed, grip.motion, limits_.max_slew_N_s, dt_s)
+                            : allowed;
   record.commanded = safety_.apply(braked, is_fresh(record), dt_s, limits_);
   counters_.rejected_wrenches = safety_.rejected();
 }
@@ -234,7 +235,7 @@ void HapticLoop::follow(double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip.knows_pose() || !grip_->traits().can_fly) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, dt_s);
-  brake_.pull(grip.delivered, dt_s);
+  brake_.pull(grip.delivered, grip.at_rest, dt_s);
 }
 
 /// The grip may not have received this tick, so the next one starts from the last acknowledged one.

@@ -171,5 +171,33 @@ TEST(ReleasedFilms, WhatALooseHandHasStoredDoesNotThrowIt) {
   }
 }
 
+/// A grip that swings fast is further away than it is on average over the time in which a slow one
+/// follows. Judged by the average way, nothing is stored, and it gets 1.11 m/s.
+TEST(ReleasedFilms, AFastSwingStoresByWhereItEnds) {
+  const Profile profile = load_profile("spidar-g6x");
+  GripModel model = released(profile, 0.1);
+  model.hand_stiffness_N_m = 57;
+  model.hand_damping_N_s_m = 0.44;
+  PlayedGrip grip(profile, model,
+                  pulses(3 * Eigen::Vector3d(0.13, -0.63, -0.77).normalized(), 4.5, true));
+  grip.run(3);
+  EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
+}
+
+/// The force that the brake takes away falls no faster than the slew limit lets it, and pushes on
+/// meanwhile. At half of the usual limit the grip gets 1.05 m/s if the brake does not foresee that.
+TEST(ReleasedFilms, TheBrakeForeseesHowSlowlyAForceFalls) {
+  const Profile profile = load_profile("spidar-g6x3-v2-l");
+  GripModel model = released(profile, 0.1);
+  model.hand_stiffness_N_m = 60;
+  model.hand_damping_N_s_m = 0.47;
+  SafetyLimits limits;
+  limits.max_slew_N_s /= 2;
+  PlayedGrip grip(profile, model,
+                  pulses(3 * Eigen::Vector3d(-0.95, 0.21, 0.22).normalized(), 5.6, true), limits);
+  grip.run(3);
+  EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
+}
+
 }  // namespace
 }  // namespace spidar::test::released_films_test
