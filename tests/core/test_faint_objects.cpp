@@ -46,23 +46,6 @@ TEST(FaintObjects, ADiscThatGoesByLessThanHalfAPixelIsOne) {
   }
 }
 
-TEST(FaintObjects, OneThatSlowsDownMovesOnWhereItsBlocksAreInDoubt) {
-  // With so much noise, a block moves by itself from √13 · 0.4 = 1.44 px on, and one of a known
-  // object from 0.6 of that, 0.87 px. The disc is slower in the end, but by less than a half.
-  const Background noisy = background_moved_by({0, 0}, 0.4);
-  const double fast_px = 1.6;
-  const double slow_px = 0.84;
-  constexpr int kFast = 8;
-  const auto centre_px = [&](int n) {
-    const double right_px = fast_px * std::min(n, kFast) + slow_px * std::max(0, n - kFast);
-    return Vector2d(kMiddle_px.x() + right_px, kMiddle_px.y());
-  };
-  const auto found = objects_in(disc(40, centre_px), kFast + 6, noisy);
-  for (size_t n = kFast; n < found.size(); ++n) {
-    EXPECT_NEAR(moved_px(found[n]).x(), slow_px, fast_px - slow_px) << n;
-  }
-}
-
 TEST(FaintObjects, OneOfASingleBlockIsFoundWhenItHasLasted) {
   // A square of 12 px in the middle of a row of blocks of 16 px, which begins at the upper border.
   const Vector2d step_px(1.5, 0);

@@ -15,9 +15,6 @@ constexpr double kMostObject = 0.2;
 /// If this share of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedShare = 2 * kMostObject;
 
-/// Frames after which higher rungs are fitted again where they have not helped.
-constexpr int kRetryAfterFrames = 3;
-
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
 constexpr double kOutlierSigmas = 2.5;
@@ -26,11 +23,6 @@ constexpr double kLeastReach_px = 0.45;
 /// A model explains the votes when most of them are inliers and their mean ρ is below kExplained;
 /// the ρ of an outlier is 4.
 constexpr double kExplained = 0.3;
-/// A higher rung must be better by the price of so many parameters.
-constexpr double kMargin = 3;
-/// Above this mean ρ half of the votes are outliers and the camera's motion is not known: every
-/// frame is searched from scratch.
-constexpr double kLost = kMostCost / 2;
 
 ModelKind next(ModelKind kind, int step) {
   return static_cast<ModelKind>(static_cast<int>(kind) + step);
@@ -84,8 +76,6 @@ BackgroundEstimator::BackgroundEstimator() {
 void BackgroundEstimator::reset() {
   background_ = Background();
   noise_px_ = kUsualNoise_px;
-  frames_since_climb_ = kRetryAfterFrames;
-  refused_cost_ = 0;
 }
 
 /// The weights are scaled so that their sum is the number of equally weighted points that carry the
@@ -193,12 +183,11 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
 /// Looks for a higher rung that is better. Returns false when there is none.
 bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
                                 Scored& current) {
-  const double margin = kMargin * std::log(4 * effective_points_);
   bool climbed = false;
   for (int rung = static_cast<int>(current.model.kind) + 1; rung < kModelKinds; ++rung) {
     Scored higher;
     if (!score(static_cast<ModelKind>(rung), start, votes, higher)) continue;
-    if (higher.gric >= current.gric - margin) continue;
+    if (higher.gric >= current.gric) continue;
     current = higher;
     climbed = true;
     if (is_explained(current.model)) break;
@@ -251,17 +240,7 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   if (!score(background_.model.kind, start, votes, current)) {
     score(ModelKind::kStill, start, votes, current);
   }
-  const double cost = current.cost / effective_points_;
-  const bool explained = is_explained(current.model);
-  ++frames_since_climb_;
-  bool climbed = false;
-  const bool is_due =
-      frames_since_climb_ >= kRetryAfterFrames || cost > refused_cost_ || cost > kLost;
-  if (!explained && is_due) {
-    climbed = climb(start, votes, current);
-    frames_since_climb_ = climbed ? kRetryAfterFrames : 0;
-    refused_cost_ = cost;
-  }
+  const bool climbed = !is_explained(current.model) && climb(start, votes, current);
   if (!climbed && current.model.kind != ModelKind::kStill) descend(start, votes, current);
   background_.is_known = is_proven(current, votes);
   background_.model = background_.is_known ? current.model : MotionModel();

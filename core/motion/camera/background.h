@@ -52,10 +52,8 @@ Background in_pixels_of(const Background& background, double scale);
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
 /// coordinates of a track, d = 2 for all rungs, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
-/// smallest wins, with hysteresis: a higher rung must be better by kMargin parameters' worth, a
-/// lower one must be better in some frames in succession. Higher rungs are only fitted
-/// when the one in use stops explaining the votes. Where that does not help, they are fitted again
-/// after some frames, or when the mean ρ has risen.
+/// smallest wins. Higher rungs are only fitted in frames in which the one in use does not explain
+/// the votes.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();
@@ -113,8 +111,6 @@ class BackgroundEstimator {
   double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes
   double noise_px_ = 0;
-  int frames_since_climb_ = 0;
-  double refused_cost_ = 0;  ///< mean cost when no higher rung helped
   int fitted_ = 0;
   Background background_;
 };

@@ -38,12 +38,9 @@ constexpr float kWorseShare = 0.15f;
 
 /// A block that stands out moves if this many around it do: errors seldom lie side by side.
 constexpr int kLeastNeighbours = 3;
-/// Any other block moves among this many moving neighbours: without texture it shows no motion, and
-/// one that seems to stand still is an error.
-constexpr int kNearlyAllNeighbours = 7;
 
-/// How much a block must have stood out in the last frames, 0 … 1, see remember_judgements(): in
-/// two of them to need only one moving neighbour, in four of them to need none.
+/// How much a block must have stood out in the last frames, 0 … 1, see remember_what_stood_out():
+/// in two of them to need only one moving neighbour, in four of them to need none.
 constexpr float kLastingBesideOne = 0.5f;
 constexpr float kLastingAlone = 0.8f;
 
@@ -141,45 +138,45 @@ void MovingBlocks::measure_parallax(const BlockField& field) {
   parallax_.measure(of_scene_px_);
 }
 
-MovingBlocks::Judgement MovingBlocks::judge(const BlockField& field, size_t index,
-                                            const Eigen::Matrix2f& noise_px2, bool expected) const {
+bool MovingBlocks::stands_out(const BlockField& field, size_t index,
+                              const Eigen::Matrix2f& noise_px2, bool expected) const {
   const MotionBlock& block = field.blocks()[index];
   const RelativeBlock& relative = relative_[index];
-  if (!relative.has_texture) return Judgement::kUnknown;
+  if (!relative.has_texture) return false;
   const float least2 = expected ? kSlower * kSlower * kLeastDistance2 : kLeastDistance2;
-  if (distance2(relative, block, noise_px2) < least2) return Judgement::kStill;
-  if (relative.was_outside) return Judgement::kStill;
+  if (distance2(relative, block, noise_px2) < least2) return false;
+  if (relative.was_outside) return false;
   // Of a slow block the pixels say nothing, and a moving camera moves many blocks of a scene with
   // depth a little.
   const bool is_slow = moves_slowly(relative);
   if (is_slow) {
-    if (expected || camera_is_still_) return Judgement::kMoves;
+    if (expected || camera_is_still_) return true;
     const Eigen::Matrix2f depths_px2 = kDepths * parallax_.covariance_px2();
-    if (distance2(relative, block, depths_px2) < kLeastDistance2) return Judgement::kStill;
+    if (distance2(relative, block, depths_px2) < kLeastDistance2) return false;
   }
   const int with_background = field.difference_if_moved(
       static_cast<int>(index), relative.background_x_px, relative.background_y_px);
-  if (with_background < 0) return Judgement::kUnknown;
+  if (with_background < 0) return false;
   const float worse = static_cast<float>(with_background - block.difference);
   const float least_worse =
       expected || is_slow
           ? 0
           : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
                 kWorseShare * static_cast<float>(block.difference);
-  return worse < least_worse ? Judgement::kStill : Judgement::kMoves;
+  return worse >= least_worse;
 }
 
 void MovingBlocks::leave_out_burned_in(const BlockField& field,
                                        const std::vector<uint8_t>& expected) {
   burned_in_.begin(field, !camera_is_still_, picture_noise_);
-  for (size_t i = 0; i < judgements_.size(); ++i) {
-    if (judgements_[i] != Judgement::kMoves) continue;
+  for (size_t i = 0; i < stands_out_.size(); ++i) {
+    if (stands_out_[i] == 0) continue;
     burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,
                             moves_slowly(relative_[i]), i < expected.size() && expected[i] != 0});
   }
   burned_in_.end(field.grid());
-  for (size_t i = 0; i < judgements_.size(); ++i) {
-    if (burned_in_.holds(i)) judgements_[i] = Judgement::kBurnedIn;
+  for (size_t i = 0; i < stands_out_.size(); ++i) {
+    if (burned_in_.holds(i)) stands_out_[i] = 0;
     relative_[i].is_covered = burned_in_.covers(i);
     relative_[i].was_outside |= burned_in_.margins().hold(field.grid(), i);
   }
@@ -193,34 +190,24 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
         for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
           if (i == column && j == row) continue;
           const auto neighbour = static_cast<size_t>(j * grid.columns + i);
-          moving += judgements_[neighbour] == Judgement::kMoves;
+          moving += stands_out_[neighbour];
         }
       }
       const auto index = static_cast<size_t>(row * grid.columns + column);
-      bool moves = false;
-      relative_[index].lasts = false;
-      switch (judgements_[index]) {
-        case Judgement::kMoves:
-          relative_[index].lasts = stood_out_[index].share > kLastingAlone;
-          moves = moving >= kLeastNeighbours || relative_[index].lasts ||
-                  (moving > 0 && stood_out_[index].share > kLastingBesideOne);
-          break;
-        case Judgement::kUnknown:
-        case Judgement::kStill:
-          moves = moving >= kNearlyAllNeighbours;
-          break;
-        case Judgement::kBurnedIn:
-          break;
-      }
-      relative_[index].moves = moves;
+      const bool stands_out = stands_out_[index] != 0;
+      RelativeBlock& block = relative_[index];
+      block.lasts = stands_out && stood_out_[index].share > kLastingAlone;
+      block.moves = block.lasts ||
+                    (stands_out && (moving >= kLeastNeighbours ||
+                                    (moving > 0 && stood_out_[index].share > kLastingBesideOne)));
     }
   }
 }
 
 /// How much each block has stood out recently in the same way: what glitters stands out in another
 /// one each time. A small object may have moved on to the next block.
-void MovingBlocks::remember_judgements(const BlockField& field) {
-  const size_t n = judgements_.size();
+void MovingBlocks::remember_what_stood_out(const BlockField& field) {
+  const size_t n = stands_out_.size();
   stood_out_before_.swap(stood_out_);
   if (stood_out_before_.size() != n) stood_out_before_.assign(n, {});
   stood_out_.resize(n);
@@ -237,7 +224,7 @@ void MovingBlocks::remember_judgements(const BlockField& field) {
     if (origin + columns < n) look(origin + columns);
     const Eigen::Vector2f moved_px(relative_[i].x_px, relative_[i].y_px);
     const bool goes_on = before.share == 0 || are_alike(moved_px, before.moved_px);
-    const float now = judgements_[i] == Judgement::kMoves && goes_on ? 1.0f : 0.0f;
+    const float now = stands_out_[i] != 0 && goes_on ? 1.0f : 0.0f;
     stood_out_[i] = {before.share + static_cast<float>(kNewestWeight) * (now - before.share),
                      moved_px};
   }
@@ -263,13 +250,13 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
   if (!camera_is_still_) measure_parallax(field);
   const auto noise_px = static_cast<float>(background.sigma_px);
   const Eigen::Matrix2f noise_px2 = noise_px * noise_px * Eigen::Matrix2f::Identity();
-  judgements_.resize(relative_.size());
-  for (size_t i = 0; i < judgements_.size(); ++i) {
+  stands_out_.resize(relative_.size());
+  for (size_t i = 0; i < stands_out_.size(); ++i) {
     const bool is_expected = i < expected.size() && expected[i] != 0;
-    judgements_[i] = judge(field, i, noise_px2, is_expected);
+    stands_out_[i] = stands_out(field, i, noise_px2, is_expected);
   }
   leave_out_burned_in(field, expected);
-  remember_judgements(field);
+  remember_what_stood_out(field);
   ask_neighbours(field.grid());
   if (!background.is_known) {
     for (RelativeBlock& block : relative_) block.moves = false;

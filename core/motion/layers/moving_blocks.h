@@ -42,7 +42,6 @@ struct RelativeBlock {
 /// than a pixel apart: a slow block must stand out from the parallax of the scene instead, unless
 /// the camera rests or an object is known there. While the motion of the background is unknown, no
 /// block is known to move by itself. A single block that stands out is an error unless it lasts.
-/// Textureless blocks move as most of their neighbours do.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -67,19 +66,18 @@ class MovingBlocks {
     float share = 0;
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();
   };
-  enum class Judgement : uint8_t { kStill, kMoves, kUnknown, kBurnedIn };
 
   void compare(const BlockField& field, const Background& background);
   void measure_parallax(const BlockField& field);
-  Judgement judge(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
+  bool stands_out(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
                   bool expected) const;
   void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
   void ask_neighbours(const BlockGrid& grid);
-  void remember_judgements(const BlockField& field);
+  void remember_what_stood_out(const BlockField& field);
   void remember_motion(const BlockField& field);
 
   std::vector<RelativeBlock> relative_;
-  std::vector<Judgement> judgements_;
+  std::vector<uint8_t> stands_out_;  ///< of each block, without its neighbours
   std::vector<float> persistence_;
   std::vector<float> persistence_before_;
   std::vector<StoodOut> stood_out_;

@@ -12,9 +12,7 @@
 namespace spidar {
 namespace {
 
-/// Blocks without texture are taken to move as their neighbours do.
 bool move_alike(const RelativeBlock& a, const RelativeBlock& b) {
-  if (!a.has_texture || !b.has_texture) return true;
   return are_alike({a.x_px, a.y_px}, {b.x_px, b.y_px});
 }
 
@@ -82,7 +80,6 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     region.high_px = region.high_px.cwiseMax(at_px + Eigen::Vector2d::Constant(kBlock_px / 2));
     region.background_px +=
         Eigen::Vector2d(relative[i].background_x_px, relative[i].background_y_px);
-    if (!relative[i].has_texture) continue;
     tensor(0, 0) += static_cast<double>(block.xx);
     tensor(0, 1) += static_cast<double>(block.xy);
     tensor(1, 1) += static_cast<double>(block.yy);
@@ -94,7 +91,6 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
   region.roundness = trace > 0 ? (trace - root) / (trace + root) : 0;
   region.position_px /= region.blocks;
   region.background_px /= region.blocks;
-  if (x_px_.empty()) return;
   region.relative_px.x() = static_cast<double>(median(x_px_.begin(), x_px_.end()));
   region.relative_px.y() = static_cast<double>(median(y_px_.begin(), y_px_.end()));
 }

@@ -34,7 +34,7 @@ struct ObjectLife {
 
   /// An object exists once it has been seen with a total of so many blocks, so that a small one
   /// must be seen more often. A single frame counts for less: noise does not move twice alike.
-  static constexpr int kBornAfterBlocks = 8;
+  static constexpr int kBornAfterBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimShare = 0.5;
   /// Longer than what usually hides an object, and than most pauses in its motion.
@@ -48,9 +48,9 @@ struct ObjectLife {
   State state = State::kSeen;
   double since_s = 0;  ///< for how long it has been at rest or hidden
   LayerEvidence evidence;
-  int blocks_seen = 0;    ///< in all frames together, see kBornAfterBlocks
-  int proven = 0;         ///< frames in which it was clearly no layer of the scene
-  bool is_layer = false;  ///< looks more like a part of the scene than like an object
+  int blocks_seen = 0;     ///< in all frames together, see kBornAfterBlocks
+  bool is_proven = false;  ///< it was clearly no layer of the scene in one of its frames
+  bool is_layer = false;   ///< looks more like a part of the scene than like an object
 
   bool is_seen() const { return state == State::kSeen; }
   bool is_born() const { return blocks_seen >= kBornAfterBlocks; }

@@ -14,19 +14,11 @@ namespace {
 /// How far from its expected place an object may reappear, as a share of the sum of both boxes'
 /// sides.
 constexpr double kReach = 0.75;
-/// A lost object continues for this long, because its blocks may fail for a frame or two.
-constexpr double kCoast_s = 0.05;
 /// Fewer blocks are no region of an object yet, see is_enough().
 constexpr int kLeastBlocks = 2;
-/// Share of its last motion from which on an object whose blocks are doubtful still moves: it is
-/// nearer to that than to rest.
-constexpr double kStillMoves = 0.5;
 
 /// Share of its usual blocks that an object at rest still has where it was.
 constexpr double kRemainingShare = 0.5;
-/// What was clearly no layer of the scene in so many frames may become more like one: in one or
-/// two, a layer may look like an object.
-constexpr int kProvenAfterFrames = 3;
 
 }  // namespace
 
@@ -209,16 +201,14 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   life.expect(frame.interval_s);
-  life.evidence.add(velocity_px_s, life.region.background_px / frame.interval_s, frame.interval_s);
   life.blocks_seen += std::min(life.region.blocks, Life::kBornAfterBlocks - 1);
   life.object.has_left = false;
   place(life, frame);
   MovingObject& object = life.object;
-  const double noise_px = camera_.moves ? noise_around(life) : 0;
-  life.evidence.add_contrast(life.region.relative_px.norm(), noise_px, frame.interval_s);
-  life.proven += salience(life.region, life.evidence, camera_, false) > 0;
-  const bool was_followed = life.proven >= kProvenAfterFrames;
-  object.prominence = salience(life.region, life.evidence, camera_, was_followed);
+  const double noise_px = camera_moves_ ? noise_around(life) : 0;
+  life.evidence.add(life.region.relative_px, life.region.background_px, noise_px, frame.interval_s);
+  life.is_proven |= salience(life.region, life.evidence, camera_moves_, false) > 0;
+  object.prominence = salience(life.region, life.evidence, camera_moves_, life.is_proven);
   life.is_layer = object.prominence == 0;
   if (!life.is_born() || life.is_layer) return;
   const double most_px = bound_.px(life.key, life.region, found, evidence_in(frame));
@@ -230,29 +220,18 @@ ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
     ++remains.blocks;
-    const RelativeBlock& block = (*relative_)[i];
-    if (!block.has_texture) continue;
-    ++remains.textured;
-    remains.moved_px += Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
+    remains.textured += (*relative_)[i].has_texture;
   }
-  if (remains.textured > 0) remains.moved_px /= remains.textured;
   return remains;
 }
 
-/// The object rests where it is, unless its blocks together still move nearer to its motion than to
-/// rest, although none of them does so clearly.
-void ObjectTracker::stay(Life& life, const Remains& remains, const FieldInFrame& frame) {
+/// The object rests where it is.
+void ObjectTracker::stay(Life& life, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
     if (is_its) owners_[i] = life.key;
   }
-  const Eigen::Vector2d expected_px = life.expected.velocity_px_s * frame.interval_s;
-  if (remains.moved_px.dot(expected_px) > kStillMoves * expected_px.squaredNorm()) {
-    life.expected.velocity_px_s +=
-        kNewestWeight * (remains.moved_px / frame.interval_s - life.expected.velocity_px_s);
-  } else {
-    life.expected.velocity_px_s.setZero();
-  }
+  life.expected.velocity_px_s.setZero();
   life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
@@ -266,7 +245,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   object.tracks = background_->is_known ? remains.textured : 0;
   if (object.tracks > 0 && remains_there(life, remains)) {
     life.turn(State::kRests);
-    stay(life, remains, frame);
+    stay(life, frame);
   } else {
     life.turn(State::kHidden);
     object.tracks = 0;
@@ -298,11 +277,10 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
-  camera_ = {background.model.kind != ModelKind::kStill,
-             background.coverage * static_cast<double>(n)};
+  camera_moves_ = background.model.kind != ModelKind::kStill;
 
   if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
-    for (Life& life : lives_) life.proven = 0;
+    for (Life& life : lives_) life.is_proven = false;
   }
   claim(frame);
   for (size_t i = 0; i < n; ++i) {
@@ -326,7 +304,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     if (!life.is_born() || life.is_layer) continue;
     if (life.object.id == 0) life.object.id = next_id_++;
     objects_.push_back(life.object);
-    if (life.state != State::kHidden || life.since_s <= kCoast_s) continue;
+    if (life.state != State::kHidden) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
   }

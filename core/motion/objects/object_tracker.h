@@ -78,8 +78,7 @@ class ObjectTracker {
   /// Blocks on which an object was before, and which now do not clearly move by themselves.
   struct Remains {
     int blocks = 0;
-    int textured = 0;                                    ///< those of them that show how they move
-    Eigen::Vector2d moved_px = Eigen::Vector2d::Zero();  ///< mean of these, against the background
+    int textured = 0;  ///< those of them that show how they move
   };
 
   void claim(const FieldInFrame& frame);
@@ -91,7 +90,7 @@ class ObjectTracker {
   bool has_vanished(const Life& life, const FieldInFrame& frame) const;
   void observe(Life& life, const FieldInFrame& frame);
   Remains remains_of(const Life& life) const;
-  void stay(Life& life, const Remains& remains, const FieldInFrame& frame);
+  void stay(Life& life, const FieldInFrame& frame);
   void miss(Life& life, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
@@ -105,7 +104,7 @@ class ObjectTracker {
   ObjectMeter meter_;
   ErrorBound bound_;
   const std::vector<RelativeBlock>* relative_ = nullptr;
-  CameraMotion camera_;
+  bool camera_moves_ = false;
   const Background* background_ = nullptr;
   std::vector<uint8_t> expected_;
   std::vector<uint32_t> owners_;
