@@ -121,11 +121,11 @@ class NormalEquations {
 /// Gauss–Newton steps from the affine solution.
 bool refine_homography(const std::vector<Displacement>& points, const std::vector<double>& weights,
                        MotionModel& model) {
-  constexpr int kSteps = 4;
+  constexpr int kGaussNewtonSteps = 4;
   constexpr double kSmall = 1e-2;   // px, at kUnit_px from the centre
   constexpr double kUnit_px = 256;  // lengths near 1, so that the normal matrix is well scaled
   using Vector8 = NormalEquations::Vector8;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kGaussNewtonSteps; ++step) {
     const double h_x = model.perspective_1_px.x(), h_y = model.perspective_1_px.y();
     const Eigen::Array2d shift = model.shift_px, column_x = model.linear.col(0),
                          column_y = model.linear.col(1);
