@@ -63,6 +63,7 @@ arguments=("$@")
 options=()
 video=()
 properties=()
+clip_seconds=(--seconds 20)
 needs_clip=yes
 while (($#)); do
     case $1 in
@@ -70,16 +71,21 @@ while (($#)); do
         properties=("$@")
         break
         ;;
-    --output | --window-png)
+    --output | --window-png | --seconds)
         (($# > 1)) || needs_clip=no
         options+=("${@:1:2}")
+        [[ $1 != --seconds ]] || clip_seconds=()
         shift
         ;;
-    --ball | --help | -h)
+    --seconds=*)
+        options+=("$1")
+        clip_seconds=()
+        ;;
+    --output=* | --window-png=* | --verbose | --headless | --window) options+=("$1") ;;
+    -*) # these need no clip: --ball, --help, and a typo, which the player names
         options+=("$1")
         needs_clip=no
         ;;
-    -*) options+=("$1") ;;
     *)
         video+=("$1")
         needs_clip=no
@@ -100,7 +106,7 @@ if [[ $needs_clip == yes ]]; then
         echo "fetching a clip, once: vtest.avi of Debian's package opencv-doc (95 MB)"
     if clip=$(street_clip); then
         video=("$clip")
-        options=(--seconds 20 "${options[@]}")
+        options=("${clip_seconds[@]}" "${options[@]}")
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
         options+=(--ball)

@@ -28,10 +28,12 @@ fail() {
     exit 1
 }
 
-# run [NAME=VALUE...]: the script, by root if the test has its rights.
+arguments=(--ball)
+# run [NAME=VALUE...]: the script with these arguments, by root if the test has its rights.
 run() {
     : >"$tree/asked"
-    env -u DISPLAY -u WAYLAND_DISPLAY -u SUDO_USER PATH="$tree/bin:$PATH" "$@" "$tree/examples/play.sh" --ball >/dev/null
+    env -u DISPLAY -u WAYLAND_DISPLAY -u SUDO_USER PATH="$tree/bin:$PATH" "$@" \
+        "$tree/examples/play.sh" "${arguments[@]}" >/dev/null
 }
 
 run_as_user() {
@@ -59,3 +61,22 @@ if ((EUID == 0)); then
     grep -q "^0 sudo -u somebody .*$tree/examples/play.sh --ball\$" "$tree/asked" || fail "does not go on as the caller"
     ! grep -qE '^0 (ninja|play) ' "$tree/asked" || fail "builds or plays as root under sudo"
 fi
+
+# Options that say how the clip is played are not taken for a film, and nothing is fetched for a typo.
+: >"$tree/tests/debian-packages.txt"
+mkdir -p "$tree/cache/gst-spidar"
+touch "$tree/cache/gst-spidar/vtest.avi"
+# plays EXPECTED ARGUMENT...: what the player is asked for.
+plays() {
+    arguments=("${@:2}")
+    run XDG_CACHE_HOME="$tree/cache"
+    grep -qx -- "[0-9]* play $1" "$tree/asked" || fail "${*:2} does not play $1"
+}
+clip=$tree/cache/gst-spidar/vtest.avi
+plays "--seconds 20 --headless $clip" --headless
+plays "--seconds 5 $clip" --seconds 5
+plays "--seconds=5 $clip" --seconds=5
+plays "--seconds 5 --ball" --seconds 5 --ball
+plays "--ball --seconds 5 --output there" --ball --seconds 5 --output there
+plays "--seconds 5 film.mp4" film.mp4 --seconds 5
+plays "--bal" --bal
