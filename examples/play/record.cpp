@@ -53,6 +53,7 @@ void Record::add_frame(const GstStructure* message) {
   gboolean repeated = FALSE;
   if (gst_structure_get_boolean(message, "repeated", &repeated) && repeated) {
     ++repeated_;
+    if (!frames_.empty()) frames_.back().reason = row.reason;
     return;
   }
   frames_.push_back(row);
@@ -77,7 +78,7 @@ std::string Record::sentence(const std::string& reason) const {
 }
 
 std::pair<double, double> Record::span_s() const {
-  if (!frames_.empty()) return {frames_.front().time_s, frames_.back().time_s};
+  if (!reasons_.empty()) return {reasons_.front().first, reasons_.back().first};
   if (!devices_.empty()) return {devices_.front().time_s, devices_.back().time_s};
   return {0, 0};
 }

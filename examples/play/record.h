@@ -21,8 +21,9 @@ struct FrameRow {
   double time_s = 0;  ///< running time at which it is shown
   std::array<double, 2> velocity_px_s{};
   std::array<double, 3> force_N{};
-  double torque_Nm = 0;        ///< about z
-  std::string reason = kFelt;  ///< why nothing of it is felt, as a word
+  double torque_Nm = 0;  ///< about z
+  /// Why nothing of it is felt, as a word; by the newest frame that shows its picture again.
+  std::string reason = kFelt;
   /// It was not compared with the frame before it: the first one, or the first after a cut or seek.
   bool begins_scene = false;
 };
@@ -48,7 +49,7 @@ class Record {
   size_t repeated() const { return repeated_; }
   /// Time and word of the reason of every frame, also of those that show a picture again.
   const std::vector<std::pair<double, std::string>>& reasons() const { return reasons_; }
-  /// Running times of the first and the last row; 0 without any.
+  /// Running times of the first and the last frame, else of the device's rows; 0 without any.
   std::pair<double, double> span_s() const;
   const std::vector<DeviceRow>& devices() const { return devices_; }
   /// The sentence for the word of a reason; the word itself if no sentence is known.

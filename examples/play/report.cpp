@@ -55,10 +55,10 @@ std::vector<double> forces_N(const std::vector<Row>& rows) {
   return sizes;
 }
 
-/// Number of frames by the word of their reason.
+/// Number of frames, also of those that show a picture again, by the word of their reason.
 std::map<std::string, size_t> counted_reasons(const Record& record) {
   std::map<std::string, size_t> reasons;
-  for (const FrameRow& frame : record.frames()) ++reasons[frame.reason];
+  for (const auto& [time_s, word] : record.reasons()) ++reasons[word];
   return reasons;
 }
 
@@ -67,10 +67,11 @@ std::string force_line(const Record& record) {
   const auto sizes_N = has_device ? forces_N(record.devices()) : forces_N(record.frames());
   if (sizes_N.empty()) return "Force: none, because no device ran.\n";
   const auto felt = std::lower_bound(sizes_N.begin(), sizes_N.end(), spidar::kFeltForce_N);
-  return text_of("Force%s: %.2f N in the median, %.2f N at most; %s of the time a hand feels it.\n",
+  return text_of("Force%s: %.2f N in the median, %.2f N at most; %s of the time a hand %s it.\n",
                  has_device ? " at the grip" : " that is wanted", sizes_N[sizes_N.size() / 2],
                  sizes_N.back(),
-                 percent(static_cast<size_t>(sizes_N.end() - felt), sizes_N.size()).c_str());
+                 percent(static_cast<size_t>(sizes_N.end() - felt), sizes_N.size()).c_str(),
+                 has_device ? "feels" : "would feel");
 }
 
 std::string time_line(const GstStructure* stats) {
@@ -119,7 +120,7 @@ std::string device_line(const GstStructure* stats) {
 /// In how many of the frames nothing was felt and why, the most frequent reason first.
 std::string unfelt_text(const Record& record) {
   const auto counted = counted_reasons(record);
-  const size_t all = record.frames().size();
+  const size_t all = record.reasons().size();
   std::vector<std::pair<std::string, size_t>> reasons(counted.begin(), counted.end());
   std::stable_sort(reasons.begin(), reasons.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });

@@ -150,14 +150,31 @@ TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
   EXPECT_NE(one.find("Nothing was felt: Nothing moves.\n"), std::string::npos) << one;
 }
 
+// Only its first frame is compared with nothing; the others show its picture again.
+TEST(PlayReport, OfAStillFilmSaysHowLongItIsAndThatItsPictureRemains) {
+  Record record;
+  add_frame(record, 0, "nothing-to-compare");
+  for (int number = 1; number < 100; ++number) {
+    add_frame(record, number, "repeated-frames", ", repeated=(boolean)true");
+  }
+  EXPECT_EQ(record.shown_at(5)->reason, "repeated-frames");
+  const std::string text = report_text(record, structure("stats").get(), 100);
+  for (const char* line : {"Video: 9.9 s, 100 frames, 100 of them shown.\n",
+                           "Nothing was felt in 100.0 % of the frames:\n"
+                           "  99.0 %  repeated-frames\n"
+                           "  1.0 %  nothing-to-compare\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  }
+}
+
 TEST(PlayReport, SaysWhatWasNotMeasuredAndThatATrackWasPlayed) {
   Record record;
   add_frame(record, 0);
   const std::string text =
       report_text(record, structure("stats, track-frames=(guint64)300").get(), 0);
   for (const char* line :
-       {"Force that is wanted: 1.00 N", "In time: not measured", "Device: none.",
-        "Video: 0.0 s, 301 frames, 0 of them shown.\n",
+       {"Force that is wanted: 1.00 N", "of the time a hand would feel it.\n",
+        "In time: not measured", "Device: none.", "Video: 0.0 s, 301 frames, 0 of them shown.\n",
         "Analysis: none of 300 frames, whose force is that of a haptic track.\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   }
