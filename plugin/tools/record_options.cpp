@@ -136,7 +136,6 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films) {
   RecordProperties properties;
-  if (words.empty()) return properties;
   const std::unique_ptr<GstElement, void (*)(gpointer)> element(
       gst_element_factory_make("spidarmotion", nullptr), gst_object_unref);
   if (!element) {

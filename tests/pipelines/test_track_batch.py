@@ -35,6 +35,15 @@ class Batch(track_case.TrackCase):
                                 (["info", "--jsom", "x.wav"], "--jsom")):
             self.assert_said(said, *arguments, status=2)
 
+    def test_a_plugin_that_is_not_found_is_named_once(self):
+        self.make_film("a.avi", 5)
+        self.make_film("b.avi", 5)
+        nowhere = {**os.environ, "GST_PLUGIN_PATH": "", "GST_PLUGIN_PATH_1_0": "",
+                   "GST_REGISTRY": str(self.path("registry"))}
+        said = self.run_in_folder([PROGRAM, "record", "a.avi", "b.avi"], status=1, env=nowhere)
+        self.assertEqual(said.count("spidarmotion"), 1, said)
+        self.assertIn("set GST_PLUGIN_PATH to the folder of libgstspidar.so", said)
+
     def test_films_are_recorded_once(self):
         self.make_film("a film.avi", 50)
         self.make_film("b.avi", 25)
