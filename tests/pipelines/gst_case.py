@@ -75,7 +75,7 @@ class GstCase(track_case.TrackCase):
 
         def record(element):
             is_ours = type(element).__name__ in ("GstSpidarMotion", "GstSpidarSink")
-            if is_ours and not element.get_property("haptic-trace"):
+            if is_ours and element.get_property("device") != "none" and not element.get_property("haptic-trace"):
                 pipeline.watched.append(next(self.traces))
                 element.set_property("haptic-trace", str(pipeline.watched[-1]))
 

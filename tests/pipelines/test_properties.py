@@ -214,6 +214,7 @@ class Traces(ElementCase):
                                  (f"device=none trace={full}", os.strerror(errno.ENOSPC)),
                                  (f"device=none trace={link}", "it is a link"),
                                  (f"device=none trace={self.path('trace.txt')}", "neither in .csv nor in .jsonl"),
+                                 ("device=none haptic-trace=ticks.csv", "device=none opens none"),
                                  ("device=sim haptic-trace=/nowhere/haptic.csv", "/nowhere/haptic.csv"),
                                  ("device=sim haptic-trace=/dev/full", os.strerror(errno.ENOSPC))):
             self.open(properties, 64, 64)

@@ -10,7 +10,12 @@ namespace spidar {
 
 std::string MotionEngine::open(const MotionProperties& properties) {
   live_.configure(properties.analyzer);
-  if (properties.device == "none") return {};
+  if (properties.device == "none") {
+    if (properties.haptic_trace.empty()) return {};
+    return "haptic-trace=" + properties.haptic_trace +
+           " is not written: it is of a device, and device=none opens none. trace= writes what "
+           "each frame asks for";
+  }
   const std::string trace_problem =
       output_.open(properties.device, properties.profile, properties.haptic_trace);
   if (!output_.session()) return trace_problem;
