@@ -251,10 +251,14 @@ std::unique_ptr<Device> make_device(const std::string& text, const Profile& prof
   if (spec.kind == "usb" && spec.named)
     board = std::make_unique<UsbBoard>(text, spec.rest, profile);
   if (spec.kind == "uart" && !spec.rest.empty()) board = make_uart(text, spec.rest, profile);
-  if (!board)
-    throw DeviceError("unknown device \"" + text +
-                      "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH" +
-                      known_names("", &ForceDevice::names));
+  if (!board) {
+    // Only an element, which analyses pictures, does without a device: this is not asked about it.
+    const bool is_none = text == "none";
+    throw DeviceError(
+        (is_none ? std::string("\"none\" is no device") : "unknown device \"" + text + "\"") +
+        "; known are: sim, sim:BOARD, " + (is_none ? "" : "none, ") + "usb, usb:ID, uart:PATH" +
+        known_names("", &ForceDevice::names));
+  }
   return std::make_unique<BoardDevice>(std::move(board), resolved(settings, profile));
 }
 
