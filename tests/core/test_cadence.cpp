@@ -110,7 +110,9 @@ TEST(Cadence, ARhythmHasLostNoFrameHoweverTheSpeedJumps) {
     const Cadence::Step step = cadence.see(Shows::kOther, time_ns += kFrame_ns);
     const double speed_px_s = 1 + static_cast<double>(random() % 100);
     const double factor = lost.correction(step.interval_ns, step.shown_for_ns, speed_px_s);
-    if (n >= 4) EXPECT_EQ(factor, 1) << n;
+    if (n >= 4) {
+      EXPECT_EQ(factor, 1) << n;
+    }
     for (int again = n % 2; again < 2; ++again) {
       EXPECT_TRUE(cadence.see(Shows::kSame, time_ns += kFrame_ns).waits) << n;
     }
