@@ -20,14 +20,6 @@ std::string rounded(double value) {
   return shown(std::round(value / step) * step);
 }
 
-bool is_force(size_t channel) {
-  return channel < kTrackChannels / 2;
-}
-
-double full_scale(size_t channel) {
-  return is_force(channel) ? kTrackForceScale_N : kTrackTorqueScale_Nm;
-}
-
 /// All channels but `axis` that contain something.
 std::vector<std::string> other_channels(const TrackSummary& summary, size_t axis) {
   std::vector<std::string> others;
@@ -35,7 +27,7 @@ std::vector<std::string> other_channels(const TrackSummary& summary, size_t axis
     const double peak = summary.channels[i].peak;
     if (i == axis || peak == 0) continue;
     others.push_back(std::string(channel_name(i)) + " up to " + rounded(peak * full_scale(i)) +
-                     (is_force(i) ? " N" : " N m"));
+                     channel_unit(i));
   }
   return others;
 }
@@ -62,8 +54,7 @@ std::string lost_in_funscript(const TrackSummary& summary, const SaveOptions& op
   constexpr int kSteps = 50;  // on each side of the middle
   std::vector<std::string> lost = other_channels(summary, axis);
   lost.push_back("steps of " + std::string(channel_name(axis)) + " below " +
-                 rounded(full_scale(axis) / kSteps / options.gain) +
-                 (is_force(axis) ? " N" : " N m"));
+                 rounded(full_scale(axis) / kSteps / options.gain) + channel_unit(axis));
   if (options.gain * summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
   return line_of(lost);
 }

@@ -59,11 +59,12 @@ int print_info(const InfoOptions& options) {
             << (found.missing.empty() ? "" : found.missing + "\n") << "largest force "
             << summary.largest_force_N << " N, torque " << summary.largest_torque_Nm
             << " N m, steepest " << summary.steepest_N_s << " N/s\n"
-            << "channel       peak        rms   above 30 Hz\n";
+            << "channel        peak         rms       above 30 Hz\n";
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const ChannelSummary& channel = summary.channels[i];
-    std::cout << channel_name(i) << std::fixed << std::setprecision(4) << std::setw(16)
-              << channel.peak << std::setw(11) << channel.rms << std::setw(12)
+    std::cout << channel_name(i) << std::fixed << std::setprecision(4) << std::setw(17)
+              << full_scale(i) * channel.peak << std::setw(12) << full_scale(i) * channel.rms
+              << std::left << std::setw(4) << channel_unit(i) << std::right << std::setw(12)
               << 100 * channel.above_30_Hz << " %\n";
   }
   return kDone;

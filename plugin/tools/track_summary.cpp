@@ -43,6 +43,14 @@ const char* channel_name(size_t channel) {
   return kNames.at(channel);
 }
 
+const char* channel_unit(size_t channel) {
+  return channel < kTrackChannels / 2 ? " N" : " N m";
+}
+
+double full_scale(size_t channel) {
+  return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
+}
+
 TrackSummary summarise(const std::vector<TrackSample>& samples) {
   TrackSummary summary;
   std::array<HighPass, kTrackChannels> filters;

@@ -30,5 +30,9 @@ TrackSummary summarise(const std::vector<TrackSample>& samples);
 
 /// "fx", …, "tz".
 const char* channel_name(size_t channel);
+/// " N" or " N m".
+const char* channel_unit(size_t channel);
+/// What a sample of 1.0 is, in that unit.
+double full_scale(size_t channel);
 
 }  // namespace spidar

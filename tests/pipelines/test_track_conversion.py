@@ -4,6 +4,7 @@
 import csv
 import json
 import math
+import re
 import unittest
 
 import track_case
@@ -96,6 +97,8 @@ class Conversion(track_case.TrackCase):
         info = json.loads(self.spidartrack("info", "--json", "a.wav"))
         self.assertEqual(info["samples"], 1000)
         self.assertAlmostEqual(info["channels"]["fx"]["peak"], .15, delta=1e-4)
+        peak_N = re.search(r"^fx +(\S+) +\S+ N ", self.spidartrack("info", "a.wav"), re.MULTILINE)
+        self.assertAlmostEqual(float(peak_N.group(1)), 1.5, delta=1e-3)  # the same, times 10 N
         bad = [list(track_case.wave(ms)) for ms in range(2000)]
         bad[100][0] = math.nan
         for ms, sample in enumerate(bad):
