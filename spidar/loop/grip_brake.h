@@ -31,7 +31,9 @@ namespace spidar {
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
 class GripBrake {
  public:
-  static constexpr double kFadeFrom_m_s = 0.6;
+  /// Above a hand's 0.45 m/s by what the estimate of the speed foresees in its 4 ms. A force of 3 N
+  /// needs 10 ms to fall and accelerates a bare grip of 50 g by 0.3 m/s meanwhile.
+  static constexpr double kFadeFrom_m_s = 0.58;
   static constexpr double kFadeTo_m_s = 1.0;
   static constexpr double kFastest_m_s = 1.5;
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
