@@ -184,8 +184,8 @@ TEST(BurnedInLines, DoNotSayHowTheCameraMoves) {
   const std::vector<Frame> found = analyze(film, lines, MotionKind::kCamera);
   // Blocks are right to a tenth of a pixel of the field, which is 1.5 of the frame's.
   constexpr double kError_px = 0.15;
-  // With the fifth line, the letters have so many of the votes that rounding decides whose motion is
-  // the camera's.
+  // With the fifth line, the letters have so many of the votes that rounding decides whose motion
+  // is the camera's.
   constexpr int kFourLines = 20;
   for (int n = 1; n < kFourLines; ++n) {
     const Vector2d moved_px = found[static_cast<size_t>(n)].motion.velocity_px_s * kSceneFrame_s;
