@@ -142,11 +142,6 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
     step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {
     step.interval_ns = std::llround(even_ns);
-    // What has been shown for as long before belongs to the rhythm: no frame was lost.
-    if (static_cast<double>(between_ns) <
-        (1 + kSameInterval) * static_cast<double>(expected_ns())) {
-      step.shown_for_ns = step.interval_ns;
-    }
   }
   return step;
 }

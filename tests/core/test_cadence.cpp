@@ -98,27 +98,6 @@ TEST(Cadence, DistinguishesALostFrameFromARepeatedOne) {
   }
 }
 
-TEST(Cadence, ARhythmHasLostNoFrameHoweverTheSpeedJumps) {
-  constexpr int64_t kFrame_ns = 16'666'667;
-  std::minstd_rand random(1);
-  Cadence cadence;
-  LostFrames lost;
-  cadence.cut(0);
-  int64_t time_ns = 0;
-  for (int n = 0; n < 100; ++n) {
-    // 24 pictures a second in 60 frames: shown for three and for two frames in turn.
-    const Cadence::Step step = cadence.see(Shows::kOther, time_ns += kFrame_ns);
-    const double speed_px_s = 1 + static_cast<double>(random() % 100);
-    const double factor = lost.correction(step.interval_ns, step.shown_for_ns, speed_px_s);
-    if (n >= 4) {
-      EXPECT_EQ(factor, 1) << n;
-    }
-    for (int again = n % 2; again < 2; ++again) {
-      EXPECT_TRUE(cadence.see(Shows::kSame, time_ns += kFrame_ns).waits) << n;
-    }
-  }
-}
-
 TEST(Cadence, WaitsNoLongerThanAMotionDoes) {
   Cadence cadence;
   constexpr int64_t kFrame_ns = 16'666'667;
