@@ -9,10 +9,13 @@
 namespace spidar {
 
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns) {
-  if (fault == LinkFault::kStoodStill)
-    return name + ": this program stood still for " + std::to_string(late_ns / 1'000'000) +
-           " ms, because it was stopped or the machine was busy, so its guardian set the motors to "
+  if (fault == LinkFault::kStoodStill) {
+    const int64_t late_ms = late_ns / 1'000'000;
+    return name + ": this program stood still" +
+           (late_ms > 0 ? " for " + std::to_string(late_ms) + " ms" : "") +
+           ", because it was stopped or the machine was busy, so its guardian set the motors to "
            "zero; start it again";
+  }
   if (fault == LinkFault::kUnguarded)
     return name +
            ": the guardian (spidar-guardian), without which no motor pulls, has ended or does not "

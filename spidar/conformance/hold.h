@@ -24,7 +24,8 @@ namespace spidar {
 using Pace = std::function<bool()>;
 
 /// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
-/// or its guardian ended, that is what the text names. `late_ns`: since the exchange before.
+/// or its guardian ended, that is what the text names. `late_ns`: since the exchange before; 0: not
+/// known.
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
 
 /// What the holds of strings and of a grip have in common. The value changes linearly. Every

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/conformance/conformance_report.h"
+#include "spidar/conformance/hold.h"
 #include "spidar/conformance/wiring_report.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/miswired_device.h"
@@ -49,6 +50,13 @@ WiringReport test_of(const Profile& profile, const std::string& faults, bool try
   const WiringAnswers answers = ask_wiring(device, profile, at_once, settings);
   EXPECT_TRUE(answers.complete);
   return judge_wiring(profile, answers);
+}
+
+TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
+  const std::string known = loss_text("usb", LinkFault::kStoodStill, 250'000'000);
+  EXPECT_NE(known.find("stood still for 250 ms, because"), std::string::npos) << known;
+  const std::string unknown = loss_text("usb", LinkFault::kStoodStill, 0);
+  EXPECT_NE(unknown.find("stood still, because"), std::string::npos) << unknown;
 }
 
 }  // namespace
