@@ -13,8 +13,10 @@ namespace {
 /// Intervals that differ by less than this share count as equal: rounding and jitter of a clock. So
 /// do speeds.
 constexpr double kSameInterval = 0.2;
-/// When so many intervals are equal, the others are accidents and not part of a rhythm.
-constexpr double kRegularShare = 0.8;
+/// An interval that is unlike the others and the only one in so many is an accident. In a rhythm,
+/// one in five is unlike the others, as with 25 pictures a second in 30 frames, or more are. (With
+/// 24 in 25 it is one in 24, and the interval without it is only 4 % too short.)
+constexpr size_t kAccident = 2 * 5;
 /// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kEnough = 2 * 2;
@@ -125,19 +127,17 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
     step.interval_ns = step.shown_for_ns = between_ns;
   }
   bool repeats = false;
-  size_t alike = 0;
+  size_t unlike = 0;
   const int64_t median = median_ns();
   for (size_t i = 0; i < count_; ++i) {
     const int64_t interval_ns = latest(i).interval_ns;
     repeats = repeats || latest(i).frames > 1;
-    if (std::abs(static_cast<double>(interval_ns - median)) <
-        kSameInterval * static_cast<double>(median)) {
-      ++alike;
-    }
+    const bool is_alike = std::abs(static_cast<double>(interval_ns - median)) <
+                          kSameInterval * static_cast<double>(median);
+    if (i < kAccident && !is_alike) ++unlike;
   }
   if (!repeats) return step;
-  if (count_ >= kEnough &&
-      static_cast<double>(alike) >= kRegularShare * static_cast<double>(count_)) {
+  if (count_ >= kEnough && unlike <= 1) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {

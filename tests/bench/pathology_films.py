@@ -111,6 +111,7 @@ def variants(length_s):
     yield Variant("repeats", "24 in 60", "fps=60")
     yield Variant("repeats", "24 in 60, crf 23", "fps=60", x264(23))
     yield Variant("repeats", "24 in 25", "fps=25")
+    yield Variant("repeats", "five in six", "fps=144/5")
     yield Variant("repeats", "on twos", every(2) + ",fps=24", plain=every(2))
     yield Variant("repeats", "on threes", every(3) + ",fps=24", plain=every(3))
     yield Variant("repeats", "one in eleven repeated", "select='mod(n,11)-7',fps=24")

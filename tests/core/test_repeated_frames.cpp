@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Films whose frames repeat pictures are felt like the plain film: 24 pictures a second in 25, 30
-// and 60 frames, drawn on twos and threes, with late frames; in a player, which knows the next
-// frames, and live. A picture at rest gives no force.
+// and 60 frames, five in six frames (as 25 in 30 are), drawn on twos and threes, with late frames;
+// in a player, which knows the next frames, and live. A picture at rest gives no force.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -77,6 +77,7 @@ std::vector<Variant> variants() {
           {"24 in 50", 50, pulled_down(50)},
           {"24 in 30", 30, pulled_down(30)},
           {"24 in 25", 25, pulled_down(25)},
+          {"five in six", 28.8, pulled_down(28.8)},
           {"on twos", 24, [](int n) { return n / 2 * 2; }, 2},
           {"on threes", 24, [](int n) { return n / 3 * 3; }, 3},
           {"lost now and then", 24, [](int n) { return n % 11 == 7 ? n - 1 : n; }}};
