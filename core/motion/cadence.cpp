@@ -42,21 +42,17 @@ int64_t Cadence::median_ns() const {
   return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(count_));
 }
 
-/// How long the next picture may be shown: the second longest of the latest intervals, because a
-/// single long one may be a pause.
+/// How long the next picture may be shown: as long as the one before, or the second longest of the
+/// latest intervals, because a single long one may have been a pause.
 int64_t Cadence::expected_ns() const {
   int64_t longest = 0;
   int64_t second = 0;
   for (size_t i = 0; i < count_; ++i) {
     const int64_t interval_ns = latest(i).interval_ns;
-    if (interval_ns > longest) {
-      second = longest;
-      longest = interval_ns;
-    } else {
-      second = std::max(second, interval_ns);
-    }
+    second = std::max(second, std::min(longest, interval_ns));
+    longest = std::max(longest, interval_ns);
   }
-  return second;
+  return std::max(second, latest(0).interval_ns);
 }
 
 /// Interval of the latest `pictures` if they were taken at even intervals and each of them is shown

@@ -68,6 +68,20 @@ TEST(Cadence, LearnsTheIntervalFromTheSecondRepetitionOn) {
   }
 }
 
+TEST(Cadence, WaitsForAsLongAsThePictureBeforeWasShown) {
+  // A cartoon drawn on threes.
+  constexpr int64_t kFrame_ns = 41'666'667;
+  Cadence cadence;
+  cadence.cut(0);
+  for (int n = 1; n < 30; ++n) {
+    const bool again = n % 3 != 0;
+    const Cadence::Step step = cadence.see(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
+    if (n > 3) {
+      EXPECT_EQ(step.waits, again) << n;
+    }
+  }
+}
+
 TEST(Cadence, IsTheFrameIntervalWithoutRepeats) {
   // Frames of any length, as a screen is recorded.
   std::mt19937 random(1);
