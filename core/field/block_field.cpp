@@ -100,7 +100,16 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
     return Result::kCut;
   }
   for (size_t i = 0; i < blocks_.size(); ++i) refine(i);
+  measure_noise();
   return Result::kMoved;
+}
+
+void BlockField::measure_noise() {
+  residuals_.clear();
+  for (const MotionBlock& block : blocks_) residuals_.push_back(block.residual);
+  const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
+  std::nth_element(residuals_.begin(), third, residuals_.end());
+  noise_grey2_ = *third;
 }
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
@@ -166,6 +175,7 @@ void BlockField::stand_still() {
     block.residual = 0;
     block.difference = 0;
   }
+  noise_grey2_ = 0;
 }
 
 void BlockField::refine(size_t index) {

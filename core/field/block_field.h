@@ -76,6 +76,9 @@ class BlockField {
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
+  /// Noise of the two pictures: the residual that a third of the blocks stay below, grey². These
+  /// are the ones whose motion explains them best.
+  float noise_grey2() const { return noise_grey2_; }
   /// Pixels of the base to one pixel of the picture.
   double scale() const { return pixels_to_one(scale_); }
 
@@ -106,6 +109,7 @@ class BlockField {
   bool is_cut() const;
   bool is_in_reach(int left_px, int top_px) const;
   void refine(size_t index);
+  void measure_noise();
 
   FieldScale scale_ = FieldScale::kSame;
   int base_width_ = 0;
@@ -122,6 +126,8 @@ class BlockField {
   std::vector<BlockMatch> hints_;
   std::vector<BlockMatch> matches_;
   std::vector<MotionBlock> blocks_;
+  std::vector<float> residuals_;
+  float noise_grey2_ = 0;
 };
 
 }  // namespace spidar

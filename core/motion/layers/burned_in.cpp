@@ -51,14 +51,14 @@ void BurnedIn::reset() {
   covers_.clear();
 }
 
-void BurnedIn::begin(const BlockField& field, bool camera_moves, float noise_grey2) {
+void BurnedIn::begin(const BlockField& field, bool camera_moves) {
   const size_t blocks = field.blocks().size();
   margins_.update(field);
   signs_.assign(blocks, Sign::kNone);
   if (lasting_.size() != blocks) lasting_.assign(blocks, 0);
   camera_moves_ = camera_moves;
   // Twice the standard deviation of the film's noise is not explained by it.
-  unexplained_grey2_ = static_cast<float>(kMostCost) * noise_grey2;
+  unexplained_grey2_ = static_cast<float>(kMostCost) * field.noise_grey2();
 }
 
 bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {

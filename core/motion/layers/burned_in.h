@@ -36,9 +36,8 @@ class BurnedIn {
   };
 
   /// Begins a pair of pictures. If the camera does not move (`camera_moves` is false), constant
-  /// pixels belong to the scene. `noise_grey2` is the mean squared difference caused by the noise
-  /// of the film.
-  void begin(const BlockField& field, bool camera_moves, float noise_grey2);
+  /// pixels belong to the scene.
+  void begin(const BlockField& field, bool camera_moves);
 
   /// Examines a block of the pair. Call for every block that seems to move independently.
   void look(const BlockField& field, const Block& block);

@@ -102,7 +102,6 @@ void MovingBlocks::reset() {
 void MovingBlocks::compare(const BlockField& field, const Background& background) {
   const std::vector<MotionBlock>& blocks = field.blocks();
   relative_.resize(blocks.size());
-  residuals_.clear();
   for (size_t i = 0; i < blocks.size(); ++i) {
     const MotionBlock& block = blocks[i];
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
@@ -118,11 +117,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.has_texture = block.has_texture();
     // If less of it was in the picture before, the camera has just brought it into view.
     relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kSeenBefore;
-    residuals_.push_back(block.residual);
   }
-  const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
-  std::nth_element(residuals_.begin(), third, residuals_.end());
-  picture_noise_ = *third;
 }
 
 /// From the blocks whose motion is known in every direction.
@@ -161,14 +156,14 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   const float least_worse =
       expected || is_slow
           ? 0
-          : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(picture_noise_)) +
+          : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(field.noise_grey2())) +
                 kWorseShare * static_cast<float>(block.difference);
   return worse >= least_worse;
 }
 
 void MovingBlocks::leave_out_burned_in(const BlockField& field,
                                        const std::vector<uint8_t>& expected) {
-  burned_in_.begin(field, !camera_is_still_, picture_noise_);
+  burned_in_.begin(field, !camera_is_still_);
   for (size_t i = 0; i < stands_out_.size(); ++i) {
     if (stands_out_[i] == 0) continue;
     burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,

@@ -82,12 +82,10 @@ class MovingBlocks {
   std::vector<float> persistence_before_;
   std::vector<StoodOut> stood_out_;
   std::vector<StoodOut> stood_out_before_;
-  std::vector<float> residuals_;
   std::vector<Eigen::Vector2f> of_scene_px_;  ///< motion of the blocks of the scene
   Parallax parallax_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;
-  float picture_noise_ = 0;  ///< mean squared difference of the best explained blocks, grey²
 };
 
 }  // namespace spidar
