@@ -10,8 +10,9 @@ something that ffmpeg reads, with one shot of two seconds or more; a FOLDER is a
 strength: root mean square of the force, over that of the plain film. angle: between the two curves of force, as vectors
 over time. steps: root mean square of the change of force in a millisecond, over that of the plain film. rest: largest
 force, N, where none belongs: in films without an object, in a freeze. Within: strength 0.9 … 1.1 and angle below 10
-degrees, both beyond what coding the film at crf 17 … 23 does to it; steps at most 1.5; rest below 2 mN. Not counted are
-the first half second, in which the rhythm of the frames is learnt, and the time of a fade and three frames after it.
+degrees, both beyond what coding the film at crf 17 … 23 does to it; steps at most 1.5; rest below 2 mN. In strength,
+angle and steps the first half second, in which the rhythm of the frames is learnt, and the time of a fade and three
+frames after it are not counted; in rest they are.
 
 The plain film of drawings on twos is that of every second picture, of a telecined film the film, of an interlaced one
 with two pictures in a frame that of every second picture, of a ramp of speed the ramp by timestamps."""

@@ -59,6 +59,26 @@ TEST(SparseVotes, OfEdgesDoNotMakeItUnknown) {
   EXPECT_TRUE(estimator.estimate(given).is_known);
 }
 
+TEST(SparseVotes, OfAPictureThatIsLostDoNotSayThatTheCameraRests) {
+  for (const int count : {4, 50}) {
+    TrackSource source(12);
+    BackgroundEstimator estimator;
+    std::vector<Displacement> points;
+    for (int i = 0; i < count; ++i) points.push_back(source.stray());
+    BackgroundVotes given = votes(points, 900);
+    EXPECT_TRUE(estimator.estimate(given).is_known) << count << " votes before a plain wall";
+    given.are_lost = true;
+    EXPECT_FALSE(estimator.estimate(given).is_known) << count;
+    points.clear();
+    for (int i = 0; i < count; ++i) {
+      points.push_back(source.moved(MotionModel(), source.stray().at_px, kSigma_px));
+    }
+    given = votes(points, 900);
+    given.are_lost = true;
+    EXPECT_EQ(estimator.estimate(given).is_known, count == 50) << count << " that rest";
+  }
+}
+
 TEST(SparseVotes, InManyPlacesAreEnough) {
   // 60 of 900, as of a sky with few clouds: 15 clouds of four points.
   for (const ModelKind kind : {ModelKind::kTranslation, ModelKind::kSimilarity}) {

@@ -44,6 +44,7 @@ void BackgroundVotes::clear() {
   sources.clear();
   all = 0;
   with_edges = false;
+  are_lost = false;
 }
 
 double BackgroundVotes::cast() const {
@@ -143,10 +144,11 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 }
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
-/// others may be those of objects in front of a plain background.
+/// others may be those of objects in front of a plain background. Before that, most of the picture
+/// is not new.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
-  if (votes.with_edges || voting_ < kMostObject * votes.all) return true;
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
+  if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;
   places_px_.clear();
   for (const Displacement& point : votes.points) places_px_.push_back(point.at_px);
   return !is_background(ModelKind::kSimilarity, votes.size_px);
@@ -228,7 +230,7 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   if (votes.points.size() < kLeastVotes) {
     background_.model = MotionModel();
     background_.coverage = 0;
-    background_.is_known = true;
+    background_.is_known = !votes.are_lost;
     background_.sigma_px = noise_px_;
     return background_;
   }

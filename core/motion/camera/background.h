@@ -27,6 +27,9 @@ struct BackgroundVotes {
   Eigen::Vector2d size_px{1, 1};   ///< of the picture
   /// Edges vote, too. Those of coding errors agree on no motion, which does not make it unknown.
   bool with_edges = false;
+  /// Votes are few because most of the picture is not found in the one before, as when it fades
+  /// while the camera moves fast. Only a plain background may be taken for one at rest.
+  bool are_lost = false;
 
   /// Votes of all points together, without their weights.
   double cast() const;

@@ -81,8 +81,18 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
 
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
   collect(field, past, Voters::kTextured, votes);
-  if (!votes.are_few() || collect(field, past, Voters::kEdgesToo, votes)) return;
-  collect(field, past, Voters::kTextured, votes);
+  if (!votes.are_few()) return;
+  if (!collect(field, past, Voters::kEdgesToo, votes)) {
+    collect(field, past, Voters::kTextured, votes);
+  }
+  int lost = 0;
+  int found = 0;
+  for (size_t i = 0; i < field.blocks().size(); ++i) {
+    const BlockField::Match match = field.match_of(i);
+    lost += match == BlockField::Match::kLost;
+    found += match == BlockField::Match::kFound;
+  }
+  votes.are_lost = lost > found;
 }
 
 }  // namespace spidar
