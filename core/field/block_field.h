@@ -106,7 +106,8 @@ class BlockField {
   void reduce(const PaddedImage& base);
   void begin();
   void find_hints();
-  bool is_cut() const;
+  bool is_cut();
+  int contrast_of(size_t block) const;
   bool is_in_reach(int left_px, int top_px) const;
   void refine(size_t index);
   void measure_noise();
@@ -126,6 +127,12 @@ class BlockField {
   std::vector<BlockMatch> hints_;
   std::vector<BlockMatch> matches_;
   std::vector<MotionBlock> blocks_;
+  /// Of a block with texture: squares of Σ |now − before| and of Σ |pixel − mean|.
+  struct Textured {
+    double difference2;
+    double contrast2;
+  };
+  std::vector<Textured> textured_;
   std::vector<float> residuals_;
   float noise_grey2_ = 0;
 };

@@ -230,6 +230,26 @@ TEST(FieldSteps, AnotherPictureIsACut) {
   EXPECT_EQ(field.update(noise(320, 240, 2)), BlockField::Result::kFirst) << "another size";
 }
 
+TEST(FieldSteps, OnlyAnotherPictureIsACutInNoiseToo) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise_grey(0, 6);
+  const Texture texture(1, 8);
+  const auto noisy = [&](double x, double y) {
+    Picture picture(427, 240);
+    picture.fill([&](double px, double py) {
+      const double grey = 128 + 0.3 * (texture.at(px - x, py - y) - 128) + noise_grey(random);
+      return std::min(255.0, std::max(0.0, grey));
+    });
+    return padded(picture);
+  };
+  BlockField field;
+  field.update(noisy(0, 0));
+  for (int n = 1; n <= 3; ++n) {
+    EXPECT_EQ(field.update(noisy(3 * n, n)), BlockField::Result::kMoved) << n;
+  }
+  EXPECT_EQ(field.update(noise(427, 240, 1)), BlockField::Result::kCut);
+}
+
 TEST(FieldSteps, DifferenceIsLeastWhereTheBlockCameFrom) {
   BlockField field;
   field.update(moved_texture(0, 0));
