@@ -137,7 +137,8 @@ bool BlockField::is_cut() {
     textured_.push_back({squared(matches_[i].difference), squared(contrast)});
   }
   if (textured_.empty()) return false;
-  const auto best = textured_.begin() + static_cast<ptrdiff_t>(kBestShare * textured_.size());
+  const auto count = static_cast<double>(textured_.size());
+  const auto best = textured_.begin() + static_cast<ptrdiff_t>(kBestShare * count);
   std::nth_element(
       textured_.begin(), best, textured_.end(),
       [](const Textured& a, const Textured& b) { return a.difference2 < b.difference2; });
@@ -146,7 +147,7 @@ bool BlockField::is_cut() {
     return block.difference2 - noise2 > squared(kFoundElsewhere) * (block.contrast2 - noise2 / 2);
   };
   const auto lost = std::count_if(textured_.begin(), textured_.end(), is_lost);
-  return static_cast<double>(lost) > kLostAtCut * static_cast<double>(textured_.size());
+  return static_cast<double>(lost) > kLostAtCut * count;
 }
 
 int BlockField::contrast_of(size_t block) const {
