@@ -100,12 +100,13 @@ TEST(Salience, WhatLeansOnTheBorderHasNoneWhileTheCameraMoves) {
 
 TEST(Salience, ALayerThatMovesWithTheBackgroundIsNoObject) {
   const Region slow = region(25, 0, 1.8);
-  EXPECT_GT(salience(slow, evidence_of({9, 0}, {-10, 0}), kCameraMoves, false), 0)
+  constexpr double kNoise_px = 0.1;
+  EXPECT_GT(salience(slow, evidence_of({9, 0}, {-10, 0}, kNoise_px), kCameraMoves, false), 0)
       << "it is followed";
-  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {10, 0}), kCameraMoves, false), 0)
+  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {10, 0}, kNoise_px), kCameraMoves, false), 0)
       << "a near layer";
-  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {0, 10}), kCameraMoves, false), 0);
-  EXPECT_GT(salience(slow, evidence_of({1.8, 0}, {1.8, 0}), kCameraMoves, true), 0)
+  EXPECT_EQ(salience(slow, evidence_of({1.8, 0}, {0, 10}, kNoise_px), kCameraMoves, false), 0);
+  EXPECT_GT(salience(slow, evidence_of({1.8, 0}, {1.8, 0}, kNoise_px), kCameraMoves, true), 0)
       << "an object may look a little like a layer";
 }
 

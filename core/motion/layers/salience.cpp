@@ -20,9 +20,6 @@ constexpr double kBorder = 1.5;
 /// Chosen on real films: with 7, what stands still is felt in 0.4 % of the frames, and the frames
 /// that are right are hardly more.
 constexpr double kNoiseSigmas = 8;
-/// A region whose LayerEvidence::ratio() is larger is a layer of the scene, however clearly it
-/// stands out: one that is nearer than half of the background's distance has 2 or less.
-constexpr double kMostRatio = 2;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
 /// A region with more of its blocks beside graphics is the edge of these, mixed with the film
@@ -63,7 +60,6 @@ double salience(const Region& region, const LayerEvidence& evidence, bool camera
   if (region.graphics_blocks >= kMixedShare * trust * region.blocks) return 0;
   if (region.border_blocks > kBorder * trust * std::sqrt(region.blocks)) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
-  if (doubt > kMostRatio) return 0;
   return trust * evidence.contrast() < kNoiseSigmas * doubt * doubt ? 0 : score;
 }
 
