@@ -144,8 +144,8 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 }
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
-/// others may be those of objects in front of a plain background. Before that, most of the picture
-/// is not new.
+/// others may be those of objects in front of a plain background, which it is not if most of the
+/// picture is new.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
   if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;

@@ -77,6 +77,18 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
   return across > MotionBlock::kLeastRoundness * (both - across);
 }
 
+/// Whether most of the blocks with texture are not found in the picture before.
+bool are_lost(const BlockField& field) {
+  int lost = 0;
+  int found = 0;
+  for (size_t i = 0; i < field.blocks().size(); ++i) {
+    const BlockField::Match match = field.match_of(i);
+    lost += match == BlockField::Match::kLost;
+    found += match == BlockField::Match::kFound;
+  }
+  return lost > found;
+}
+
 }  // namespace
 
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
@@ -85,14 +97,7 @@ void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& v
   if (!collect(field, past, Voters::kEdgesToo, votes)) {
     collect(field, past, Voters::kTextured, votes);
   }
-  int lost = 0;
-  int found = 0;
-  for (size_t i = 0; i < field.blocks().size(); ++i) {
-    const BlockField::Match match = field.match_of(i);
-    lost += match == BlockField::Match::kLost;
-    found += match == BlockField::Match::kFound;
-  }
-  votes.are_lost = lost > found;
+  votes.are_lost = are_lost(field);
 }
 
 }  // namespace spidar
