@@ -15,7 +15,7 @@ constexpr double kBorderVotes = 2;
 /// Weight of the newest frame in what is learnt from frame to frame.
 constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
-constexpr size_t kLeastVotes = 16;
+constexpr size_t kLeastVotes = 12;
 
 /// Displacements from which the camera's motion is estimated.
 struct BackgroundVotes {

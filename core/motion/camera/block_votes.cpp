@@ -15,16 +15,10 @@ constexpr int kBorderBlocks = 2;
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
-/// Smaller eigenvalue of the structure tensor of a block that votes: more than rounding gives it,
-/// (grey / px)², and twice what noise gives it, as a share of the noise's mean squared difference.
-/// On real films, made dark or blurred too, 0.25 to 1 and 0.2 to 0.3 are alike.
-constexpr float kVotingTexture = 0.5f;
-constexpr float kNoiseTexture = 0.25f;
 
 enum class Voters { kTextured, kEdgesToo };
 
-/// Textured blocks vote on the camera's motion: those with more texture than noise alone has, so
-/// that a dark or blurred picture has votes, too. A vote counts the more, the more structure the
+/// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
 /// block has in both directions and the better its motion fits; it counts twice at the border of
 /// the picture, and half for a block that moved by itself until now. Rest at the border counts
 /// once: graphics are mostly there, whereas a camera at rest shows it all over the picture. How an
@@ -35,7 +29,6 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
   votes.with_edges = voters == Voters::kEdgesToo;
   MotionBlock together;
   const BlockGrid& grid = field.grid();
-  const float least_texture = std::max(kVotingTexture, kNoiseTexture * field.noise_grey2());
   const int left = past.margin_columns;
   const int top = past.margin_rows;
   votes.size_px = {(grid.columns - 2 * left) * kBlock_px, (grid.rows - 2 * top) * kBlock_px};
@@ -47,8 +40,9 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
       const auto i = static_cast<size_t>(row * grid.columns + column);
       const MotionBlock& block = field.blocks()[i];
       const double texture = static_cast<double>(block.weakest_texture());
-      const bool may_vote = voters == Voters::kEdgesToo ? block.has_texture() && texture > 0
-                                                        : block.weakest_texture() >= least_texture;
+      const bool may_vote = voters == Voters::kEdgesToo
+                                ? block.has_texture() && texture > 0
+                                : block.weakest_texture() >= MotionBlock::kLeastTexture;
       if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
       if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
       double weight = texture / (texture + kFullTexture) /
