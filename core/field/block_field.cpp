@@ -36,6 +36,9 @@ constexpr double kLostAtCut = 0.8;
 /// Share of the textured blocks that are found again even where noise hides that of most others. Of
 /// 928 cuts between real films, 923 are found, and 926 if noise of six grey levels is added.
 constexpr double kBestShare = 0.02;
+/// Mean difference that noise may make: that of σ = 5.3. With 8, another faint picture that looks
+/// alike everywhere, such as grass after grass, is taken for noise.
+constexpr int kMostNoise_grey = 6;
 
 double squared(double value) {
   return value * value;
@@ -123,8 +126,8 @@ void BlockField::measure_noise() {
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
 /// textured blocks are lost. In a picture that moves, however fast, some blocks still match. What
-/// the best of them differ by is noise, unless it is clearly something else. The noise of both
-/// pictures is part of each difference, and that of one of them part of each contrast.
+/// the best of them differ by is noise, up to kMostNoise_grey. The noise of both pictures is part
+/// of each difference, and that of one of them part of each contrast.
 bool BlockField::is_cut() {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
@@ -142,7 +145,7 @@ bool BlockField::is_cut() {
   std::nth_element(
       textured_.begin(), best, textured_.end(),
       [](const Textured& a, const Textured& b) { return a.difference2 < b.difference2; });
-  const double noise2 = std::min(best->difference2, squared(kClear_grey * kBlockArea_px));
+  const double noise2 = std::min(best->difference2, squared(kMostNoise_grey * kBlockArea_px));
   const auto is_lost = [&](const Textured& block) {
     return block.difference2 - noise2 > squared(kFoundElsewhere) * (block.contrast2 - noise2 / 2);
   };
