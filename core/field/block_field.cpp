@@ -36,8 +36,8 @@ constexpr double kLostAtCut = 0.8;
 /// Share of the textured blocks that are found again even where noise hides that of most others. Of
 /// 928 cuts between real films, 923 are found, and 926 if noise of six grey levels is added.
 constexpr double kBestShare = 0.02;
-/// Mean difference that noise may make: that of σ = 5.3. With 8, another faint picture that looks
-/// alike everywhere, such as grass after grass, is taken for noise.
+/// Mean difference that noise may make: that of σ = 5.3. With 8, another part of a made texture,
+/// which looks alike everywhere, is taken for the same part with noise.
 constexpr int kMostNoise_grey = 6;
 
 double squared(double value) {

@@ -50,7 +50,8 @@ Background in_pixels_of(const Background& background, double scale);
 /// in three.
 /// Rest needs none, because a plain background shows none. But where there are votes in three
 /// places, more than objects have, and hardly any agrees with the model that explains them best,
-/// the camera's motion is unknown.
+/// the camera's motion is unknown. It is also unknown if votes are few because most of the picture
+/// is new.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
