@@ -13,11 +13,13 @@ namespace spidar {
 /// Four measures against a force that accelerates a released grip:
 ///
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
-///   same way, with the speed of the strings' ends.
+///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
+///   fades out, because the damper needs the strings.
 /// - A damper acts above kDampedFrom_m_s.
-/// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, or
-///   when it moves as the strings alone would move a bare grip. After kRest_s it returns within
-///   kReturn_s, and goes to rest again at a far lower speed if there still is no hand.
+/// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
+///   faster than kFastest_rad_s, or moves as the strings alone would move a bare grip. After
+///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
+///   still is no hand.
 /// - It also goes to rest again if the grip yields to the force that returns as only a loose hand
 ///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
@@ -36,6 +38,11 @@ class GripBrake {
   static constexpr double kFadeFrom_m_s = 0.58;
   static constexpr double kFadeTo_m_s = 1.0;
   static constexpr double kFastest_m_s = 1.5;
+  /// A hand that turns right round in 0.4 s, as smoothly as it can, has 1.875 π / 0.4 s = 14.7
+  /// rad/s half way, and 0.1 N m turn one that holds still at no more than 6 rad/s. A bare grip
+  /// gets twice as fast, turns until its pose is lost, and is thrown by the strings at rest:
+  /// at 1.28 m/s.
+  static constexpr double kFastest_rad_s = 15;
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
   static constexpr double kDampedFrom_m_s = 0.6;
@@ -49,8 +56,11 @@ class GripBrake {
   /// `radius_m` is where a torque acts as a force.
   GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
 
-  /// The pose is not known, or the device was opened: forgets the motion, not that nobody holds.
+  /// The pose is not known, or the device was opened: forgets the motion, not that nobody holds the
+  /// grip, and that for kRest_s after it is known again.
   void reset() noexcept;
+  /// Nobody holds the grip.
+  void release() noexcept { resting_s_ = kRest_s; }
 
   /// Position and velocity after an exchange, `dt_s` after the last call.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double dt_s) noexcept;
@@ -86,6 +96,7 @@ class GripBrake {
   Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d seen_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_m_s_ = Eigen::Vector3d::Zero();
+  double spun_s_ = 0;  ///< for how long it has turned faster than a hand
   // Force and displacement, smoothed, since the force rested or the film began.
   bool located_ = false;  ///< whether from_m_ is known
   Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();

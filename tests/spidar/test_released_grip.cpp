@@ -60,6 +60,73 @@ TEST(ReleasedGrip, AHandNoticesNothing) {
   }
 }
 
+// A hand that turns its wrist to and fro as fast as it can is still a hand.
+TEST(ReleasedGrip, AHandThatTurnsKeepsTheForce) {
+  const Profile profile = load_profile(kDefaultProfile);
+  PlayedGrip grip(profile, grip_model_of(profile), pulses({1, 0, 0}, 0, false));
+  constexpr double kTurn_rad = M_PI / 4, kFastest_rad_s = 12;
+  double fastest_rad_s = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Pose hand;
+    hand.orientation = Eigen::AngleAxisd(
+        kTurn_rad * std::sin(kFastest_rad_s / kTurn_rad * 1e-3 * i), Eigen::Vector3d::UnitZ());
+    grip.device.set_hand(hand);
+    grip.tick();
+    ASSERT_TRUE(grip.snapshot().last.held) << i;
+    fastest_rad_s = std::max(fastest_rad_s, grip.snapshot().last.velocity.angular_rad_s.norm());
+  }
+  EXPECT_GT(fastest_rad_s, 0.9 * kFastest_rad_s);
+}
+
+// Nobody turns a grip until its strings tangle. It may come back any time later, slowly, and then
+// gets no force that it could be thrown by.
+TEST(ReleasedGrip, AGripThatComesBackFromATurnGetsNoForceYet) {
+  const Profile profile = load_profile(kDefaultProfile);
+  PlayedGrip grip(profile, grip_model_of(profile), pulses({1, 0, 0}, 0, false));
+  double turn_rad = 0;
+  const auto turn_to = [&](double to_rad) {
+    while (std::abs(to_rad - turn_rad) > 1e-3) {
+      turn_rad += std::clamp(to_rad - turn_rad, -5e-3, 5e-3);
+      Pose hand;
+      hand.orientation = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ());
+      grip.device.set_hand(hand);
+      grip.tick();
+    }
+  };
+  grip.run(0.5);
+  ASSERT_TRUE(grip.snapshot().last.held);
+  turn_to(GripWatch::kMaxTurn_rad + 0.2);
+  EXPECT_EQ(grip.snapshot().pose_trouble, PoseTrouble::kOutside);
+  EXPECT_FALSE(grip.snapshot().last.held);
+  grip.run(GripBrake::kRest_s + GripBrake::kReturn_s + 1);
+  turn_to(GripWatch::kMaxTurn_rad - 0.5);
+  ASSERT_EQ(grip.snapshot().pose_trouble, PoseTrouble::kNone);
+  grip.run(0.5);
+  EXPECT_FALSE(grip.snapshot().last.held);
+  EXPECT_EQ(grip.snapshot().last.commanded.force_N.norm(), 0);
+  grip.run(GripBrake::kRest_s + GripBrake::kReturn_s);
+  EXPECT_TRUE(grip.snapshot().last.held);
+}
+
+TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {
+  GripBrake brake(0.03, 0);
+  const Wrench wanted{{1, 0, 0}, {0, 0, 0}};
+  const auto run = [&](double seconds, bool knows_pose) {
+    Wrench left;
+    for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
+      if (!knows_pose) brake.reset();
+      left = brake.apply(wanted, {}, 300, 1e-3);
+    }
+    return left.force_N.x();
+  };
+  EXPECT_EQ(run(1, true), 1);
+  EXPECT_EQ(run(1, false), 1);  // a hand holds it, as far as is known
+  brake.release();
+  EXPECT_EQ(run(2 * (GripBrake::kRest_s + GripBrake::kReturn_s), false), 0);
+  EXPECT_EQ(run(0.9 * GripBrake::kRest_s, true), 0);
+  EXPECT_EQ(run(0.2 * GripBrake::kRest_s + GripBrake::kReturn_s, true), 1);
+}
+
 // The strings at rest pull the grip back to the centre, with a force that has a potential. A hand
 // that goes to and fro gets energy from a force across its way that switches this pull off on the
 // way out: the work of that force itself is zero.
