@@ -39,9 +39,9 @@ class GripBrake {
   static constexpr double kFadeTo_m_s = 1.0;
   static constexpr double kFastest_m_s = 1.5;
   /// A hand that turns right round in 0.4 s, as smoothly as it can, has 1.875 π / 0.4 s = 14.7
-  /// rad/s half way, and 0.1 N m turn one that holds still at no more than 6 rad/s. A bare grip
-  /// gets twice as fast, turns until its pose is lost, and is thrown by the strings at rest:
-  /// at 1.28 m/s.
+  /// rad/s half way, and a film turns one of 150 N/m or more at no more than 8 rad/s. A bare grip
+  /// gets far faster, turns until its pose is lost, and is thrown by the strings at rest: at 1.28
+  /// m/s.
   static constexpr double kFastest_rad_s = 15;
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
