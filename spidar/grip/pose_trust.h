@@ -14,7 +14,8 @@ enum class PoseTrouble {
   kNoReading,  ///< the device did not answer
   kNoFit,      ///< the string lengths fit no pose
   kJump,       ///< a pose that a hand could not have reached since the last one
-  kOutside,    ///< a pose outside the frame, or turned so far that the strings would tangle
+  kOutside,    ///< a pose outside the frame
+  kTurned,     ///< a pose that is turned so far that the strings would tangle
   kNotHomed,   ///< encoders have not passed their marks since the device was switched on
   kFrozen,     ///< no counter moves, although the force on the grip has changed
 };
@@ -33,7 +34,9 @@ constexpr const char* to_string(PoseTrouble trouble) noexcept {
     case PoseTrouble::kJump:
       return "the grip seems to move faster than a hand can";
     case PoseTrouble::kOutside:
-      return "the grip seems to be outside the frame or turned right round";
+      return "the grip seems to be outside the frame";
+    case PoseTrouble::kTurned:
+      return "the grip seems to be turned right round";
     case PoseTrouble::kNotHomed:
       return "the device does not know its zero: pull the grip all the way out, then push it all "
              "the way in";

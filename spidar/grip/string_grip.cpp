@@ -46,8 +46,8 @@ PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noe
   if (result.status != PoseStatus::kSolved) return PoseTrouble::kNoFit;
   const Pose& pose = result.pose;
   const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
-  if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_ || turn_rad > kMaxTurn_rad)
-    return PoseTrouble::kOutside;
+  if (turn_rad > kMaxTurn_rad) return PoseTrouble::kTurned;
+  if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_) return PoseTrouble::kOutside;
   // A rotation counts as the way of the points at which the strings are tied.
   const double way_m = (pose.position_m - pose_.position_m).norm() +
                        radius_m_ * pose.orientation.angularDistance(pose_.orientation);

@@ -43,9 +43,11 @@ constexpr double kWithstands_s = 0.3;
 constexpr double kThrown_m = 0.03;
 constexpr double kThrown_m_s = 0.4;
 constexpr double kStored_s = 0.2;
-/// A grip that turns faster than a hand for this long is bare. A pose that fits the lengths as well
-/// as the true one may look like a turn, on `spidar-igarashi001` for up to 5 ms. After 15 ms, one
-/// that spins has a speed of 1.10 m/s in one film of 24 000.
+/// Twice the energy that throws a bare grip of 50 g at 1 m/s.
+constexpr double kThrows_J = 0.05;
+/// A grip that turns faster than a hand for this long is bare. With 15 ms, one that spins at 38
+/// rad/s gets 1.10 m/s. Poses that fit the lengths as well as the true one look like a turn for 5
+/// ms, seldom for 15.
 constexpr double kSpins_s = 0.01;
 /// From a pose to the force that depends on it: a tick until the next exchange, and half a tick in
 /// which it is held.
@@ -138,7 +140,7 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
   gone_m_ += share * (way_m - gone_m_);
   pulled_N_ += share * (strings_N_ - pulled_N_);
   const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
-  loose_s_ = has_yielded() || thrown ? kStored_s : loose_s_ - dt_s;
+  loose_s_ = has_yielded() || thrown || is_balanced(way_m) ? kStored_s : loose_s_ - dt_s;
   const double force_N = pulled_N_.norm();
   if (force_N < kFirmForce_N) return;
   const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
@@ -169,6 +171,11 @@ bool GripBrake::has_stored(const Eigen::Vector3d& way_m) const noexcept {
   if (is_withstood() || !is_loose(way_m)) return false;
   const double twice_J = kLooseHand_N_m * way_m.squaredNorm() - rest_N_.dot(way_m);
   return twice_J > kLooseHand_N_m * kThrown_m * kThrown_m;
+}
+
+/// A bare grip follows a force that rises slowly to where the strings at rest balance it.
+bool GripBrake::is_balanced(const Eigen::Vector3d& way_m) const noexcept {
+  return !is_withstood() && pulled_N_.norm() <= kTellingForce_N && -rest_N_.dot(way_m) > kThrows_J;
 }
 
 bool GripBrake::yields(const GripMotion& motion) const noexcept {

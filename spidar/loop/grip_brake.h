@@ -23,11 +23,12 @@ namespace spidar {
 /// - It also goes to rest again if the grip yields to the force that returns as only a loose hand
 ///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
-///   film reverses its force. Until a hand has withstood a force, a fast grip that has gone far
-///   along the force is one that yields, too. With a slow one, and with one that comes back from a
-///   swing as far as that, fading and damping begin kEarlier_m_s below their speeds: what the hand
-///   and the strings at rest have stored comes on top of a force that is reversed. The speed is
-///   then foreseen for as long as the force that still acts along it needs to fall.
+///   film reverses its force. So does one that has followed a force to where the strings at rest
+///   balance it. Until a hand has withstood a force, a fast grip that has gone far along the force
+///   is one that yields, too. With a slow one, and with one that comes back from a swing as far as
+///   that, fading and damping begin kEarlier_m_s below their speeds: what the hand and the strings
+///   at rest have stored comes on top of a force that is reversed. The speed is then foreseen for
+///   as long as the force that still acts along it needs to fall.
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
@@ -38,11 +39,9 @@ class GripBrake {
   static constexpr double kFadeFrom_m_s = 0.58;
   static constexpr double kFadeTo_m_s = 1.0;
   static constexpr double kFastest_m_s = 1.5;
-  /// A hand that turns right round in 0.4 s, as smoothly as it can, has 1.875 π / 0.4 s = 14.7
-  /// rad/s half way, and a film turns one of 150 N/m or more at no more than 8 rad/s. A bare grip
-  /// gets far faster, turns until its pose is lost, and is thrown by the strings at rest: at 1.28
-  /// m/s.
-  static constexpr double kFastest_rad_s = 15;
+  /// A hand that turns to and fro by 45°, four times a second, reaches 20 rad/s. A film turns one
+  /// of 150 N/m or more at no more than 9 rad/s, and a bare grip at up to 40.
+  static constexpr double kFastest_rad_s = 20;
   /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
   static constexpr double kDampedFrom_m_s = 0.6;
@@ -56,8 +55,8 @@ class GripBrake {
   /// `radius_m` is where a torque acts as a force.
   GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
 
-  /// The pose is not known, or the device was opened: forgets the motion, not that nobody holds the
-  /// grip, and that for kRest_s after it is known again.
+  /// The pose is not known, or the device was opened: forgets the motion. A grip that was released
+  /// stays so until kRest_s after its pose is known again.
   void reset() noexcept;
   /// Nobody holds the grip.
   void release() noexcept { resting_s_ = kRest_s; }
@@ -82,6 +81,7 @@ class GripBrake {
   bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
   bool has_yielded() const noexcept;
   bool has_stored(const Eigen::Vector3d& way_m) const noexcept;
+  bool is_balanced(const Eigen::Vector3d& way_m) const noexcept;
   bool yields(const GripMotion& motion) const noexcept;
   void compare_with_force(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
                           double dt_s) noexcept;

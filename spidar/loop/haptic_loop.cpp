@@ -233,9 +233,10 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
 /// Nobody needs to be protected from a stick that lets go of the hand.
 void HapticLoop::follow(double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
+  if (!grip_->traits().can_fly) return;
   // A hand does not turn a grip until its strings tangle.
-  if (grip.trouble == PoseTrouble::kOutside) brake_.release();
-  if (!grip.knows_pose() || !grip_->traits().can_fly) return brake_.reset();
+  if (grip.trouble == PoseTrouble::kTurned) brake_.release();
+  if (!grip.knows_pose()) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, dt_s);
   brake_.pull(grip.delivered, grip.at_rest, dt_s);
 }
