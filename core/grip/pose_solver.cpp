@@ -40,8 +40,11 @@ constexpr int kRounds = 4;
 // What the residual of seven counts in comparison with the distance: it has one degree of freedom
 // and the distance six, some of them weakly determined.
 constexpr double kResidualWeight = 8;
-// A dead encoder fits by chance when the grip passes through; a mended string goes on fitting.
+// A dead encoder fits by chance when the grip passes through; a mended string goes on fitting. One
+// that has moved this far, some three hundred encoder steps, and fitted on the whole way, is not
+// dead. It is not left out for longer, because without it the strings may not be able to brake.
 constexpr int kTicksToTrust = 100;
+constexpr double kWayToTrust_m = 5e-3;
 
 }  // namespace
 
@@ -177,7 +180,8 @@ PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
 }
 
 // A string that was left out is used again when its length has fitted the pose for some time and
-// has moved meanwhile: a dead encoder's count fits for as long as the grip happens to stand still.
+// has moved meanwhile, or has fitted for a long way: a dead encoder's count fits for as long as the
+// grip happens to stand still.
 int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
   const int i = result.faulty_string;
   const bool fitting = i >= 0 && i == faulty_string_ &&
@@ -185,8 +189,10 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
   if (!fitting) fitting_ticks_ = 0;
   if (!fitting) return i;
   if (fitting_ticks_++ == 0) fitting_from_m_ = lengths_m[i];
-  const bool moved = std::abs(lengths_m[i] - fitting_from_m_) > 2 * kMisfit * max_residual_m_;
-  return fitting_ticks_ > kTicksToTrust && moved ? -1 : i;
+  const double way_m = std::abs(lengths_m[i] - fitting_from_m_);
+  const bool moved = way_m > 2 * kMisfit * max_residual_m_;
+  const bool trusted = way_m > kWayToTrust_m || (fitting_ticks_ > kTicksToTrust && moved);
+  return trusted ? -1 : i;
 }
 
 // Two dead encoders may drag the pose along, because seven strings of which one is dead still fit

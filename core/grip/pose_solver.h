@@ -100,7 +100,7 @@ class PoseSolver {
 
   /// The pose near the last one, by Gauss–Newton from the last pose moved on by the last motion.
   /// With eight strings, one that does not fit is left out and reported; it is used again when its
-  /// length has fitted for 100 calls and has moved meanwhile.
+  /// length has fitted for 100 calls and has moved meanwhile, or has fitted while it moved by 5 mm.
   PoseResult track(const StringVector& lengths_m) noexcept;
 
   /// The pose anywhere in the frame, by Levenberg–Marquardt from the last pose and from turned

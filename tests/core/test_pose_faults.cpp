@@ -180,5 +180,39 @@ TEST(PoseFaults, AJumpAtRestIsNamed) {
   }
 }
 
+// A grip that flies needs all strings to be braked: at this speed, 5 mm are 10 ms.
+TEST(PoseFaults, AStringThatFitsAgainOnTheWayIsUsedAgain) {
+  constexpr double kSpeed_m_s = 0.5, kWay_m = 5e-3;
+  constexpr int kFaultBegins = 20, kFaultEnds = 30, kTicks = 60;
+  const StringGeometry geometry = g6x3_geometry();
+  for (int string = 0; string < geometry.count; ++string) {
+    const auto k = static_cast<size_t>(string);
+    const Eigen::Vector3d towards = (geometry.exit_m[k] - geometry.grip_m[k]).normalized();
+    PoseSolver solver(geometry, kStep_m);
+    double from_m = 0;
+    bool used_again = false;
+    for (int tick = 0; tick < kTicks; ++tick) {
+      Pose pose;
+      pose.position_m = (kSpeed_m_s * 1e-3 * tick - 0.015) * towards;
+      if (tick == 0) solver.reset(pose);
+      StringVector lengths_m = string_lengths_m(geometry, pose);
+      if (tick == kFaultEnds) from_m = lengths_m[string];
+      const double way_m = std::abs(lengths_m[string] - from_m);
+      const bool faulty = tick >= kFaultBegins && tick < kFaultEnds;
+      if (faulty) lengths_m[string] += 5e-3;
+      for (double& l : lengths_m) l = std::round(l / kStep_m) * kStep_m;
+      const PoseResult result = solver.solve(lengths_m);
+      ASSERT_EQ(result.status, PoseStatus::kSolved) << "string " << string << ", tick " << tick;
+      if (faulty) {
+        EXPECT_EQ(result.faulty_string, string) << "tick " << tick;
+      } else if (tick > kFaultEnds && way_m > kWay_m + kStep_m) {  // the counts are rounded
+        EXPECT_EQ(result.faulty_string, -1) << "string " << string << ", tick " << tick;
+        used_again = true;
+      }
+    }
+    EXPECT_TRUE(used_again) << "string " << string;
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::pose_faults_test
