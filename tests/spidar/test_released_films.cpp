@@ -69,7 +69,8 @@ Film random_film(RandomMotion& random, Kind kind, double& force_N) {
   };
 }
 
-/// A grip in a hand of this stiffness and damping, which turns as hard in proportion.
+/// A grip in a hand of this stiffness and damping; those against turning are smaller than a firm
+/// hand's in the same proportion.
 GripModel loosely_held(const Profile& profile, double mass_kg, double stiffness_N_m,
                        double damping_N_s_m) {
   GripModel model = released(profile, mass_kg);

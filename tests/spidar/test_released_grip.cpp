@@ -60,8 +60,8 @@ TEST(ReleasedGrip, AHandNoticesNothing) {
   }
 }
 
-// A hand that turns its wrist to and fro, by 45° more than twice a second, is still a hand, also if
-// the film turns it, too.
+// A hand that turns its wrist by 45° to and fro, more than twice a second, is still a hand, even
+// while the film turns it, too.
 TEST(ReleasedGrip, AHandThatTurnsKeepsTheForce) {
   constexpr double kTurn_rad = M_PI / 4, kFastest_rad_s = 12;
   for (const std::string name : {"spidar-gcc", "spidar-g6c", "spidar-i7"}) {
