@@ -37,14 +37,18 @@ constexpr double kTellingForce_N = 0.1;
 constexpr double kFirmHand_N_m = 200;
 constexpr double kFirmForce_N = 0.3;
 constexpr double kWithstands_s = 0.3;
-/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown. What it
-/// stores while it is slow, it keeps for kStored_s: until the smoothed force has turned, and the
-/// grip has come back.
-constexpr double kThrown_m = 0.03;
+/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown. With 30
+/// mm, sawtooths of 3 N throw one in a hand of 60 N/m at 1.07 m/s; with 20 mm, hands of 300 to 600
+/// N/m lose three times as much force. What the grip stores while it is slow, it keeps for
+/// kStored_s: until the smoothed force has turned, and the grip has come back.
+constexpr double kThrown_m = 0.025;
 constexpr double kThrown_m_s = 0.4;
 constexpr double kStored_s = 0.2;
 /// Twice the energy that throws a bare grip of 50 g at 1 m/s.
 constexpr double kThrows_J = 0.05;
+/// From the full wrench to rest while the strings balance the grip. If it went to rest within
+/// kRelease_s, the strings would throw it.
+constexpr double kEases_s = 0.1;
 /// A grip that turns faster than a hand for this long is bare. With 15 ms, one that spins at 38
 /// rad/s gets 1.10 m/s. Poses that fit the lengths as well as the true one look like a turn for 5
 /// ms, seldom for 15.
@@ -102,7 +106,7 @@ void GripBrake::reset() noexcept {
   seen_m_s_.setZero();
   last_m_s_.setZero();
   spun_s_ = 0;
-  located_ = false;
+  located_ = balanced_ = false;
   if (!held()) release();
 }
 
@@ -140,7 +144,8 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
   gone_m_ += share * (way_m - gone_m_);
   pulled_N_ += share * (strings_N_ - pulled_N_);
   const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
-  loose_s_ = has_yielded() || thrown || is_balanced(way_m) ? kStored_s : loose_s_ - dt_s;
+  balanced_ = is_balanced(way_m);
+  loose_s_ = has_yielded() || thrown || balanced_ ? kStored_s : loose_s_ - dt_s;
   const double force_N = pulled_N_.norm();
   if (force_N < kFirmForce_N) return;
   const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
@@ -205,7 +210,7 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double m
     resting_s_ -= dt_s;
     share_ = std::max(0.0, share_ - dt_s / kRelease_s);
   } else {
-    share_ = std::min(1.0, share_ + dt_s / kReturn_s);
+    share_ = std::clamp(share_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
   }
   const bool loose = loose_s_ > 0;
   const double earlier_m_s = loose ? kEarlier_m_s : 0;

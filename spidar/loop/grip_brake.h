@@ -24,11 +24,12 @@ namespace spidar {
 ///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
 ///   film reverses its force. So does one that has followed a force to where the strings at rest
-///   balance it. Until a hand has withstood a force, a fast grip that has gone far along the force
-///   is one that yields, too. With a slow one, and with one that comes back from a swing as far as
-///   that, fading and damping begin kEarlier_m_s below their speeds: what the hand and the strings
-///   at rest have stored comes on top of a force that is reversed. The speed is then foreseen for
-///   as long as the force that still acts along it needs to fall.
+///   balance it; its wrench fades out until they store little. Until a hand has withstood a force,
+///   a fast grip that has gone far along the force is one that yields, too. With a slow one, and
+///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
+///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
+///   that is reversed. The speed is then foreseen for as long as the force that still acts along it
+///   needs to fall.
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
@@ -46,7 +47,7 @@ class GripBrake {
   /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
   static constexpr double kDampedFrom_m_s = 0.6;
   static constexpr double kDamping_N_s_m = 7.5;
-  static constexpr double kEarlier_m_s = 0.2;
+  static constexpr double kEarlier_m_s = 0.3;
   /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
   static constexpr double kBareGrip_kg = 0.1;
   static constexpr double kRest_s = 1.0;
@@ -72,7 +73,7 @@ class GripBrake {
   Wrench apply(const Wrench& wanted, const GripMotion& motion, double max_slew_N_s,
                double dt_s) noexcept;
 
-  /// False from when the grip was found to be released until the full wrench has returned.
+  /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
   bool held() const noexcept { return share_ >= 1 && resting_s_ <= 0; }
 
  private:
@@ -102,6 +103,7 @@ class GripBrake {
   Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();
+  bool balanced_ = false;   ///< whether the strings at rest balance what has brought it there
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
   double loose_s_ = 0;      ///< for how long the grip still counts as one that has stored energy
   double share_ = 1;        ///< of the wrench

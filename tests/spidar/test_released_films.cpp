@@ -250,5 +250,29 @@ TEST(ReleasedFilms, AGripThatTheStringsBalanceHasStoredEnergy) {
   EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
 }
 
+Film sawtooth(const Wrench& most, double rate_Hz, double phase) {
+  return [=](double time_s) { return (2 * std::fmod(rate_Hz * time_s + phase, 1) - 1) * most; };
+}
+
+/// With a torque, it follows until it is turned by 69°, 100 mm beside the centre. There the strings
+/// cannot brake it: 1.63 m/s if the film's wrench stays.
+TEST(ReleasedFilms, AGripThatTheStringsBalanceGoesBackSlowly) {
+  const Profile profile = load_profile("spidar-g6jun");
+  PlayedGrip grip(profile, released(profile, 0.05),
+                  sawtooth({{-2.73, -0.57, -1.10}, {0.004, -0.053, 0.002}}, 0.45, 0.52));
+  grip.run(3);
+  EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
+}
+
+/// A loose hand lets the grip follow a slow rise by no more than 29 mm, and its spring adds to the
+/// force that is reversed: 1.06 m/s if less than 30 mm stored nothing.
+TEST(ReleasedFilms, WhatALooseHandHasStoredInASlowRiseDoesNotThrowIt) {
+  const Profile profile = load_profile("spidar-gcc");
+  PlayedGrip grip(profile, loosely_held(profile, 0.05, 51, 0.36),
+                  sawtooth({{-2.28, 0.61, -1.85}, Eigen::Vector3d::Zero()}, 1.12, 0.55));
+  grip.run(3);
+  EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
+}
+
 }  // namespace
 }  // namespace spidar::test::released_films_test
