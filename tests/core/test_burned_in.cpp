@@ -215,6 +215,24 @@ TEST(BurnedInFrames, AreNoSceneInWhichTheCameraRests) {
   }
 }
 
+TEST(BurnedInLetters, AreSeenThroughInTheQuietPartOfANoisyFilm) {
+  // A dark sky above grass that boils. By the noise of the grass, the half-transparent letters in
+  // the sky would be an object that the camera follows.
+  const Vector2d pan(5, -3);
+  const std::vector<Picture> film = take([&](int n, const Vector2d& at) {
+    const Vector2d from = at + n * pan;
+    const double grey = background().at(from.x(), from.y());
+    if (at.y() < 90) return 50 + 0.65 * (grey - 128);
+    return grey + 0.18 * (foreground().at(at.x() + 83.0 * n, at.y() + 47.0 * n) - 128);
+  });
+  const Caption letters = [](int, const Vector2d& at, double grey) {
+    return grey + 0.5 * (write(at, {480, 20}, 96, 4, 1, grey) - grey);
+  };
+  const std::vector<Frame> found = analyze(film, letters);
+  for (size_t n = 0; n < kFrames; ++n)
+    EXPECT_EQ(found[n].motion.velocity_px_s, Vector2d(0, 0)) << "frame " << n;
+}
+
 const Caption& subtitles() {
   return captions()[2].caption;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/field/block_field.h"
@@ -18,9 +19,10 @@ namespace spidar {
 /// Graphics are added after the film was shot, so their pixels stay constant and lack the film's
 /// noise. The pixels of an object that the camera follows change, however exactly it is followed.
 /// In semi-transparent graphics the film shows through: the edges stay in place, but neither rest
-/// nor any motion explains the pixels. An object that begins to deform looks the same, so this sign
-/// does not count where an object is known. Nor do they move as a whole: of a block that seems to
-/// move a little against the background, some pixels stay where they are.
+/// nor any motion explains the pixels as well as in the blocks around them. An object that begins
+/// to deform looks the same, so this sign does not count where an object is known. Nor do they move
+/// as a whole: of a block that seems to move a little against the background, some pixels stay
+/// where they are.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.
@@ -70,6 +72,8 @@ class BurnedIn {
     kStays,        ///< its pixels are constant
   };
 
+  std::optional<float> noise_around_grey2(const BlockField& field, const Block& block);
+  bool is_unexplained(const BlockField& field, const Block& block, float moved_px);
   bool stays_beside(const BlockField& field, const Block& block) const;
   bool is_beside_staying(const BlockGrid& grid, size_t index) const;
 
@@ -79,7 +83,7 @@ class BurnedIn {
   std::vector<uint8_t> holds_;
   std::vector<uint8_t> covers_;
   bool camera_moves_ = false;
-  float unexplained_grey2_ = 0;
+  std::vector<float> nearby_;  // residuals of the background around a block
 };
 
 }  // namespace spidar
