@@ -27,15 +27,16 @@ constexpr float kInPlace_px = kMostOff_px / 2;
 /// behind them together, and its motion is neither: a tenth of the block, more than a line across
 /// it. Chosen on captions over pans.
 constexpr int kMixedPixels = 24;
-/// The noise around a block is that of the blocks up to this far away that move with the
-/// background, give or take the second, px of the field's picture. Where a picture is dark, it has
-/// less noise than elsewhere. Too few tell nothing. Chosen on half-transparent logos over pans.
+/// A dark or still part of a picture has less noise than the rest. The noise around a block is that
+/// of the blocks up to kAround_blocks away that move with the background to kWithBackground_px, px
+/// of the field's picture, if there are kLeastAround of them. Chosen on half-transparent logos over
+/// pans.
 constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
 constexpr size_t kLeastAround = 8;
-/// Of a block that has not moved, and whose edges are therefore known to this, px of the field's
-/// picture, a smaller difference is not explained by noise: more than four standard deviations of
-/// its mean over a block, 1.4 times the noise. An object that a camera follows as exactly is rare.
+/// A block that has moved by less than kStill_px, px of the field's picture, is unexplained from
+/// 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
+/// follows an object so exactly. Chosen on half-transparent logos over pans.
 constexpr float kStill_px = 0.2F;
 constexpr float kStillCost = 1.4F;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.

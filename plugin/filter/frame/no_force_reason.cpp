@@ -34,9 +34,10 @@ Wording wording(NoForceReason limit) noexcept {
       return {"grip-unknown",
               "The device is at rest because of a fault: the position of the grip is not known."};
     case NoForceReason::kGripReleased:
-      return {"grip-released",
-              "Nobody holds the grip: it moved as the strings alone would move it, or faster than "
-              "1.5 m/s. The force returns by itself."};
+      return {
+          "grip-released",
+          "Nobody holds the grip: it moved, spun or rested as only a released one does. The force "
+          "returns by itself."};
     case NoForceReason::kVibration:
       return {"vibration",
               "The force is lowered because it has shaken the hand for long: a day's vibration is "

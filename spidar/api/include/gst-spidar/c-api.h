@@ -202,7 +202,7 @@ GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
  * joystick driver. None of a device without buttons, nor while it is lost. */
 GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device);
 
-/*! False when the force rests, or is returning, because nobody seems to hold the grip. */
+/*! False while the force fades, rests or returns because nobody seems to hold the grip. */
 GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
 
 /*! Share of the wanted wrench that may be exerted, 1 unless the force has shaken the hand for

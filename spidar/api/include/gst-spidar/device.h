@@ -163,8 +163,8 @@ class GST_SPIDAR_API Device {
   /// How fast the grip moves, m/s, about 3 ms ago. Nothing while pose() is not known.
   std::optional<Vector3> velocity() const;
 
-  /// False when the force rests, or is returning, because nobody seems to hold the grip: it moved
-  /// as the strings alone would move it, or faster than 1.5 m/s (docs/safety.md).
+  /// False while the force fades, rests or returns because nobody seems to hold the grip: it moved,
+  /// spun or rested as only a released one does (docs/safety.md).
   bool held() const;
 
   /// Share of the wanted wrench that may be exerted. It is 1 unless the force has shaken the hand
