@@ -16,16 +16,12 @@
 #include <unistd.h>
 #include <vector>
 
-#include "plugin/tools/film_recorder.h"
+#include "plugin/tools/film_process.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/tools/track_samples.h"
-#include "plugin/tools/track_summary.h"
-#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 
@@ -36,9 +32,10 @@ namespace {
 struct RecordedFilm {
   std::string film;
   std::filesystem::path track;
-  std::string result;  ///< "recorded", "there" or "failed"
-  std::string remark;  ///< a warning or, if it failed, the cause; may be empty
-  double seconds = 0;  ///< of work
+  std::string result;   ///< "recorded", "there" or "failed"
+  std::string remark;   ///< a warning or, if it failed, the cause; may be empty
+  double seconds = 0;   ///< of work
+  std::string summary;  ///< FilmResult::summary
 };
 
 [[noreturn]] void fail(const std::string& path) {
@@ -46,26 +43,15 @@ struct RecordedFilm {
 }
 
 /// A line of JSON for the manifest, without the end of the line. Unless the film failed, it has
-/// what the track says of itself, which is read for that: duration_s, felt (the share of the time
-/// with a force that can be felt), largest_force_N, fingerprint and settings. Throws
-/// std::runtime_error.
+/// what the track says of itself.
 std::string manifest_line(const RecordedFilm& film) {
   nlohmann::ordered_json line = {{"film", film.film},
                                  {"result", film.result},
                                  {"seconds", film.seconds},
                                  {"version", SPIDAR_VERSION}};
   if (!film.remark.empty()) line[film.result == "failed" ? "error" : "warning"] = film.remark;
-  if (film.result != "failed") {
-    TrackCondition condition;
-    const std::vector<TrackSample> samples = load_track(film.track.string(), &condition);
-    line["track"] = film.track.string();
-    line["duration_s"] = static_cast<double>(samples.size()) / kTrackRate_Hz;
-    const TrackSummary summary = summarise(samples);
-    line["felt"] = summary.felt;
-    line["largest_force_N"] = summary.largest_force_N;
-    line["fingerprint"] = to_text(condition.notes.film);
-    line["settings"] = condition.notes.settings.value_or("");
-  }
+  if (film.result != "failed") line["track"] = film.track.string();
+  if (!film.summary.empty()) line.update(nlohmann::ordered_json::parse(film.summary));
   // File names are bytes, and JSON is UTF-8.
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -105,26 +91,7 @@ namespace fs = std::filesystem;
 /// How often it is looked whether another process has finished a track.
 constexpr std::chrono::milliseconds kLook{200};
 
-/// Throws std::runtime_error when the file that is there is not what would be made. One that says
-/// nothing of itself was made by hand, or by an older version, and may be.
-void check_file(const std::string& film, const fs::path& file, const RecordOptions& options) {
-  const std::string again = "; --force records it again";
-  if (fs::is_empty(file)) throw std::runtime_error(file.string() + " is empty" + again);
-  const TrackNotes notes = read_track_notes(file.string());
-  const std::string settings = with_rules(options.properties, film).settings;
-  if (notes.settings && *notes.settings != settings) {
-    const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
-    throw std::runtime_error(file.string() + " was recorded with " + shown(*notes.settings) +
-                             ", and not with " + shown(settings) + again);
-  }
-  if (notes.film.empty()) return;
-  if (!find_picture(notes.film, read_film(film).packets)) {
-    throw std::runtime_error(file.string() + " is the track of another film: " + kOtherPictures +
-                             again);
-  }
-}
-
-/// Records a list of films with several threads.
+/// Records a list of films with several processes, for each of which a thread waits.
 class FilmBatch {
  public:
   explicit FilmBatch(const RecordOptions& options)
@@ -214,16 +181,21 @@ class FilmBatch {
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
     const Clock::time_point begin = Clock::now();
-    const RecordProperties properties = with_rules(options_.properties, film);
     const auto tell = [&](int percent) { report_.progress(index, percent); };
-    const FilmOutcome outcome = record_film(film, *part, properties, tell);
+    const FilmResult result = record_in_process(job_of(index), *part, tell);
     part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
-    const std::string remark = with_warning(outcome.remark, film, track);
+    const std::string remark = with_warning(result.remark, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
-    manifest_.add({film, track, "recorded", remark, taken.count()});
+    manifest_.add({film, track, "recorded", remark, taken.count(), result.summary});
     report_.done(index, Result::kRecorded,
-                 track.string() + "; " + outcome.felt + (remark.empty() ? "" : "; " + remark));
+                 track.string() + "; " + result.felt + (remark.empty() ? "" : "; " + remark));
     return true;
+  }
+
+  FilmJob job_of(size_t index) const {
+    const ListedFilm& film = options_.films[index];
+    return {film.path, options_.file_of(film).string(), with_rules(options_.properties, film.path),
+            !options_.manifest.empty()};
   }
 
   /// The folder itself has to be there: it may be a share that is not mounted.
@@ -242,7 +214,7 @@ class FilmBatch {
   void fail(size_t index, std::string cause) {
     const ListedFilm& film = options_.films[index];
     try {
-      manifest_.add({film.path, options_.file_of(film), "failed", cause});
+      manifest_.add({film.path, options_.file_of(film), "failed", cause, 0, ""});
     } catch (const std::exception& error) {
       cause += std::string("; ") + error.what();
     }
@@ -252,8 +224,8 @@ class FilmBatch {
   bool is_done(size_t index, const fs::path& track) {
     if (options_.force || !fs::exists(track)) return false;
     const std::string& film = options_.films[index].path;
-    check_file(film, track, options_);
-    manifest_.add({film, track, "there", ""});
+    const FilmResult result = inspect_in_process(job_of(index));
+    manifest_.add({film, track, "there", "", 0, result.summary});
     report_.done(index, Result::kThere, with_warning(track.string() + " is there", film, track));
     return true;
   }

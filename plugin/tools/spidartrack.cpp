@@ -12,6 +12,7 @@
 
 #include <gst/gst.h>
 
+#include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
@@ -212,6 +213,8 @@ void request_stacks() {
 int main(int argc, char** argv) {
   open_standard_descriptors();
   request_stacks();
+  const int film_status = run_film_process(argc, argv);
+  if (film_status >= 0) return film_status;
   try {
     remove_part_files_on_signals();
   } catch (const std::system_error& error) {

@@ -119,6 +119,11 @@ PartFile::PartFile(const fs::path& target) : PartFile() {
   }
 }
 
+PartFile::PartFile(const fs::path& target, int descriptor)
+    : path_((target.parent_path() / part_name(target)).string()),
+      target_(target.string()),
+      descriptor_(descriptor) {}
+
 PartFile::~PartFile() {
   if (descriptor_ < 0) return;
   const std::lock_guard<std::mutex> lock(registry().mutex);

@@ -19,6 +19,8 @@ class PartFile {
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, or when another
   /// thread or process is writing the same file.
   explicit PartFile(const std::filesystem::path& target);
+  /// The part file of `target` that another process owns, which has given this one the descriptor.
+  PartFile(const std::filesystem::path& target, int descriptor);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;

@@ -4,6 +4,7 @@
 import fcntl
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import time
@@ -153,6 +154,45 @@ class Batch(track_case.TrackCase):
     def await_log(self, process, text):
         while process.poll() is None and text not in self.path("log").read_text():
             time.sleep(.01)
+
+    def kill_reader(self, batch, film, number):
+        """Ends the process that reads a film as a fault in a decoder does."""
+        while batch.poll() is None:
+            for tasks in pathlib.Path(f"/proc/{batch.pid}/task").glob("*/children"):
+                for child in tasks.read_text().split():
+                    command = pathlib.Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")
+                    if film.encode() in command:
+                        os.kill(int(child), number)
+                        return
+            time.sleep(.01)
+
+    def test_a_film_that_crashes_its_decoder_costs_one_film(self):
+        self.make_film("bad.avi", 2000)
+        self.make_film("good.avi")
+        for number, said in ((signal.SIGSEGV, "the process that read it crashed (Segmentation fault): it is damaged, or"),
+                             (signal.SIGKILL, "the process that read it was killed: is there enough memory for it?")):
+            batch = self.start("bad.avi", "good.avi", "--force", "--manifest", "done.jsonl")
+            self.kill_reader(batch, "bad.avi", number)
+            self.assertEqual(batch.wait(), 1)
+            self.assertIn("1 recorded, 0 there, 1 failed:\n  bad.avi: " + said, self.path("log").read_text())
+            lines = {line["film"]: line for line in self.json_lines("done.jsonl")[-2:]}
+            self.assertIn(said, lines["bad.avi"]["error"])
+            self.assertEqual(lines["good.avi"]["result"], "recorded")
+            self.assertFalse([name for name in self.files() if "bad.avi." in name or ".part-" in name])
+
+    def test_the_processes_of_films_end_with_the_command(self):
+        self.make_film("x.avi", 2000)
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
+            batch = self.start("x.avi")
+            while not list(self.folder.glob(".part-*")):
+                time.sleep(.01)
+            batch.send_signal(number)
+            self.assertEqual(batch.wait(), -number)
+            # Whoever records a film has locked its part file.
+            for part in self.folder.glob(".part-*"):
+                with open(part, "rb") as left:
+                    fcntl.flock(left, fcntl.LOCK_EX)
+                part.unlink()
 
     def test_a_film_that_another_process_records_is_waited_for(self):
         self.make_film("x.avi")

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Reads each film in a process of its own, so that a demuxer or decoder that crashes costs one
+/// film.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "plugin/tools/record_options.h"
+#include "plugin/tracks/part_file.h"
+
+namespace spidar {
+
+struct FilmJob {
+  std::string film;
+  std::string track;
+  /// With which the track is recorded, or was; rules are given as they are, not by their file.
+  RecordProperties properties;
+  bool is_summarised = false;  ///< the result has a summary
+};
+
+struct FilmResult {
+  std::string felt;     ///< how much of the film is felt, and why the rest is not
+  std::string remark;   ///< what else is to be known of it; usually empty
+  std::string summary;  ///< what the track says of itself, as an object of JSON
+};
+
+/// Records the film of `job` into `part`. `tell` is called with the percentage that is done,
+/// whenever it rises. Throws std::runtime_error, which says why that failed, or how the process
+/// ended.
+FilmResult record_in_process(const FilmJob& job, const PartFile& part,
+                             const std::function<void(int percent)>& tell);
+
+/// Whether the track that is there is what would be made; one that says nothing of itself was made
+/// by hand, or by an older version, and may be. Throws std::runtime_error, which says why it is
+/// not.
+FilmResult inspect_in_process(const FilmJob& job);
+
+/// The main function of such a process; −1 when these are arguments of a user. Before gst_init().
+int run_film_process(int argc, char** argv);
+
+}  // namespace spidar
