@@ -2,7 +2,8 @@
 # Copyright 2026 the gst-spidar authors
 """What is asked on the terminal: before a participant may hold the grip, and after each clip."""
 
-from trials import STEPS, append_row, utc_now
+from records import append_row, utc_now
+from trials import STEPS
 
 GENTLE_N = 1.0  # the limit of the force unless the experimenter confirms more; docs/safety.md
 # Questions to the experimenter whose answer must be no.

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Plays a clip whose motion is felt, for study.py."""
+"""Plays clips whose motion is felt, one after the other, on a device that stays open."""
+
+import os
+import select
+import tempfile
+import threading
+import time
 
 import gi
 
@@ -9,18 +15,18 @@ from gi.repository import GLib, Gst  # noqa: E402
 
 Gst.init(None)
 
-FORCE_FILTERS = 1 << 11  # GstPlayFlags: frames in graphics memory would bypass the filter
+SINKS = {"window": "autovideosink", "headless": "fakesink sync=true", "fast": "fakesink sync=false"}
+SOUNDS = {"window": "autoaudiosink", "headless": "fakesink sync=true", "fast": "fakesink sync=false"}
+TRACE_LATE_S = 2  # how long to wait for the trace's rows, which are written every 50 ms
 
 
 def uri_of(clip):
     """Raises ValueError if there is no such file."""
-    if Gst.uri_is_valid(clip):
-        return clip
     try:
         with open(clip, "rb"):
-            return Gst.filename_to_uri(clip)
+            return Gst.filename_to_uri(os.path.abspath(clip))
     except OSError as error:
-        raise ValueError(f"{clip}: {error.strerror}; give a video file or a URI") from error
+        raise ValueError(f"{clip}: {error.strerror}; give a video file") from error
 
 
 def make_filter(properties):
@@ -33,38 +39,162 @@ def make_filter(properties):
         raise ValueError(error.message) from error
 
 
-class ClipPlayer:
-    """A context manager: the device is closed at its end."""
+def plugin_version():
+    return Gst.Registry.get().find_feature("spidarmotion", Gst.ElementFactory).get_plugin().get_version()
 
-    def __init__(self, clip, properties, headless):
-        self.name = clip
-        self.filter = make_filter(properties)
-        self.player = Gst.ElementFactory.make("playbin")
-        self.player.set_property("uri", uri_of(clip))
-        self.player.set_property("video-filter", self.filter)
-        self.player.set_property("flags", int(self.player.get_property("flags")) | FORCE_FILTERS)
-        if headless:
-            for sink in "video-sink", "audio-sink":
-                self.player.set_property(sink, Gst.parse_launch("fakesink sync=true"))
+
+class TickRecorder:
+    """Keeps the haptic trace while a clip plays. It comes through a pipe, as most of a session is not worth keeping."""
+
+    def __init__(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = os.path.join(self.folder.name, "ticks")
+        os.mkfifo(self.path)
+        self.pipe = os.open(self.path, os.O_RDONLY | os.O_NONBLOCK)
+        self.header = self.rest = b""
+        self.file, self.last_ns, self.until_ns = None, 0, 0
+        self.is_closed = False
+        self.changed = threading.Condition()
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def run(self):
+        while not self.is_closed:
+            if not select.select([self.pipe], [], [], 0.1)[0]:
+                continue
+            data = os.read(self.pipe, 1 << 16)
+            if not data:  # nobody has opened it for writing
+                time.sleep(0.02)
+                continue
+            *lines, self.rest = (self.rest + data).split(b"\n")
+            with self.changed:
+                if lines and not self.header:
+                    self.header = lines.pop(0)
+                    self.changed.notify_all()
+                if lines:
+                    if self.file:
+                        self.file.write(b"".join(line + b"\n" for line in lines))
+                    self.last_ns = int(lines[-1].split(b",")[1])
+                    self.changed.notify_all()
+
+    def start(self, path):
+        with self.changed:
+            self.changed.wait_for(lambda: self.header, TRACE_LATE_S)
+            self.file = open(path, "wb")
+            self.file.write(self.header + b"\n")
+
+    def stop(self):
+        """When the rows until now are in the file, or do not come."""
+        now_ns = time.monotonic_ns()
+        with self.changed:
+            self.changed.wait_for(lambda: self.last_ns >= now_ns, TRACE_LATE_S)
+            self.file.close()
+            self.file = None
+
+    def close(self):
+        self.is_closed = True
+        self.thread.join()
+        os.close(self.pipe)
+        self.folder.cleanup()
+
+
+class Player:
+    """A context manager: the device is opened at its beginning and closed at its end.
+
+    The position of the grip is counted from where it was when the device was opened, unless the profile is calibrated.
+    Therefore one opening serves all clips. `output`: one of SINKS.
+    """
+
+    def __init__(self, properties, output):
+        self.output, self.recorder = output, None
+        self.filter = make_filter([*properties, "on-device-error=error"])
+        self.filter.set_locked_state(True)  # it outlives the pipelines that it is in
+        self.bus = Gst.Bus()
+        self.pipeline = None
+
+    def property(self, name):
+        return self.filter.get_property(name)
 
     def __enter__(self):
+        """Raises RuntimeError if the device cannot be opened."""
+        if self.property("device") != "none":
+            self.recorder = TickRecorder()
+            self.filter.set_property("haptic-trace", self.recorder.path)
+        self.filter.set_bus(self.bus)
+        if self.filter.set_state(Gst.State.READY) == Gst.StateChangeReturn.FAILURE:
+            message = self.bus.pop_filtered(Gst.MessageType.ERROR)
+            reason = message.parse_error()[0].message if message else "examples/play.sh says why"
+            self.__exit__()
+            raise RuntimeError(f"the device {self.property('device')} cannot be opened: {reason}")
         return self
 
     def __exit__(self, *_):
-        self.player.set_state(Gst.State.NULL)
+        self.close_clip()
+        self.filter.set_state(Gst.State.NULL)
+        self.filter.set_bus(None)
+        if self.recorder:
+            self.recorder.close()
+            self.recorder = None
 
-    def pause(self):
-        """The device is open, and its strings have their smallest tension. Raises RuntimeError."""
-        self.player.set_state(Gst.State.PAUSED)
-        if self.player.get_state(10 * Gst.SECOND)[0] == Gst.StateChangeReturn.FAILURE:
-            raise RuntimeError(f"{self.name}: the device cannot be opened; examples/play.sh says why")
+    def open_clip(self, clip, is_turned):
+        """The picture is turned before it is analysed, and back: so is the force."""
+        turn = "180" if is_turned else "identity"
+        self.pipeline = Gst.parse_launch(
+            "uridecodebin name=source force-sw-decoders=true "
+            f"videoconvert name=before ! videoflip video-direction={turn} name=turned "
+            f"videoflip video-direction={turn} name=back ! videoconvert ! {SINKS[self.output]}")
+        get = self.pipeline.get_by_name
+        self.pipeline.add(self.filter)
+        get("turned").link(self.filter)
+        self.filter.link(get("back"))
 
-    def play(self):
-        """Plays to the end; returns False if the window was closed. Raises RuntimeError."""
-        self.player.set_state(Gst.State.PLAYING)
+        def link(_, pad):
+            if pad.query_caps(None).to_string().startswith("video/"):
+                if not get("before").get_static_pad("sink").is_linked():
+                    pad.link(get("before").get_static_pad("sink"))
+                return
+            sound = Gst.parse_bin_from_description(f"audioconvert ! audioresample ! {SOUNDS[self.output]}", True)
+            self.pipeline.add(sound)
+            sound.sync_state_with_parent()
+            pad.link(sound.get_static_pad("sink"))
+
+        get("source").set_property("caps", Gst.Caps.from_string("video/x-raw; audio/x-raw"))
+        get("source").set_property("uri", uri_of(clip))
+        get("source").connect("pad-added", link)
+        self.filter.set_locked_state(False)
+
+    def close_clip(self):
+        if not self.pipeline:
+            return
+        self.filter.set_locked_state(True)
+        self.pipeline.set_state(Gst.State.NULL)
+        self.filter.set_state(Gst.State.READY)
+        self.pipeline.remove(self.filter)
+        self.pipeline = None
+
+    def play(self, clip, properties, is_turned=False, haptic_trace=None):
+        """Plays to the end; returns False if the window was closed. Raises RuntimeError.
+
+        `properties`: name=value, of this clip on.
+        """
+        for each in properties:
+            Gst.util_set_object_arg(self.filter, *each.split("=", 1))
+        self.open_clip(clip, is_turned)
+        try:
+            if haptic_trace:
+                self.recorder.start(haptic_trace)
+            self.pipeline.set_state(Gst.State.PLAYING)
+            return self.wait(clip)
+        finally:
+            if haptic_trace:
+                self.recorder.stop()
+            self.close_clip()
+
+    def wait(self, clip):
         while True:
             # Ctrl-C is noticed in between.
-            message = self.player.bus.timed_pop_filtered(100 * Gst.MSECOND, Gst.MessageType.EOS | Gst.MessageType.ERROR)
+            message = self.pipeline.bus.timed_pop_filtered(100 * Gst.MSECOND,
+                                                           Gst.MessageType.EOS | Gst.MessageType.ERROR)
             if message is None:
                 continue
             if message.type == Gst.MessageType.EOS:
@@ -73,4 +203,4 @@ class ClipPlayer:
             is_sink = message.src.flags & int(Gst.ElementFlags.SINK)
             if is_sink and error.matches(Gst.resource_error_quark(), Gst.ResourceError.NOT_FOUND):
                 return False
-            raise RuntimeError(f"{self.name} could not be played: {error.message}")
+            raise RuntimeError(f"{clip} could not be played: {error.message}")

@@ -3,51 +3,91 @@
 # Copyright 2026 the gst-spidar authors
 """The paper's experiment with people: which controller feels better, and what haptics add.
 
-`run` asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays
-clips and asks. It goes on where this participant stopped. `report` prints shares, means and a sign test of all answers.
-ANSWERS.csv.briefings keeps what was asked before, ANSWERS.csv.traces/ what was felt. docs/study.md says more.
+`plan` says how many participants an effect needs, and `preview` in what the conditions differ for some clips. `run` asks
+for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips and asks.
+It goes on where this participant stopped. `report` prints shares, means, sign tests and an ordinal model of all answers,
+and `withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
 
 import argparse
+import hashlib
+import platform
 import signal
 import sys
 from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, read_line
-from trials import COLUMNS, append_row, index_of, open_questions, read_answers, schedule, utc_now
+from records import (COLUMNS, PRESENTATION_COLUMNS, Participants, append_row, read_answers, read_settings, require_same,
+                     utc_now, write_settings)
+from trials import QUESTIONS, open_questions, schedule
 
-PROPERTIES = {
-    "linear": ["controller=linear"],
-    "nonlinear": ["controller=nonlinear"],
-    "without": ["controller=nonlinear", "mute=true"],  # the strings are taut but exert no force
-    "with": ["controller=nonlinear"],
-}
+ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
+
+
+def hash_of(file):
+    """Raises OSError."""
+    with open(file, "rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
 
 
 class Study:
+    """GStreamer takes a moment, and not every command needs it: this class does."""
+
     def __init__(self, options, properties):
-        self.options = options
+        import clip_player
+        import preview
+
+        self.options, self.clip_player, self.preview = options, clip_player, preview
         self.extra = dict(question.split("=", 1) for question in options.question)
-        self.properties = [f"max-force={GENTLE_N:g}", *properties]
+        self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
+        for clip in options.clips:  # all clips and properties are right before the first one is shown
+            clip_player.uri_of(clip)
+        filter_ = clip_player.make_filter(self.properties)
+        self.device, self.profile, self.limit_N = (
+            filter_.get_property(name) for name in ("device", "profile", "max-force"))
 
-    def player(self, clip, properties=()):
-        from clip_player import ClipPlayer  # GStreamer takes a moment, and the report does not need it
+    def measure(self):
+        """Of each clip, what differs. Raises ValueError if nothing does."""
+        print("looking at the clips …", flush=True)
+        clips = {clip: self.preview.measure(clip, self.properties, self.limit_N, not self.options.paper)
+                 for clip in self.options.clips}
+        print(self.preview.table(clips))
+        self.preview.require_told_apart(clips)
+        return clips
 
-        return ClipPlayer(clip, [*self.properties, *properties], self.options.headless)
+    def settings(self):
+        """With what the study is made; all that must stay the same."""
+        profile = self.profile or ""
+        return {
+            "version": self.clip_player.plugin_version(), "host": platform.node(), "seed": self.options.seed,
+            "paper": self.options.paper, "properties": self.properties, "device": self.device, "profile": profile,
+            "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
+            "questions": QUESTIONS | {"every clip": self.extra},
+            "clips_sha256": {clip: hash_of(clip) for clip in self.options.clips}}
+
+    def begin(self):
+        """What differs in each clip: as measured when the study began."""
+        now, old = self.settings(), read_settings(self.options.answers)
+        if old is None:
+            clips = self.measure()
+            write_settings(self.options.answers, now | {"clips": {name: asdict(clip) for name, clip in clips.items()}})
+            return clips
+        clips = {name: self.preview.Clip(**values) for name, values in old.pop("clips").items()}
+        require_same(self.options.answers, old, now)
+        print(self.preview.table(clips))
+        return clips
+
+    def player(self):
+        return self.clip_player.Player(self.properties, "headless" if self.options.headless else "window")
 
     @contextmanager
     def taut(self):
-        with self.player(self.options.clips[0], ["mute=true"]) as player:
-            player.pause()
+        with self.player():
             yield
-
-    def brief(self, device, force_N):
-        is_simulated = device == "none" or device.startswith("sim")
-        brief(self.options.answers + ".briefings", self.options.participant, force_N,
-              None if is_simulated else self.taut)
 
     def trace_name(self, trial):
         """A name that no earlier trace has: a trial that was stopped is played again."""
@@ -58,14 +98,42 @@ class Study:
             again = f"-{int(again[1:] or 1) + 1}"
         return folder / (name + again)
 
-    def run_trial(self, trial, questions):
-        if read_line("return: play, q: stop here and go on another time > ") == "q":
-            raise Stopped
+    def present(self, player, trial, clip):
+        """Plays the clip of a trial; returns why it does not count, or nothing. Raises RuntimeError."""
+        from delivery import judge
+
         trace = self.trace_name(trial)
-        traces = [f"trace={trace}.csv", f"haptic-trace={trace}.haptic.csv"]
-        with self.player(trial.clip, PROPERTIES[trial.condition] + traces) as player:
-            if not player.play():
+        frames, ticks = f"{trace}.csv", f"{trace}.haptic.csv"
+        force = self.preview.force_of(trial.condition)
+        share, problem = 0.0, "stopped"
+        try:
+            properties = ["mute=false", *self.preview.PROPERTIES[trial.condition], f"trace={frames}",
+                          f"max-force={clip.max_force_N[force]:.6f}"]
+            if not player.play(trial.clip, properties, trial.condition == "sham", ticks):
                 raise Stopped
+            scale = clip.max_force_N[force] / self.limit_N
+            expected_N = 0 if trial.condition == "without" else scale * clip.rms_N[force]
+            share, problem = judge(ticks, frames, expected_N)
+        except RuntimeError as error:
+            problem = str(error)
+            raise
+        finally:
+            append_row(self.options.answers + ".presentations", PRESENTATION_COLUMNS,
+                       [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, utc_now()])
+        return problem
+
+    def run_trial(self, player, trial, clip, questions):
+        for attempt in range(ATTEMPTS):
+            if attempt:
+                print("what was to be felt did not reach the hand as it should; the clip is played again")
+            if read_line("return: play, q: stop here and go on another time > ") == "q":
+                raise Stopped
+            problem = self.present(player, trial, clip)
+            if not problem:
+                break
+        else:
+            raise RuntimeError(f"trial {trial.number} failed {ATTEMPTS} times, and its answers would say nothing: "
+                               f"{problem}. When the cause is gone, the same command goes on here")
         for name, text in questions.items():
             append_row(self.options.answers, COLUMNS,
                        [self.options.participant, trial.number, trial.part, trial.condition, trial.code, trial.clip,
@@ -73,60 +141,94 @@ class Study:
 
     def run(self):
         options = self.options
-        for clip in options.clips:  # all clips and properties are right before the first one is shown
-            with self.player(clip) as player:
-                device, force_N = player.filter.get_property("device"), player.filter.get_property("max-force")
-        answers = read_answers(options.answers)
-        trials = schedule(options.clips, index_of(answers, options.participant), options.seed)
+        if self.device == "none":
+            raise ValueError("device=none renders no force: give the device that is felt, or device=sim to rehearse")
+        answers, participants = read_answers(options.answers), Participants(options.answers)
+        trials = schedule(options.clips, participants.index_of(options.participant), options.seed)
+        clips = self.begin()
         questions = open_questions(answers, options.participant, trials, self.extra)
-        self.brief(device, force_N)
-        for trial, still_open in zip(trials, questions):
-            if still_open:
-                print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
-                self.run_trial(trial, still_open)
+        is_simulated = self.device.startswith("sim")
+        brief(options.answers + ".briefings", options.participant, self.limit_N, None if is_simulated else self.taut)
+        if not is_simulated and read_line("Hold the grip at the centre of its frame, not turned, until the first clip "
+                                          "begins. return: open the device, q: stop here > ") == "q":
+            raise Stopped
+        with self.player() as player:
+            participants.register(options.participant)
+            for trial, still_open in zip(trials, questions):
+                if still_open:
+                    print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
+                    self.run_trial(player, trial, clips[trial.clip], still_open)
         print("\nthat was all; thank you")
 
 
 def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
+    end = ("name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
+           f"{GENTLE_N:g} N, and more must be confirmed.")
+    plan = commands.add_parser("plan", help="how many participants an effect needs")
+    plan.add_argument("--odds-ratio", type=float, default=4, help="of a higher answer (4: the paper's 50 %% and 80 %%)")
+    plan.add_argument("--clips", type=int, default=2)
+    plan.add_argument("--spread", type=float, default=1,
+                      help="standard deviation between participants, of their level and of their effect, as log odds")
+    plan.add_argument("--power", type=float, default=0.8)
+    plan.add_argument("--level", type=float, default=0.05, help="of the test")
+    plan.add_argument("--simulations", type=int, default=500)
+    preview = commands.add_parser("preview", usage="study.py preview [--paper] CLIP... [-- name=value...]", epilog=end)
     run = commands.add_parser(
-        "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]",
-        epilog="name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
-        f"{GENTLE_N:g} N, and more must be confirmed.")
+        "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
     run.add_argument("answers", metavar="ANSWERS.csv")
     run.add_argument("participant", metavar="PARTICIPANT")
-    run.add_argument("clips", metavar="CLIP", nargs="+")
     run.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
     run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
                      help="one more question after each clip, on the same five steps")
     run.add_argument("--headless", action="store_true", help="no window for the video")
+    for command in preview, run:
+        command.add_argument("clips", metavar="CLIP", nargs="+")
+        command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
+                             "conditions of different strength")
+    preview.set_defaults(question=[])
     commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
+    withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
+    withdraw.add_argument("answers", metavar="ANSWERS.csv")
+    withdraw.add_argument("participant", metavar="PARTICIPANT")
     split = arguments.index("--") if "--" in arguments else len(arguments)
     options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
-    if options.command == "report":
-        return options, properties
-    if not options.participant or "/" in options.participant:
-        parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
-    for question in options.question:
-        if not all(question.partition("=")):
-            parser.error(f"--question {question} is not NAME=TEXT")
+    if options.command == "run":
+        if not options.participant or "/" in options.participant:
+            parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
+        for question in options.question:
+            if not all(question.partition("=")):
+                parser.error(f"--question {question} is not NAME=TEXT")
     return options, properties
+
+
+def execute(options, properties):
+    if options.command == "plan":
+        from plan import plan  # SciPy takes a moment
+
+        plan(options)
+    elif options.command == "report":
+        from report import report
+
+        answers = read_answers(options.answers)
+        if not answers:
+            raise ValueError(f"{options.answers}: there are no answers in it")
+        print(report(answers, options.answers))
+    elif options.command == "withdraw":
+        Participants(options.answers).withdraw(options.participant)
+        print(f"{options.participant} is removed; the next participant takes this place")
+    elif options.command == "preview":
+        Study(options, properties).measure()
+    else:
+        Study(options, properties).run()
 
 
 def main(arguments):
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
     options, properties = parse(arguments)
     try:
-        if options.command == "report":
-            from report import report  # SciPy takes a moment
-
-            answers = read_answers(options.answers)
-            if not answers:
-                raise ValueError(f"{options.answers}: there are no answers in it")
-            print(report(answers))
-        else:
-            Study(options, properties).run()
+        execute(options, properties)
     except (Stopped, KeyboardInterrupt):
         print("\nstopped; the same command goes on here")
     except TakesNoPart as reason:

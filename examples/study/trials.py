@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""What a participant is shown and asked, and the file of the answers."""
+"""What a participant is shown and asked: conditions, questions, and their order."""
 
-import csv
-import os
 import random
-from dataclasses import dataclass, fields
-from datetime import datetime, timezone
-from pathlib import Path
+from dataclasses import dataclass
 
 STEPS = ["bad", "poor", "average", "good", "very good"]  # the paper's scale, 1 to 5
-# The paper's comparisons (Table 1 and Table 2), each with its two conditions and its questions.
-CONDITIONS = {"controllers": ("linear", "nonlinear"), "haptics": ("without", "with")}
+# The paper's comparisons (Table 1 and Table 2), each with its conditions and its questions. "sham" is the force of
+# "with", turned by 180°: as strong and at the same time, but against the motion in the picture.
+CONDITIONS = {"controllers": ("linear", "nonlinear"), "haptics": ("without", "sham", "with")}
+# Which conditions are compared: whether the second is higher than the first.
+PAIRS = {"controllers": [("linear", "nonlinear")], "haptics": [("without", "with"), ("sham", "with")]}
 QUESTIONS = {
     "controllers": {"movement": "How well did you feel the movement of the objects in the video?"},
     "haptics": {"reality": "How real did the scene feel?",
                 "interactivity": "How much did you feel a part of the scene?",
                 "comfort": "How comfortable was it?"},
 }
+# The orders in which the conditions of a clip follow each other: all there are.
+ORDERS = {"controllers": [(0, 1), (1, 0)],
+          "haptics": [(0, 1, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0), (1, 0, 2), (0, 2, 1)]}
+BLOCK = 12  # participants: six for each order of the parts, who together have each order of each clip equally often
 
 
 @dataclass
@@ -30,101 +33,34 @@ class Trial:
     clip: str
 
 
-@dataclass
-class Answer:
-    """A row of the file, whose columns have these names."""
-    participant: str
-    trial: int
-    part: str
-    condition: str
-    code: str
-    clip: str
-    question: str
-    answer: int
-    time_utc: str
-
-
-COLUMNS = [field.name for field in fields(Answer)]
-
-
 def shuffled(values, source):
     # Of Python's generator, random() alone promises the same numbers in each version.
     return sorted(values, key=lambda _: source.random())
 
 
 def schedule(clips, index, seed):
-    """All trials of participant `index` (0, 1, … in order of arrival).
+    """All trials of participant `index` (0, 1, …).
 
-    The two conditions of a clip follow each other, and the paper's first comparison comes first. Clips are in random
-    order. The condition that comes first alternates from clip to clip and is reversed for the next participant, so that
-    after an even number of participants both orders are balanced for each clip. The same arguments give the same trials
-    on every machine. Raises ValueError if a clip is given twice.
+    The conditions of a clip follow each other, and clips are in random order. Every other participant begins with the
+    second part. In a block of 12, the six of each order of the parts have each order of a clip's conditions equally
+    often. Who has which is drawn for each part alone, and differs from clip to clip. The same arguments give the same
+    trials on every machine. Raises ValueError if a clip is given twice.
     """
     if len(set(clips)) != len(clips):
         raise ValueError("the same clip is given twice")
+    block, place = divmod(index, BLOCK)
+    is_swapped, place = place % 2, place // 2
     source = random.Random(f"{seed} {index}")
     # A letter and a digit, without characters that can be confused.
     codes = shuffled([letter + digit for letter in "ACDEFHJKLMNPRTUVWXY" for digit in "2345679"], source)
     trials = []
-    for part, conditions in CONDITIONS.items():
+    for part in reversed(CONDITIONS) if is_swapped else CONDITIONS:
+        conditions, orders = CONDITIONS[part], ORDERS[part]
+        drawn = shuffled(range(BLOCK // 2), random.Random(f"{seed} {block} {part} {is_swapped}"))[place]
         for clip in shuffled(clips, source):
-            is_reversed = (clips.index(clip) + index) % 2 == 1
-            for condition in reversed(conditions) if is_reversed else conditions:
-                code = codes[len(trials) % len(codes)]
-                trials.append(Trial(len(trials) + 1, part, condition, code, clip))
+            for n in orders[(drawn + clips.index(clip)) % len(orders)]:
+                trials.append(Trial(len(trials) + 1, part, conditions[n], codes[len(trials) % len(codes)], clip))
     return trials
-
-
-def utc_now():
-    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-
-
-def append_row(path, header, row):
-    """Appends a line, after the header in a new file, and flushes it to the disk."""
-    with open(path, "a", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        if file.tell() == 0:
-            writer.writerow(header)
-        writer.writerow(row)
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def parse_answer(row):
-    if len(row) != len(COLUMNS):
-        raise ValueError(f"{len(row)} columns, not {len(COLUMNS)}")
-    answer = Answer(*row)
-    if answer.condition not in CONDITIONS.get(answer.part, ()):
-        raise ValueError(f'"{answer.part}, {answer.condition}" is no part with one of its conditions')
-    if answer.answer not in ("1", "2", "3", "4", "5"):
-        raise ValueError(f'"{answer.answer}" is no number from 1 to {len(STEPS)}')
-    if not answer.trial.isdigit():
-        raise ValueError(f'"{answer.trial}" is no number of a trial')
-    answer.trial, answer.answer = int(answer.trial), int(answer.answer)
-    return answer
-
-
-def read_answers(path):
-    """A missing file has no answers. Raises ValueError that names file, line and what is wrong."""
-    if not Path(path).exists():
-        return []
-    answers = []
-    with open(path, encoding="utf-8", newline="") as file:
-        reader = csv.reader(file)
-        if next(reader, COLUMNS) != COLUMNS:
-            raise ValueError(f"{path}:1: not a file of answers, which begins with {','.join(COLUMNS)}")
-        for row in reader:
-            try:
-                answers.append(parse_answer(row))
-            except ValueError as error:
-                raise ValueError(f"{path}:{reader.line_num}: {error}") from error
-    return answers
-
-
-def index_of(answers, participant):
-    """Position of the participant in the order of first answers; a new one comes last."""
-    seen = list(dict.fromkeys(answer.participant for answer in answers))
-    return seen.index(participant) if participant in seen else len(seen)
 
 
 def open_questions(answers, participant, trials, extra):
@@ -133,8 +69,8 @@ def open_questions(answers, participant, trials, extra):
     for answer in (a for a in answers if a.participant == participant):
         given = Trial(answer.trial, answer.part, answer.condition, answer.code, answer.clip)
         if given not in trials:
-            raise ValueError(f"{participant} has begun with other clips or another seed: trial {answer.trial} was "
-                             f"{answer.clip}, {answer.condition}; give the same again")
+            raise ValueError(f"{participant} has begun with other trials: {answer.trial} was {answer.clip}, "
+                             f"{answer.condition}; give the same clips again, and the files that belong to the answers")
         answered.add((answer.trial, answer.question))
     return [{name: text for name, text in (QUESTIONS[trial.part] | extra).items()
              if (trial.number, name) not in answered} for trial in trials]

@@ -1,19 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""The study with participants: order of trials, briefing, file of answers, statistics, and a whole run.
+"""The study with participants: order of trials, files, briefing, and which presentations count.
 
     test_study.py FOLDER-OF-STUDY.PY
 """
 
 import contextlib
-import csv
 import io
+import math
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
+from argparse import Namespace
 from collections import Counter
 from pathlib import Path
 from unittest.mock import patch
@@ -22,9 +22,11 @@ FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import briefing  # noqa: E402
-import report  # noqa: E402
+import delivery  # noqa: E402
+import preview  # noqa: E402
+import records  # noqa: E402
+import study  # noqa: E402
 import trials  # noqa: E402
-from check_player import make_clip  # noqa: E402
 
 CLIPS = ["a.avi", "b.avi", "c.avi"]
 
@@ -34,32 +36,49 @@ def typed(lines):
     return patch("builtins.input", side_effect=[*lines, EOFError])
 
 
+def order_of(shown, part, clip):
+    return tuple(trial.condition for trial in shown if (trial.part, trial.clip) == (part, clip))
+
+
 class Schedule(unittest.TestCase):
     def test_every_participant_sees_every_clip_in_every_condition(self):
         for index in range(20):
             shown = trials.schedule(CLIPS, index, 7)
-            self.assertEqual([trial.number for trial in shown], list(range(1, 13)))
-            self.assertEqual([trial.part for trial in shown], ["controllers"] * 6 + ["haptics"] * 6)
-            self.assertEqual(len({(trial.clip, trial.condition) for trial in shown}), 12)
-            self.assertEqual(len({trial.code for trial in shown}), 12, "no code twice")
-            for first, second in zip(shown[::2], shown[1::2]):
-                self.assertEqual(first.clip, second.clip, "both conditions of a clip in a row")
-                self.assertRegex(first.code, "^[A-Z][0-9]$")
+            self.assertEqual([trial.number for trial in shown], list(range(1, 16)))
+            self.assertEqual(Counter(trial.part for trial in shown), {"controllers": 6, "haptics": 9})
+            self.assertEqual(len({(trial.clip, trial.condition) for trial in shown}), 15)
+            self.assertEqual(len({trial.code for trial in shown}), 15, "no code twice")
+            runs = [trial.clip for n, trial in enumerate(shown) if n == 0 or shown[n - 1].clip != trial.clip
+                    or shown[n - 1].part != trial.part]
+            self.assertEqual(len(runs), 6, "the conditions of a clip follow each other")
+            for trial in shown:
+                self.assertRegex(trial.code, "^[A-Z][0-9]$")
 
-    def test_is_balanced_over_two_participants(self):
-        for index in range(0, 10, 2):
-            first = Counter((trial.clip, trial.condition) for participant in (index, index + 1)
-                            for trial in trials.schedule(CLIPS, participant, 3)[::2])
-            self.assertEqual(set(first.values()), {1})
-            self.assertEqual(len(first), 12)
+    def test_orders_are_balanced_over_twelve_participants(self):
+        for first in 0, 12, 24:
+            block = [trials.schedule(CLIPS, index, 3) for index in range(first, first + trials.BLOCK)]
+            self.assertEqual(Counter(shown[0].part for shown in block), {"controllers": 6, "haptics": 6})
+            for part, orders in trials.ORDERS.items():
+                for clip in CLIPS:
+                    # Also among those who began with the same part.
+                    counts = Counter((shown[0].part, order_of(shown, part, clip)) for shown in block)
+                    self.assertEqual((len(counts), set(counts.values())), (2 * len(orders), {6 // len(orders)}))
+
+    def test_the_second_part_is_drawn_anew(self):
+        """Whether the weaker condition of a clip comes first in both parts: by chance, in half of the cases."""
+        same = [(order_of(shown, "controllers", clip)[0] == "linear") ==
+                (order_of(shown, "haptics", clip).index("without") < order_of(shown, "haptics", clip).index("with"))
+                for index in range(120) for shown in [trials.schedule(CLIPS, index, 1)] for clip in CLIPS]
+        # 360 of them; 120 participants are independent of each other at least: 4 standard deviations of their mean.
+        self.assertLess(abs(sum(same) / len(same) - 0.5), 4 * math.sqrt(0.25 / 120))
 
     def test_is_random_but_the_same_each_time(self):
         orders = {tuple(trial.clip for trial in trials.schedule(CLIPS, index, 1)) for index in range(30)}
-        self.assertGreater(len(orders), 10)  # of 36 orders, 30 draws give 20 ± 2 different ones
+        self.assertGreater(len(orders), 10)  # of 36 orders of clips, 30 draws give 20 ± 2 different ones
         self.assertEqual(trials.schedule(CLIPS, 4, 1), trials.schedule(CLIPS, 4, 1))
         self.assertNotEqual(trials.schedule(CLIPS, 4, 1), trials.schedule(CLIPS, 4, 2))
         # Python promises that its generator gives this everywhere.
-        self.assertEqual([trial.code for trial in trials.schedule(["x"], 0, 1)], ["M5", "C5", "M3", "F3"])
+        self.assertEqual([trial.code for trial in trials.schedule(["x"], 0, 1)], ["M5", "C5", "M3", "F3", "H3"])
         with self.assertRaisesRegex(ValueError, "twice"):
             trials.schedule(["x", "x"], 0, 1)
 
@@ -73,39 +92,174 @@ class InFolder(unittest.TestCase):
 
 class File(InFolder):
     def append(self, participant, trial, question, step):
-        trials.append_row(self.path, trials.COLUMNS, [participant, trial.number, trial.part, trial.condition,
-                                                      trial.code, trial.clip, question, step, "2020-01-01T00:00:00Z"])
+        records.append_row(self.path, records.COLUMNS, [participant, trial.number, trial.part, trial.condition,
+                                                        trial.code, trial.clip, question, step, "2020-01-01T00:00:00Z"])
 
     def test_is_resumed_where_it_ended(self):
-        self.assertEqual(trials.read_answers(self.path), [])
+        self.assertEqual(records.read_answers(self.path), [])
         shown = trials.schedule(CLIPS, 0, 1)
         self.append("P1, Ada", shown[0], "movement", 4)
         self.append("P1, Ada", shown[1], "movement", 2)
-        answers = trials.read_answers(self.path)
+        answers = records.read_answers(self.path)
         self.assertEqual([answer.answer for answer in answers], [4, 2])
         still_open = trials.open_questions(answers, "P1, Ada", shown, {"mine": "And this?"})
         self.assertEqual([list(questions) for questions in still_open[:3]], [["mine"], ["mine"], ["movement", "mine"]])
         self.assertEqual(list(still_open[-1]), ["reality", "interactivity", "comfort", "mine"])
-        self.assertEqual([trials.index_of(answers, name) for name in ("P1, Ada", "P2")], [0, 1])
         other = trials.schedule(["z.avi"], 0, 1)
-        with self.assertRaisesRegex(ValueError, "other clips or another seed: trial 1 was"):
+        with self.assertRaisesRegex(ValueError, "other trials: 1 was"):
             trials.open_questions(answers, "P1, Ada", other, {})
         trials.open_questions(answers, "P2", other, {})
 
+    def test_who_withdraws_leaves_nothing_and_blocks_nobody(self):
+        begun = {}
+        for name in "P1", "P2", "P11":
+            index = records.Participants(self.path).index_of(name)
+            records.Participants(self.path).register(name)
+            begun[name] = trials.schedule(CLIPS, index, 1)
+            self.append(name, begun[name][0], "movement", 3)
+            records.append_row(f"{self.path}.briefings", ["participant", "check"], [name, "consent"])
+            records.append_row(f"{self.path}.presentations", records.PRESENTATION_COLUMNS,
+                               [name, 1, f"{name}-1", 1, "a, b", ""])
+            trace = Path(f"{self.path}.traces/{name}-1.haptic.csv")
+            trace.parent.mkdir(exist_ok=True)
+            trace.touch()
+        participants = records.Participants(self.path)
+        with self.assertRaisesRegex(ValueError, 'nobody in it is called "P3"'):
+            participants.withdraw("P3")
+        participants.withdraw("P1")
+        for file in self.path.parent.rglob("*"):
+            self.assertNotIn("P1-", file.name)
+            if file.is_file():
+                self.assertNotRegex(file.read_text(), r"\bP1\b", file)
+        answers = records.read_answers(self.path)
+        self.assertEqual([answer.participant for answer in answers], ["P2", "P11"])
+        participants = records.Participants(self.path)
+        self.assertEqual(participants.withdrew(), 1)
+        for name, index in ("P2", 1), ("P11", 2):
+            self.assertEqual(participants.index_of(name), index)
+            trials.open_questions(answers, name, begun[name], {})  # goes on as it began
+        self.assertEqual(participants.index_of("P4"), 0, "the next one takes the place")
+        participants.register("P4")
+        self.assertEqual(records.Participants(self.path).index_of("P5"), 3)
+
+    def test_settings_stay_as_they_were(self):
+        settings = {"seed": 1, "clips_sha256": {"a.avi": "1f"}, "device": "sim"}
+        self.assertIsNone(records.read_settings(self.path))
+        records.write_settings(self.path, settings)
+        records.require_same(self.path, records.read_settings(self.path), dict(settings))
+        for changed, message in [({"seed": 2}, "seed was 1, not 2"), ({"device": "usb"}, 'device was "sim", not "usb"'),
+                                 ({"clips_sha256": {"a.avi": "20"}}, 'clips_sha256 a.avi was "1f", not "20"'),
+                                 ({"host": "x"}, 'host was null, not "x"')]:
+            with self.assertRaisesRegex(ValueError, re.escape(message)):
+                records.require_same(self.path, records.read_settings(self.path), settings | changed)
+        Path(f"{self.path}.settings.json").unlink()
+        self.append("P1", trials.schedule(CLIPS, 0, 1)[0], "movement", 3)
+        with self.assertRaisesRegex(ValueError, "settings.json: is missing"):
+            records.read_settings(self.path)
+
     def test_says_what_is_wrong_and_where(self):
-        header = ",".join(trials.COLUMNS) + "\n"
+        header = ",".join(records.COLUMNS) + "\n"
         good = "P1,1,controllers,linear,A2,a.avi,movement,3,now\n"
         for content, message in [
                 ("hello\n", "answers.csv:1: not a file of answers"),
                 (header + good + "P1,2\n", "answers.csv:3: 2 columns"),
                 (header + good.replace(",3,", ",6,"), '"6" is no number from 1 to 5'),
-                (header + good.replace("linear", "with"), '"controllers, with" is no part'),
+                (header + good.replace("linear", "sham"), '"controllers, sham" is no part'),
                 (header + good.replace(",1,", ",one,"), '"one" is no number of a trial')]:
             self.path.write_text(content)
             with self.assertRaisesRegex(ValueError, re.escape(message)):
-                trials.read_answers(self.path)
+                records.read_answers(self.path)
         self.path.write_text(header + good)
-        self.assertEqual(len(trials.read_answers(self.path)), 1)
+        self.assertEqual(len(records.read_answers(self.path)), 1)
+
+
+
+
+
+class Delivery(InFolder):
+    """Traces of 2 s, in which the film asks for 0.3 N rms in x."""
+    WANTED = [0.3 * math.sqrt(2) * math.sin(2 * math.pi * n / 1000) for n in range(2000)]
+
+    def judge(self, delivered=lambda n, wanted: wanted, device=lambda n: "running", expected_N=0.3, count=2000,
+              found="interpolated", limit="none"):
+        header = ["playing", "device", "found", *(f"{name}_force_{axis}_N" for name in ("wanted", "delivered")
+                                                  for axis in "xyz")]
+        rows = [[1, device(n), found, wanted, 0, 0, delivered(n, wanted), 0, 0]
+                for n, wanted in enumerate(self.WANTED[:count])]
+        rows.append([0, "closing", "nothing", 9, 9, 9, 0, 0, 0])  # the clip has ended
+        for name, lines in ("ticks", [header, *rows]), ("frames", [["device_limit"], [limit], ["none"]]):
+            self.path.with_name(name).write_text("".join(",".join(map(str, line)) + "\n" for line in lines))
+        return delivery.judge(self.path.with_name("ticks"), self.path.with_name("frames"), expected_N)
+
+    def test_counts_what_a_hand_got(self):
+        self.assertEqual(self.judge(), (1, ""))
+        share, problem = self.judge(lambda n, wanted: 0.9 * wanted)
+        self.assertEqual((round(share, 6), problem), (0.9, ""), "less than a hand notices")
+        self.assertEqual(self.judge(lambda n, wanted: 0, expected_N=0), (0, ""), "none was to be felt")
+
+    def test_does_not_count_what_it_did_not_get(self):
+        for problem, given in [
+                ("85 % of the force was delivered", {"delivered": lambda n, wanted: 0.85 * wanted}),
+                ("50 % of the force was delivered", {"delivered": lambda n, wanted: wanted * (n < 1000)}),
+                ("-100 % of the force was delivered", {"delivered": lambda n, wanted: -wanted}),
+                ("of the device or the playback: vibration", {"delivered": lambda n, wanted: 0, "limit": "vibration"}),
+                ("frames were late in 100 %", {"delivered": lambda n, wanted: 0, "found": "expired"}),
+                ("the device was idle in 20 % of the time", {"device": lambda n: "idle" if n % 5 == 0 else "running"}),
+                ("the device was lost in 100 % of the time", {"device": lambda n: "lost"}),
+                ("the device did not run", {"count": 0}),
+                ("asked for 0.300 N rms, and for 0.350 N", {"expected_N": 0.35}),
+                ("a force of 0.30 N, and there should be none", {"expected_N": 0})]:
+            self.assertIn(problem, self.judge(**given)[1])
+
+    def test_a_trial_is_repeated_and_never_asked_about_if_it_fails(self):
+        options = Namespace(answers=str(self.path), participant="P1")
+        trial = trials.schedule(CLIPS, 0, 1)[0]
+        with patch.object(study.Study, "__init__", lambda self, options: setattr(self, "options", options)):
+            one = study.Study(options)
+        for problems, lines in (["weak", ""], ["", "", "4"]), (["weak"] * 3, [""] * 3 + ["4"]):
+            with patch.object(one, "present", side_effect=problems) as present, typed(lines), \
+                    contextlib.redirect_stdout(io.StringIO()):
+                try:
+                    one.run_trial(None, trial, None, {"movement": "?"})
+                except RuntimeError as error:
+                    self.assertIn("trial 1 failed 3 times, and its answers would say nothing: weak", str(error))
+            self.assertEqual(present.call_count, len(problems))
+        self.assertEqual([answer.answer for answer in records.read_answers(self.path)], [4])
+
+
+class Preview(unittest.TestCase):
+    """Forces of clips whose speeds are known, by equations 11 to 15."""
+
+    def compare(self, speeds_px_s, alpha_s_px=0.0025, is_matched=True):
+        fastest, forces_N = 0, {"linear": [], "nonlinear": [], "sham": []}
+        for speed in speeds_px_s:
+            fastest = max(fastest, speed, 1e-9)
+            forces_N["linear"].append(speed / fastest)
+            forces_N["nonlinear"].append(2 / math.pi * math.atan(alpha_s_px * speed))
+        forces_N["sham"] = [0.8 * force for force in forces_N["nonlinear"]]
+        return preview.compare(forces_N, 1.0, is_matched)
+
+    def test_conditions_are_equally_strong_unless_it_is_the_papers_setting(self):
+        speeds = [300 * abs(math.sin(n / 10)) for n in range(200)]
+        clip = self.compare(speeds)
+        played = [clip.max_force_N[name] * clip.rms_N[name] for name in preview.FORCES]
+        self.assertAlmostEqual(min(played), max(played), 12)
+        self.assertEqual(max(clip.max_force_N.values()), 1, "the limit of the study is kept")
+        self.assertEqual(set(self.compare(speeds, is_matched=False).max_force_N.values()), {1})
+
+    def test_nonlinear_is_stronger_at_low_speed_only_in_fast_films(self):
+        """Only if the fastest speed is above π / (2 α): 628 px/s here."""
+        rise = [n / 200 for n in range(200, 0, -1)]
+        slow, fast = (self.compare([speed * top for speed in rise], is_matched=False) for top in (600, 1800))
+        self.assertEqual(slow.stronger, 0)
+        self.assertGreater(fast.stronger, 0.5)
+
+    def test_refuses_clips_in_which_nothing_can_be_told_apart(self):
+        preview.require_told_apart({"good.avi": self.compare([1000, 500, 200, 50] * 20)})
+        with self.assertRaisesRegex(ValueError, r"steady.avi: linear and nonlinear can be told apart in 0 % of the"):
+            preview.require_told_apart({"steady.avi": self.compare([200] * 100)})
+        with self.assertRaisesRegex(ValueError, "still.avi: no frame of it has a force"):
+            preview.require_told_apart({"still.avi": self.compare([0] * 100)})
 
 
 class Terminal(unittest.TestCase):
@@ -173,81 +327,6 @@ class Briefing(InFolder):
         self.assertIn("not confirmed", self.brief([*self.RIGHT, "I am responsible for 3 N Ada"], float("nan"), False))
         self.assertEqual(self.brief([*self.RIGHT, "I am responsible for 3 N Ada"], 3, False), "")
         self.assertIn("P1,force,I am responsible for 3 N Ada,20", self.record())
-
-
-def answer(participant, condition, question, step, clip="a.avi"):
-    part = next(part for part, conditions in trials.CONDITIONS.items() if condition in conditions)
-    return trials.Answer(f"P{participant}", 1, part, condition, "A2", clip, question, step, "")
-
-
-class Report(unittest.TestCase):
-    def test_the_sign_test_is_the_exact_two_sided_one(self):
-        self.assertAlmostEqual(report.sign_test(8, 2)[0], 112 / 1024, 12)  # 2 (1 + 10 + 45) / 1024
-        self.assertAlmostEqual(report.sign_test(10, 0)[0], 2 / 1024, 12)
-        self.assertEqual(report.sign_test(0, 0), (1, (0, 1)))
-        # Clopper and Pearson's interval of no success of 10: 1 − 0.025^(1/10).
-        self.assertAlmostEqual(report.sign_test(0, 10)[1][1], 1 - 0.025**0.1, 9)
-
-    def test_gives_the_tables_of_the_paper(self):
-        # As in Table 1: linear good for five of ten, nonlinear for eight; and as "reality" of Table 2, 2.4 and 4.2.
-        answers = []
-        for number, steps in enumerate(zip([2, 1, 3, 4, 5, 4, 4, 5, 3, 5], [1, 2, 2, 1, 2, 3, 4, 5, 3, 3],
-                                           [4, 4, 4, 4, 4, 4, 4, 4, 5, 5], [2, 2, 2, 3, 3, 3, 2, 2, 2, 3])):
-            for condition, question, step in zip(("nonlinear", "linear", "with", "without"),
-                                                 ("movement", "movement", "reality", "reality"), steps):
-                answers.append(answer(number, condition, question, step))
-        rows = [re.split("  +", line) for line in report.report(answers).splitlines()]
-        self.assertEqual(rows[1][:2], ["controllers: movement", "linear"], "the first condition first")
-        shares = {row[1]: (row[-2], row[-1]) for row in rows[1:5]}
-        self.assertEqual(shares, {"linear": ("50", "2.60"), "nonlinear": ("80", "3.60"), "without": ("40", "2.40"),
-                                  "with": ("100", "4.20")})
-        # Differences 1 −1 1 3 3 1 0 0 0 2: p is 2 (1 + 7) / 2⁷.
-        self.assertEqual(rows[-2][:5], ["controllers: movement", "6", "1", "3", "0.125"])
-        self.assertEqual(rows[-1][:5], ["haptics: reality", "10", "0", "0", "0.00195"])
-
-    def test_counts_a_person_once_and_only_what_is_complete(self):
-        # Three clips, two better and one much worse: worse as a whole, and one vote. The other stopped within a pair.
-        answers = [answer(1, condition, "movement", step, clip) for condition, step, clip in
-                   [("linear", 3, "a"), ("nonlinear", 4, "a"), ("linear", 3, "b"), ("nonlinear", 4, "b"),
-                    ("linear", 5, "c"), ("nonlinear", 1, "c")]] + [answer(2, "linear", "movement", 3, "a")]
-        self.assertEqual(report.comparisons(answers), {("controllers", "movement"): Counter({-1: 1})})
-
-
-class Run(unittest.TestCase):
-    def test_plays_asks_and_keeps_what_was_felt(self):
-        with tempfile.TemporaryDirectory() as folder:
-            answers = Path(folder, "answers.csv")
-            clip = make_clip(folder, 20)
-
-            def run(lines, *more):
-                return subprocess.run([sys.executable, FOLDER + "/study.py", "run", "--headless", answers, "P01", clip,
-                                       *more], input="\n".join(lines) + "\n", text=True, capture_output=True)
-
-            first = run([*Briefing.RIGHT, "", "4", "q"])
-            self.assertEqual(first.returncode, 0, first)
-            self.assertIn("stopped; the same command goes on here", first.stdout)
-            done = run([*Briefing.RIGHT, "", "2", "", "3", "3", "3", "", "5", "5", "5"])
-            self.assertEqual(done.returncode, 0, done)
-            self.assertIn("that was all", done.stdout)
-            for condition in "linear", "without", "with haptics":
-                self.assertNotIn(condition, first.stdout + done.stdout, "only the code is shown")
-            kept = trials.read_answers(answers)
-            self.assertEqual([row.answer for row in kept], [4, 2, 3, 3, 3, 5, 5, 5])
-            self.assertEqual({row.condition for row in kept}, {"linear", "nonlinear", "without", "with"})
-            for row in kept:
-                self.check_trace(f"{answers}.traces/P01-{row.trial}.haptic.csv", row.condition != "without")
-            summary = subprocess.run([sys.executable, FOLDER + "/study.py", "report", answers], text=True,
-                                     capture_output=True, check=True)
-            self.assertIn("haptics: reality           with              1", summary.stdout)
-            mistake = run([], "--", "max-force=much")
-            self.assertEqual((mistake.returncode, "max-force" in mistake.stderr), (2, True), mistake)
-
-    def check_trace(self, path, is_felt):
-        with open(path, newline="") as file:
-            forces = [abs(float(row["commanded_force_x_N"])) for row in csv.DictReader(file)]
-        self.assertGreater(len(forces), 500)  # ticks in 0.8 s, even where some are lost
-        self.assertEqual(max(forces) > 0, is_felt, path)
-        self.assertLessEqual(max(forces), briefing.GENTLE_N)
 
 
 if __name__ == "__main__":

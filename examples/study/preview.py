@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What the conditions of a study differ in, clip by clip, before anybody feels them."""
+
+import csv
+import math
+import statistics
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from clip_player import Player
+
+FELT_N, WEBER = 0.04, 0.11  # least force and just noticeable change of the hand: PubMed 24808327, docs/bibliography.md
+# Of the frames in which something is felt. Below this, the two controllers are the same for most of a clip, and an
+# answer to which is better says nothing.
+LEAST_APART = 0.1
+PAPER = ["motion=mean", "filter-min-cutoff=0", "alpha=0.01"]  # docs/method.md; α is that of equation 15
+FORCES = ("linear", "nonlinear", "sham")  # the conditions with a force of their own; "with" has that of "nonlinear"
+PROPERTIES = {
+    "linear": ["controller=linear"],
+    "nonlinear": ["controller=nonlinear"],
+    "without": ["controller=nonlinear", "mute=true"],  # the strings are taut but exert no force
+    "with": ["controller=nonlinear"],
+    "sham": ["controller=nonlinear"],
+}
+
+
+def force_of(condition):
+    return "nonlinear" if condition in ("with", "without") else condition
+
+
+@dataclass
+class Clip:
+    """Of a clip: root mean square of its force, N, at the limit of the study; max-force with which it is played, N."""
+    felt: float  # share of the frames in which one of the controllers is felt
+    apart: float  # share of these in which a hand can tell the controllers apart, as they are played
+    difference: float  # median of these, of the larger force
+    stronger: float  # share of these in which the nonlinear force is the larger one
+    rms_N: dict
+    max_force_N: dict
+
+
+def root_mean_square(values):
+    return math.sqrt(statistics.fmean(value**2 for value in values))
+
+
+def compare(forces_N, limit_N, is_matched):
+    """`forces_N`: of each of FORCES, its amount in each frame, with max-force at `limit_N`."""
+    rms_N = {name: root_mean_square(values) for name, values in forces_N.items()}
+    target_N = min(rms_N.values())
+    gain = {name: target_N / rms if is_matched and rms else 1.0 for name, rms in rms_N.items()}
+    frames = [(gain["linear"] * linear, gain["nonlinear"] * nonlinear)
+              for linear, nonlinear in zip(forces_N["linear"], forces_N["nonlinear"])]
+    felt = [frame for frame in frames if max(frame) >= FELT_N]
+    if not felt:
+        return Clip(0, 0, 0, 0, rms_N, {name: limit_N for name in FORCES})
+    apart = [abs(linear - nonlinear) / max(linear, nonlinear) for linear, nonlinear in felt]
+    return Clip(len(felt) / len(frames), sum(each > WEBER for each in apart) / len(felt), statistics.median(apart),
+                sum(nonlinear > linear for linear, nonlinear in felt) / len(felt), rms_N,
+                {name: limit_N * gain[name] for name in FORCES})
+
+
+def measure(clip, properties, limit_N, is_matched):
+    """Analyses a clip with each controller, without a device."""
+    forces_N = {}
+    for name in FORCES:
+        with tempfile.TemporaryDirectory() as folder:
+            trace = Path(folder, "trace.csv")
+            with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
+                player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
+            with open(trace, encoding="utf-8", newline="") as file:
+                forces_N[name] = [math.hypot(*(float(row[f"force_{axis}_N"]) for axis in "xyz"))
+                                  for row in csv.DictReader(file)]
+    return compare(forces_N, limit_N, is_matched)
+
+
+def table(clips):
+    lines = ["what differs, by clip: frames in which something is felt; of these, how many a hand tells apart (11 %), "
+             "the",
+             "median difference, and how many are stronger with nonlinear; N rms as measured; N max-force as played", "",
+             "felt %  apart %  differ %  stronger %   " + "  ".join(f"{name:>16}" for name in FORCES) + "  clip"]
+    for name, clip in clips.items():
+        forces = "  ".join(f"{clip.rms_N[each]:7.3f} {clip.max_force_N[each]:8.3f}" for each in FORCES)
+        lines.append(f"{100 * clip.felt:6.0f} {100 * clip.apart:8.0f} {100 * clip.difference:9.0f} "
+                     f"{100 * clip.stronger:11.0f}   {forces}  {name}")
+    return "\n".join(lines)
+
+
+def require_told_apart(clips):
+    """Raises ValueError with the figure of a clip in which the controllers are the same."""
+    for name, clip in clips.items():
+        if clip.felt == 0:
+            raise ValueError(f"{name}: no frame of it has a force that a hand feels ({FELT_N:g} N); choose another clip, "
+                             "in which something moves, or other properties")
+        if clip.apart < LEAST_APART:
+            raise ValueError(f"{name}: linear and nonlinear can be told apart in {100 * clip.apart:.0f} % of the frames "
+                             f"that are felt, and at least {100 * LEAST_APART:.0f} % are needed; choose a clip with slow "
+                             "and fast motion, or a larger alpha")

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""The files of a study: answers, participants, presentations, and the settings that everything was made with.
+
+Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .participants, .presentations, .briefings,
+.traces/."""
+
+import csv
+import json
+import os
+from dataclasses import dataclass, fields
+from datetime import datetime, timezone
+from pathlib import Path
+
+from trials import CONDITIONS, STEPS
+
+
+@dataclass
+class Answer:
+    """A row of the file, whose columns have these names."""
+    participant: str
+    trial: int
+    part: str
+    condition: str
+    code: str
+    clip: str
+    question: str
+    answer: int
+    time_utc: str
+
+
+COLUMNS = [field.name for field in fields(Answer)]
+PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
+PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_share", "problem", "time_utc"]
+
+
+def utc_now():
+    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def append_row(path, header, row):
+    """Appends a line, after the header in a new file, and flushes it to the disk."""
+    with open(path, "a", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if file.tell() == 0:
+            writer.writerow(header)
+        writer.writerow(row)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def replace_file(path, text):
+    """The file has the old or the new content, whatever happens."""
+    new = Path(f"{path}.new")
+    with open(new, "w", encoding="utf-8", newline="") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(new, path)
+
+
+def parse_answer(row):
+    if len(row) != len(COLUMNS):
+        raise ValueError(f"{len(row)} columns, not {len(COLUMNS)}")
+    answer = Answer(*row)
+    if answer.condition not in CONDITIONS.get(answer.part, ()):
+        raise ValueError(f'"{answer.part}, {answer.condition}" is no part with one of its conditions')
+    if answer.answer not in ("1", "2", "3", "4", "5"):
+        raise ValueError(f'"{answer.answer}" is no number from 1 to {len(STEPS)}')
+    if not answer.trial.isdigit():
+        raise ValueError(f'"{answer.trial}" is no number of a trial')
+    answer.trial, answer.answer = int(answer.trial), int(answer.answer)
+    return answer
+
+
+def read_answers(path):
+    """A missing file has no answers. Raises ValueError that names file, line and what is wrong."""
+    if not Path(path).exists():
+        return []
+    answers = []
+    with open(path, encoding="utf-8", newline="") as file:
+        reader = csv.reader(file)
+        if next(reader, COLUMNS) != COLUMNS:
+            raise ValueError(f"{path}:1: not a file of answers, which begins with {','.join(COLUMNS)}")
+        for row in reader:
+            try:
+                answers.append(parse_answer(row))
+            except ValueError as error:
+                raise ValueError(f"{path}:{reader.line_num}: {error}") from error
+    return answers
+
+
+def read_rows(path):
+    """Rows by the names of their columns; none if there is no such file."""
+    if not Path(path).exists():
+        return []
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Participants:
+    """Who takes part, and which order of trials each has. A place that somebody left is taken by the next one."""
+
+    def __init__(self, answers):
+        self.answers, self.path = Path(answers), f"{answers}.participants"
+        self.rows = read_rows(self.path)
+
+    def index_of(self, participant):
+        taken = {row["participant"]: int(row["index"]) for row in self.rows if row["participant"]}
+        if participant in taken:
+            return taken[participant]
+        return min(set(range(len(taken) + 1)) - set(taken.values()))
+
+    def register(self, participant):
+        if not any(row["participant"] == participant for row in self.rows):
+            append_row(self.path, PARTICIPANT_COLUMNS, [participant, self.index_of(participant), utc_now()])
+
+    def withdrew(self):
+        return sum(not row["participant"] for row in self.rows)
+
+    def withdraw(self, participant):
+        """Deletes all that is kept of a participant but that somebody has left. Raises ValueError if nothing is."""
+        if not any(row["participant"] == participant for row in self.rows):
+            raise ValueError(f'{self.answers}: nobody in it is called "{participant}"')
+        for name in "", ".presentations", ".briefings", ".participants":
+            path = Path(f"{self.answers}{name}")
+            if not path.exists():
+                continue
+            with open(path, encoding="utf-8", newline="") as file:
+                header, *rows = csv.reader(file)
+            if name == ".participants":
+                rows = [["" if row[0] == participant else row[0], *row[1:]] for row in rows]
+            else:
+                rows = [row for row in rows if row[0] != participant]
+            text = [",".join(csv_field(value) for value in row) + "\n" for row in [header, *rows]]
+            replace_file(path, "".join(text))
+        for trace in Path(f"{self.answers}.traces").glob("*.csv"):
+            if trace.name.startswith(participant + "-") and trace.name[len(participant) + 1:][:1].isdigit():
+                trace.unlink()
+
+
+def csv_field(value):
+    return '"' + value.replace('"', '""') + '"' if any(c in value for c in ',"\n\r') else value
+
+
+def differences(old, new, name=""):
+    """What differs between two trees of settings, in words."""
+    if isinstance(old, dict) and isinstance(new, dict):
+        for key in {**old, **new}:
+            yield from differences(old.get(key), new.get(key), f"{name} {key}".strip())
+    elif old != new:
+        yield f"{name} was {json.dumps(old, ensure_ascii=False)}, not {json.dumps(new, ensure_ascii=False)}"
+
+
+def read_settings(answers):
+    """Nothing if the study has not begun. Raises ValueError if its settings are lost."""
+    path = Path(f"{answers}.settings.json")
+    if path.exists():
+        return json.loads(path.read_text(encoding="utf-8"))
+    if read_answers(answers):
+        raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
+    return None
+
+
+def require_same(answers, old, new):
+    """Raises ValueError that says what is no longer as it was when the study began."""
+    found = list(differences(old, new))
+    if found:
+        raise ValueError(f"{answers} was begun with other settings: {'; '.join(found)}. Give the same again, or begin "
+                         "another file")
+
+
+def write_settings(answers, settings):
+    replace_file(f"{answers}.settings.json", json.dumps(settings, ensure_ascii=False, indent=1) + "\n")

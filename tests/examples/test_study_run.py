@@ -1,0 +1,213 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""The study as it is carried out, from the number of participants to the table, with simulated participants.
+
+    test_study_run.py FOLDER-OF-STUDY.PY
+"""
+
+import csv
+import json
+import math
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import defaultdict
+from pathlib import Path
+
+FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
+sys.path.insert(0, FOLDER)
+
+import briefing  # noqa: E402
+import records  # noqa: E402
+import trials  # noqa: E402
+
+SECONDS, FRAMES_S = 1.5, 25
+CONDITION_WORDS = ["linear", "without haptics", "with haptics", "sham"]
+
+
+def make_clip(folder, name):
+    """A textured disc that sways before a plain wall, slowly and fast, so that the controllers differ."""
+    def picture(n):
+        t = n / FRAMES_S
+        x = 160 + 90 * math.sin(2 * math.pi * 1.2 * t * t)
+        rows = []
+        for y in range(240):
+            row = bytearray(b"\x60" * 320)
+            half = 45**2 - (y - 120)**2
+            if half > 0:
+                half = int(math.sqrt(half))
+                for column in range(int(x) - half, int(x) + half):
+                    u, v = (column - x) / 6, (y - 120) / 6
+                    row[column] = int(128 + 60 * math.sin(u) * math.cos(0.8 * v + u / 3))
+            rows.append(bytes(row))
+        return b"".join(rows)
+
+    clip = Path(folder, name)
+    frames = b"".join(picture(n) for n in range(int(SECONDS * FRAMES_S)))
+    subprocess.run(["gst-launch-1.0", "-q", "fdsrc", "!", "rawvideoparse", "format=gray8", "width=320", "height=240",
+                    f"framerate={FRAMES_S}/1", "!", "jpegenc", "quality=95", "!", "avimux", "!", "filesink",
+                    f"location={clip}"], input=frames, check=True)
+    return clip
+
+
+def study(*arguments, lines=()):
+    return subprocess.run([sys.executable, FOLDER + "/study.py", *map(str, arguments)], text=True, capture_output=True,
+                          input="".join(line + "\n" for line in lines))
+
+
+class SimulatedParticipant:
+    """Reads what is asked and answers it: at random, but by one step higher where something is felt."""
+    BRIEFING = ["yes", *["no"] * len(briefing.EXCLUSIONS), "yes"]
+
+    def __init__(self, answers, name, clips, *more):
+        self.command = [sys.executable, "-u", FOLDER + "/study.py", "run", "--headless", answers, name, *clips, *more]
+        self.answers, self.name, self.random = answers, name, random.Random(name)
+
+    def take_part(self, trials_at_most=None):
+        """All that was printed. Goes on in another session where the machine was too slow for a presentation."""
+        for _ in range(10):
+            printed, code = self.session(trials_at_most)
+            if not (code == 1 and "failed 3 times" in printed):
+                return printed, code
+        return printed, code
+
+    def session(self, trials_at_most):
+        briefed, seen, printed, line = iter(self.BRIEFING), 0, "", ""
+        with subprocess.Popen(self.command, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT) as process:
+            def type_(text):
+                process.stdin.write(text + "\n")
+                process.stdin.flush()
+
+            while character := process.stdout.read(1):
+                line += character
+                printed += character
+                if line.endswith("yes or no > "):
+                    type_(next(briefed))
+                elif line.endswith("another time > "):
+                    type_("q" if seen == trials_at_most else "")
+                elif line.endswith("\n> "):
+                    type_(str(min(5, self.random.randint(1, 4) + self.random.randint(0, 1))))
+                elif "code " in line and line.endswith("\n"):
+                    seen += "clip" in line
+                else:
+                    continue
+                line = ""
+            code = process.wait()
+        return printed, code
+
+
+class Run(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder, cls.clip = Path(folder.name), make_clip(folder.name, "sway.avi")
+
+    def file(self, name):
+        return self.folder / name
+
+    def test_from_recruiting_to_a_table(self):
+        answers = self.file("answers.csv")
+        planned = study("plan", "--simulations", 10, "--odds-ratio", 50)
+        self.assertRegex(planned.stdout, r"\d+ participants are enough", planned)
+        shown = study("preview", self.clip)
+        self.assertRegex(shown.stdout, r"(?m)^ *\d+ .*sway.avi$", shown)
+        first, code = SimulatedParticipant(answers, "P01", [self.clip]).take_part(trials_at_most=2)
+        self.assertIn("stopped; the same command goes on here", first)
+        self.assertEqual((code, len(records.read_answers(answers)) > 0), (0, True))
+        people = ["P01", "P02", "P03"]
+        for name in people:
+            printed, code = SimulatedParticipant(answers, name, [self.clip]).take_part()
+            self.assertEqual((code, printed.count("that was all")), (0, 1), printed)
+            after = printed[printed.index("code "):]
+            for word in CONDITION_WORDS:
+                self.assertNotIn(word, first[first.index("code "):] + after, "only the code is shown")
+        self.check_presentations(answers, people)
+        left = study("withdraw", answers, "P01")
+        self.assertEqual(left.returncode, 0, left)
+        printed, code = SimulatedParticipant(answers, "P04", [self.clip]).take_part()
+        self.assertEqual((code, printed.count("that was all")), (0, 1), printed)
+        table = study("report", answers).stdout
+        self.assertIn("withdrew: 1", table)
+        self.assertRegex(table, r"haptics: reality +sham +3 ")
+        self.assertRegex(table, r"(?m)^controllers: movement +linear, nonlinear +\d+ +\d+ +\d+ ")
+        self.check_what_must_not_change(answers)
+
+    def check_presentations(self, answers, people):
+        asked = records.read_answers(answers)
+        shown = [row for row in records.read_rows(f"{answers}.presentations") if not row["problem"]]
+        settings = json.loads(Path(f"{answers}.settings.json").read_text())
+        clip, = settings["clips"].values()
+        ticks, rms_N, mean = defaultdict(list), {}, {}
+        for name in people:
+            given = [answer for answer in asked if answer.participant == name]
+            self.assertEqual(len(given), 2 + 3 * 3)
+            traces = {row["trial"]: row["trace"] for row in shown if row["participant"] == name}
+            for trial, condition in {(answer.trial, answer.condition) for answer in given}:
+                with open(f"{answers}.traces/{traces[str(trial)]}.haptic.csv", newline="") as file:
+                    rows = [row for row in csv.DictReader(file) if row["playing"] == "1"]
+                wanted, delivered = ([[float(row[f"{which}_force_{axis}_N"]) for axis in "xyz"] for row in rows]
+                                     for which in ("wanted", "delivered"))
+                ticks[name].append((trial, int(rows[0]["tick"])))
+                rms_N[name, condition] = math.sqrt(sum(v * v for row in wanted for v in row) / len(rows))
+                mean[name, condition] = [row[0] for row in wanted]
+                if condition == "without":
+                    self.assertLess(max(math.hypot(*row) for row in delivered), 0.04, "a hand feels nothing")
+                else:
+                    self.assertGreater(max(math.hypot(*row) for row in delivered), 0.04)
+                self.assertLessEqual(max(math.hypot(*row) for row in wanted), briefing.GENTLE_N + 1e-6)
+        for name in people[1:]:  # in one session
+            in_order = [tick for _, tick in sorted(ticks[name])]
+            self.assertEqual(in_order, sorted(set(in_order)), "one opening of the device serves the whole session")
+        target_N = min(clip["rms_N"].values())
+        for (name, condition), rms in rms_N.items():
+            # What counts is within 11 % of the force that was measured before, and that is matched exactly.
+            self.assertAlmostEqual(rms, 0 if condition == "without" else target_N, delta=0.115 * target_N)
+        for name in people:
+            sham, real = mean[name, "sham"], mean[name, "with"]
+            self.assertLess(sum(a * b for a, b in zip(sham, real)), 0, "the sham pulls the other way")
+
+    def check_what_must_not_change(self, answers):
+        for more, message in ([["--seed", "2"], "seed was 1, not 2"], [["--", "device=sim", "alpha=0.01"], "properties was"],
+                              [["--paper"], "paper was false, not true"]):
+            split = more.index("--") if "--" in more else len(more)
+            refused = study("run", "--headless", *more[:split], answers, "P02", self.clip, *more[split:])
+            self.assertEqual((refused.returncode, message in refused.stderr), (2, True), refused)
+        content = self.clip.read_bytes()
+        self.addCleanup(self.clip.write_bytes, content)
+        self.clip.write_bytes(content + b"\0")
+        refused = study("run", "--headless", answers, "P02", self.clip)
+        self.assertEqual((refused.returncode, "clips_sha256" in refused.stderr), (2, True), refused)
+
+    def test_without_a_board_nobody_is_asked(self):
+        answers = self.file("usb.csv")
+        done = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb",
+                     lines=[*SimulatedParticipant.BRIEFING, "yes", "yes", "", *["", "3"] * 20])
+        self.assertEqual((done.returncode, "the device usb cannot be opened" in done.stderr), (1, True), done)
+        self.assertEqual(records.read_answers(answers), [])
+        none = study("run", "--headless", answers, "P01", self.clip, "--", "device=none")
+        self.assertEqual((none.returncode, "device=none renders no force" in none.stderr), (2, True), none)
+
+    def test_a_force_that_comes_too_late_does_not_count(self):
+        """By ten seconds: after the clip."""
+        answers = self.file("late.csv")
+        done = study("run", "--headless", answers, "P01", self.clip, "--", "ts-offset=10000000000",
+                     lines=[*SimulatedParticipant.BRIEFING, *["", "3"] * 20])
+        self.assertEqual((done.returncode, "failed 3 times" in done.stderr), (1, True), done)
+        self.assertEqual([answer for answer in records.read_answers(answers) if answer.condition != "without"], [])
+        self.assertRegex(records.read_rows(f"{answers}.presentations")[0]["problem"], r"asked for 0.000 N rms, and for 0.\d+")
+
+    def test_mistakes_are_named(self):
+        answers = self.file("mistakes.csv")
+        for arguments, message in ([[self.clip, "--", "max-force=much"], "max-force"], [["none.avi"], "none.avi"]):
+            done = study("run", "--headless", answers, "P01", *arguments)
+            self.assertEqual((done.returncode, message in done.stderr), (2, True), done)
+
+
+if __name__ == "__main__":
+    unittest.main()
