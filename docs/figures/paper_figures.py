@@ -24,7 +24,8 @@ from matplotlib import pyplot  # noqa: E402
 WIDTH, HEIGHT, RATE_HZ, LENGTH_S = 640, 480, 30, 6
 RADIUS_PX, FALL_PX, FLOOR_PX = 40, 360, 460
 GRAVITY_PX_S2, RESTITUTION = 1500, 0.85
-MAX_FORCE_N, ALPHA_S_PX = 3, 0.01  # the defaults of max-force and alpha
+MAX_FORCE_N = 3  # the default of max-force; the paper does not state Fmax
+ALPHA_S_PX = 0.01  # the paper's (eq. 15), and the default of alpha with motion=mean; with others it is 0.0025
 
 
 def height_and_velocity(time_s):

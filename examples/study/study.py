@@ -143,6 +143,9 @@ class Study:
         options = self.options
         if self.device == "none":
             raise ValueError("device=none renders no force: give the device that is felt, or device=sim to rehearse")
+        if self.device.startswith(("usb", "uart")) and not self.profile:
+            raise ValueError(f"device={self.device} needs profile=NAME or profile=FILE.toml: it belongs to the data, and what "
+                             "is remembered for a board may change")
         answers, participants = read_answers(options.answers), Participants(options.answers)
         trials = schedule(options.clips, participants.index_of(options.participant), options.seed)
         clips = self.begin()

@@ -18,6 +18,9 @@ true motion, of a frame 480 lines high, not the first two. false: frames of film
 motion is felt. felt: more than 2.1 px/s of a frame 480 lines high. jitter: root mean square of the second
 difference of the motion, px of a frame 480 lines high, median over the films, beside that of the truth.
 
+In brackets, the 95 % interval of a share over films (shares.py). The second table has the share of right frames
+for other angles and factors than these.
+
 not right, in per cent of the counted frames, by cause: not yet, the object has not been listed so far; no camera, how
 the camera moves is not known; not found, no listed object is right; not felt, one is right and nothing is felt; another,
 one is right and another is felt.
@@ -37,6 +40,8 @@ import sys
 import tempfile
 from collections import Counter
 from pathlib import Path
+
+from shares import CURVE_COLUMNS, curve, share
 
 REFERENCE_LINES = 480
 FELT_PX_S = 2.1
@@ -74,8 +79,8 @@ class Frame:
         self.is_felt = math.hypot(*motion) > FELT_PX_S * seconds * height / REFERENCE_LINES and seconds > 0
 
 
-def play(build, film, properties=()):
-    """The frames of a film, as spidarmotion traces them (docs/elements.md)."""
+def trace_rows(build, film, properties=()):
+    """A row for each frame of a film, as spidarmotion traces it (docs/elements.md)."""
     with tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.jsonl"
         environment = dict(os.environ, GST_PLUGIN_PATH=str(build / "plugin"),
@@ -85,9 +90,13 @@ def play(build, film, properties=()):
             ["gst-launch-1.0", "-q", "filesrc", f"location={film}", "!", "decodebin", "!", "spidarmotion",
              "device=none", "post-messages=false", f"trace={trace}", *properties, "!", "fakesink", "sync=false"],
             env=environment, check=True, stdout=subprocess.DEVNULL)
-        rows = [json.loads(line) for line in trace.read_text().splitlines()]
+        return [json.loads(line) for line in trace.read_text().splitlines()]
+
+
+def play(build, film, properties=()):
+    """The frames of a film."""
     frames = []
-    for row in rows:
+    for row in trace_rows(build, film, properties):
         seconds = row["interval_ns"] * 1e-9
         moved = lambda of: tuple(v * seconds for v in of["velocity_px_s"])
         frames.append(Frame(moved(row["motion"]), seconds, row["height_px"],
@@ -122,6 +131,13 @@ def verdict(motion, true):
     return "wrong" if cosine < math.cos(math.radians(60)) else ""
 
 
+def apart(motion, true):
+    """Angle in degrees and ratio of lengths."""
+    found_px, true_px = math.hypot(*motion), math.hypot(*true)
+    cosine = sum(p * q for p, q in zip(motion, true)) / (found_px * true_px)
+    return math.degrees(math.acos(max(-1, min(1, cosine)))), found_px / true_px
+
+
 def jitter_px(motion, frames):
     """Of the frames whose two predecessors are also known."""
     squares = [sum((p - 2 * q + r) ** 2 for p, q, r in zip(motion[n], motion[n - 1], motion[n - 2]))
@@ -140,8 +156,20 @@ class Tally:
         self.changes = self.turns = self.starts = 0
         self.seconds = 0.0
         self.has_force = False
+        self.films = []  # sums() of each
+        self.apart = []  # of each with an object: angle and ratio of speeds in the counted frames, None where none is felt
+
+    def sums(self):
+        return Counter(right=self.right, wrong=self.wrong, felt=self.felt, listed=self.listed, counted=self.counted,
+                       false=self.false, without_object=self.without_object, **self.causes)
 
     def add(self, frames, truth, times_ms=()):
+        before = self.sums()
+        verdicts = self.add_film(frames, truth, times_ms)
+        self.films.append({name: value - before[name] for name, value in self.sums().items()})
+        return verdicts
+
+    def add_film(self, frames, truth, times_ms):
         self.times_ms += times_ms
         self.add_calm(frames)
         if truth is None:
@@ -151,11 +179,13 @@ class Tally:
         unit = frames[0].height / REFERENCE_LINES
         known = [n for n in truth if UNSEEN <= n < len(frames)]
         verdicts, ever_listed = [], False
+        self.apart.append([])
         for n in known:
             if math.hypot(*truth[n]) <= LEAST_TRUE_PX * unit:
                 continue
             found = verdict(frames[n].motion, truth[n]) if frames[n].is_felt else "none"
             verdicts.append((n, found))
+            self.apart[-1].append(apart(frames[n].motion, truth[n]) if frames[n].is_felt else None)
             self.counted += 1
             self.felt += frames[n].is_felt
             self.right += found == "right"
@@ -189,16 +219,15 @@ class Tally:
                 self.changes, last = self.changes + (last is not None), frame.felt_object
 
     def row(self, name):
-        share = lambda part, whole: f"{100 * part / whole:.1f}" if whole else "-"
+        of = lambda part, whole="counted": share([(film.get(part, 0), film[whole]) for film in self.films])
         middle = lambda values: f"{statistics.median(values):.2f}" if values else "-"
         calm = ", ".join(f"{60 * n / self.seconds:.1f}" for n in (self.changes, self.turns, self.starts)
                          ) if self.has_force and self.seconds else "-"
-        causes = ", ".join(share(self.causes[cause], self.counted) for cause in CAUSES) if self.has_force else "-"
+        causes = ", ".join(of(cause) for cause in CAUSES) if self.has_force else "-"
         times = sorted(self.times_ms)
         ms = f"{times[len(times) // 2]:.2f}, {times[len(times) * 99 // 100]:.2f}, {times[-1]:.2f}" if times else "-"
-        return (f"| {name} | {share(self.right, self.counted)} | {share(self.wrong, self.counted)} "
-                f"| {share(self.felt, self.counted)} | {share(self.false, self.without_object)} "
-                f"| {share(self.listed, self.counted) if self.has_force else '-'} | {causes} | {calm} "
+        return (f"| {name} | {of('right')} | {of('wrong')} | {of('felt')} | {of('false', 'without_object')} "
+                f"| {of('listed') if self.has_force else '-'} | {causes} | {calm} "
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) | {ms} |")
 
 
@@ -223,6 +252,7 @@ def main():
     if not measures:
         print("No ms and no other methods: spidar-bench was built without libavformat-dev.\n")
 
+    curves = []
     rows = {}  # name of a row: the verdict of each frame, by film
     each_film = {}
     print_head(*COLUMNS)
@@ -241,13 +271,18 @@ def main():
                 each_film.setdefault(film.name, []).append(
                     alone.row(film.name if which == build else f"{film.name}, the other version"))
         print(tally.row(name), flush=True)
+        curves.append(curve(name, tally.apart))
     for method, name in METHODS.items() if measures else ():
         tally = Tally()
         for film in films:
             frames, times_ms = measure(program, method, film)
             tally.add(frames, read_truth(film), times_ms)
         print(tally.row(name), flush=True)
+        curves.append(curve(name, tally.apart))
 
+    print("\nRight %, if another angle (at a factor of 2) or another factor (at 30°) counts as right:\n")
+    print_head(*CURVE_COLUMNS)
+    print("\n".join(curves))
     print("\nEach film:\n")
     print_head(*COLUMNS)
     print("\n".join(row for rows_of_film in each_film.values() for row in rows_of_film))

@@ -5,7 +5,8 @@
 # into BUILD/results/NAME.txt, which a release attaches. BUILD has -Dbenchmarks=enabled. All of them take hours; the
 # machine should do nothing else.
 #   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
-#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, with the films that truth.py has made
+#   FILMS=FOLDER tests/bench/results.sh ...    also real_films and changed_films, with the films that truth.py has made
+#   GYROSCOPE=FOLDER, DAVIS=FOLDER             also gyroscope and davis; their scripts say what is in these folders
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(realpath "${1:?usage: tests/bench/results.sh BUILD [NAME...]}")
@@ -17,6 +18,9 @@ run() { # NAME
     case $1 in
     tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 ;;
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
+    changed_films) BUILD=$build tests/bench/changed_films.py "$FILMS" ;;
+    gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
+    davis) BUILD=$build tests/bench/davis.py ${DAVIS_PUBLISHED:+--published "$DAVIS_PUBLISHED"} ${DAVIS:+"$DAVIS"} ;;
     films) BUILD=$build tests/bench/pathologies.sh ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
     paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
@@ -26,7 +30,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar
-[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films} skew loop cost tension pose safety hazards touch_strings paper
+[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films changed_films} gyroscope davis skew loop cost tension pose safety hazards touch_strings paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

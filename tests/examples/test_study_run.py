@@ -186,7 +186,9 @@ class Run(unittest.TestCase):
 
     def test_without_a_board_nobody_is_asked(self):
         answers = self.file("usb.csv")
-        done = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb",
+        unnamed = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb")
+        self.assertEqual((unnamed.returncode, "needs profile=NAME" in unnamed.stderr), (2, True), unnamed)
+        done = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb", "profile=spidar-g6x3-v2-r",
                      lines=[*SimulatedParticipant.BRIEFING, "yes", "yes", "", *["", "3"] * 20])
         self.assertEqual((done.returncode, "the device usb cannot be opened" in done.stderr), (1, True), done)
         self.assertEqual(records.read_answers(answers), [])

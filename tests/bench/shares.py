@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""Shares of frames with their intervals over films.
+
+Frames of one film are alike, so their number says little: what was drawn is the films. Each resample draws as many films
+as there are, with replacement, and divides the sums (percentile bootstrap, B. Efron and R. Tibshirani, An Introduction to
+the Bootstrap, 1993, chapter 13). Of few films, such an interval is too narrow rather than too wide."""
+
+import random
+
+RESAMPLES = 4000
+LEVEL = 0.95
+
+
+def interval(counts):
+    """`counts`: (part, whole) of each film. Bounds of the share, or nothing without any frame or with a single film."""
+    counts = [(part, whole) for part, whole in counts if whole]
+    if len(counts) < 2:
+        return None
+    source = random.Random(1)
+    drawn = []
+    for _ in range(RESAMPLES):
+        films = source.choices(counts, k=len(counts))
+        drawn.append(sum(part for part, _ in films) / sum(whole for _, whole in films))
+    drawn.sort()
+    tail = round((1 - LEVEL) / 2 * RESAMPLES)
+    return drawn[tail], drawn[-1 - tail]
+
+
+def share(counts):
+    """In per cent, with its interval: 84.2 (71 to 93)."""
+    part, whole = (sum(each[n] for each in counts) for n in (0, 1)) if counts else (0, 0)
+    if not whole:
+        return "-"
+    bounds = interval(counts)
+    return f"{100 * part / whole:.1f}" + (f" ({100 * bounds[0]:.0f} to {100 * bounds[1]:.0f})" if bounds else "")
+
+
+ANGLES_DEG = (5, 10, 15, 20, 30, 45, 60)
+FACTORS = (1.1, 1.25, 1.5, 2, 3)
+
+
+def within(films, angle_deg, factor):
+    """`films`: of each, angle in degrees and ratio of speeds for each frame, or nothing where no motion was found."""
+    return share([(sum(frame is not None and frame[0] < angle_deg and 1 / factor < frame[1] < factor for frame in film),
+                   len(film)) for film in films])
+
+
+def curve(name, films):
+    """How the share of right frames depends on what counts as right: by angle at a factor of 2, and by factor at 30°."""
+    by_angle = " | ".join(within(films, angle, 2) for angle in ANGLES_DEG)
+    by_factor = " | ".join(within(films, 30, factor) for factor in FACTORS)
+    return f"| {name} | {by_angle} | {by_factor} |"
+
+
+CURVE_COLUMNS = ["", *(f"{angle}°" for angle in ANGLES_DEG), *(f"×{factor:g}" for factor in FACTORS)]

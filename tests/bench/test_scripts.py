@@ -1,0 +1,167 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""The scripts that measure with films of others, on films and numbers that are made here.
+
+    test_scripts.py
+"""
+
+import json
+import math
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+FOLDER = Path(__file__).parent
+
+import shares  # noqa: E402
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit(77)
+
+import davis  # noqa: E402
+import gyroscope  # noqa: E402
+from real_films import Frame, Tally  # noqa: E402
+
+
+class Shares(unittest.TestCase):
+    def test_the_interval_is_over_films_and_not_over_frames(self):
+        # Two films of a thousand frames: half of the resamples draw one of them twice.
+        self.assertEqual(shares.interval([(1000, 1000), (0, 1000)]), (0, 1))
+        self.assertEqual(shares.interval([(3, 10)] * 8), (0.3, 0.3))
+        self.assertIsNone(shares.interval([(3, 10)]))
+        self.assertEqual(shares.share([(3, 10), (0, 0)]), "30.0")
+        self.assertEqual(shares.share([]), "-")
+
+    def test_the_interval_has_the_width_of_the_mean_of_films(self):
+        # 100 films, of each all or nothing with a chance of a half: ±1.96 · 0.5 / √100, and each bound is a quantile of
+        # 4000 resamples, whose standard error is √(0.025 · 0.975 / 4000) / density = 0.002, of steps of 0.01.
+        low, high = shares.interval([(n % 2, 1) for n in range(100)])
+        for bound, true in (low, 0.402), (high, 0.598):
+            self.assertAlmostEqual(bound, true, delta=4 * 0.002 + 0.01)
+
+    def test_a_film_counts_with_its_frames(self):
+        self.assertTrue(shares.share([(90, 90), (0, 10)]).startswith("90.0 ("))
+
+    def test_the_curve_counts_what_is_within_an_angle_and_a_factor(self):
+        films = [[(7, 1), (25, 1.9), (40, 1), None], [(7, 0.45), (3, 1.05), (7, 1), (7, 1)]]
+        self.assertTrue(shares.within(films, 10, 2).startswith("50.0"))  # 4 of 8
+        self.assertTrue(shares.within(films, 30, 2).startswith("62.5"))
+        self.assertTrue(shares.within(films, 30, 3).startswith("75.0"))
+        self.assertTrue(shares.within(films, 60, 1.1).startswith("62.5"))
+
+    def test_a_tally_keeps_each_film(self):
+        tally = Tally()
+        right, across = (Frame(motion, 1 / 24, 480, [motion]) for motion in ((4, 0), (0, 4)))
+        for frame in right, across:
+            tally.add([frame] * 6, {n: (4, 0) for n in range(6)})
+        tally.add([right] * 6, None)
+        cells = [cell.strip() for cell in tally.row("x").split("|")]
+        self.assertEqual(cells[2:5], ["50.0 (0 to 100)", "50.0 (0 to 100)", "100.0 (100 to 100)"])
+        self.assertEqual(cells[5], "100.0", "of one film without an object")
+        self.assertEqual([round(frame[0]) for film in tally.apart for frame in film], [0] * 4 + [90] * 4)
+
+
+def item(key, kind, size, data, count=None):
+    padded = data + b"\0" * (-len(data) % 4)
+    return struct.pack(">4scBH", key, kind, size, len(data) // size if count is None else count) + padded
+
+
+class Gyroscope(unittest.TestCase):
+    def test_reads_the_samples_of_a_gopro(self):
+        samples = [(10, -20, 30), (40, 50, -60), (7, 8, 9)]
+        stream = (item(b"STNM", b"c", 1, b"Gyroscope (z,x,y)") + item(b"SCAL", b"s", 2, struct.pack(">h", 10)) +
+                  item(b"GYRO", b"s", 6, b"".join(struct.pack(">3h", *row) for row in samples)))
+        other = item(b"SCAL", b"s", 2, struct.pack(">h", 5)) + item(b"ACCL", b"s", 6, struct.pack(">3h", 1, 2, 3))
+        device = item(b"STRM", b"\0", 1, other) + item(b"STRM", b"\0", 1, stream)
+        self.assertEqual(gyroscope.gyro_samples(item(b"DEVC", b"\0", 1, device)),
+                         [[value / 10 for value in row] for row in samples])
+        self.assertEqual(gyroscope.gyro_samples(item(b"DEVC", b"\0", 1, item(b"STRM", b"\0", 1, other))), [])
+
+    def made(self, lag_s=0.023, focal_px=500.0, noise_px_s=0.0, frames=240):
+        """Times of frames; times and rates of a gyroscope that is built in with other axes; rates of the camera."""
+        random = np.random.default_rng(3)
+        gyro_s = np.arange(-0.5, frames / 30 + 0.5, 1 / 400)
+        phases = random.uniform(0, 7, (3, 6))
+        swing = lambda t: np.stack([sum(np.sin(2 * np.pi * f * t + p) * 0.3 / f for f, p in zip((0.3, 0.7, 1.1, 1.9, 2.7, 3.1),
+                                                                                               row)) for row in phases], 1)
+        times_s = np.arange(frames) / 30
+        true = gyroscope.between(times_s, gyro_s, swing(gyro_s - lag_s), lag_s)  # yaw, pitch, roll
+        gyro = np.stack([-swing(gyro_s - lag_s)[:, 2], swing(gyro_s - lag_s)[:, 0], swing(gyro_s - lag_s)[:, 1]], 1)
+        moved = true * [focal_px, focal_px, 1] + random.normal(0, 1, true.shape) * noise_px_s * np.array([1, 1, 0.002])
+        return times_s, gyro_s, gyro, np.nan_to_num(moved)
+
+    def test_finds_lag_axes_and_focal_length(self):
+        times_s, gyro_s, gyro, moved = self.made()
+        known = np.arange(len(times_s)) >= 2
+        fit = gyroscope.Fit(times_s, gyro_s, gyro, [moved, moved], known)
+        self.assertEqual((list(fit.axes), list(fit.signs)), ([1, 2, 0], [1, 1, -1]))
+        self.assertAlmostEqual(fit.lag_s, 0.023, delta=gyroscope.LAG_STEP_S)
+        # A lag that is wrong by half a step of 1 ms, at 3 Hz at most: (2π · 3 · 0.0005)² / 2 of the slope.
+        self.assertAlmostEqual(fit.focal_px, 500, delta=500 * 1e-3)
+
+    def test_says_how_much_is_explained(self):
+        times_s, gyro_s, gyro, moved = self.made(noise_px_s=20)
+        table = gyroscope.report("film", times_s, gyro_s, gyro, {"one": moved, "weak": 0.8 * moved})
+        rows = {tuple(cell.strip() for cell in line.split("|")[1:3]): [float(cell.split()[0]) for cell in line.split("|")[3:7]]
+                for line in table.splitlines() if line.startswith(("| yaw", "| pitch", "| roll"))}
+        for axis in "yaw", "pitch":
+            (r, slope, error, turned), weak = rows[axis, "one"], rows[axis, "weak"]
+            # Noise of 20 px/s beside 500 px · the rate: r² = s² / (s² + (20/500)²).
+            noise = math.degrees(20 / 500)
+            self.assertAlmostEqual(r, turned / math.hypot(turned, noise), delta=0.02)
+            self.assertAlmostEqual(weak[1] / slope, 0.8, delta=0.002)  # three decimals are printed
+            # f comes from both: (1 + 0.8² ) is not its square, but the mean of 1 and 0.8 is its share.
+            self.assertAlmostEqual(slope, 1 / 0.9, delta=0.05)
+
+    def test_without_a_folder_it_is_skipped(self):
+        for script in "gyroscope.py", "davis.py":
+            done = subprocess.run([sys.executable, FOLDER / script], capture_output=True, text=True, check=True)
+            self.assertTrue(done.stdout.startswith("skipped: no folder"), done)
+
+
+class Davis(unittest.TestCase):
+    STEP = 32
+
+    def blocks(self, cells, object_id):
+        return np.array([[0, 0, 0, x * self.STEP + 15.5, y * self.STEP + 15.5, object_id] for x, y in cells], float)
+
+    def test_region_similarity_is_intersection_over_union(self):
+        a, b = np.zeros((10, 10), bool), np.zeros((10, 10), bool)
+        self.assertEqual(davis.region_similarity(a, b), 1)
+        a[:, :6], b[:, 4:8] = True, True
+        self.assertEqual(davis.region_similarity(a, b), 20 / 80)
+
+    def test_judges_the_felt_object_and_the_best_one(self):
+        mask = np.zeros((128, 160), bool)
+        mask[32:96, 32:96] = True  # four blocks exactly
+        right, other = self.blocks([(1, 1), (2, 1), (1, 2), (2, 2)], 1), self.blocks([(2, 2), (3, 2)], 2)
+        rest = self.blocks([(0, 0), (1, 0)], 0)
+        tracks = np.concatenate([rest, right, other])
+        nothing = rest, davis.NOTHING
+        frames = [nothing, (tracks, 1), (tracks, 2), (tracks, davis.NOTHING), nothing, nothing]
+        rows = davis.judge(frames, [mask] * 6)
+        self.assertEqual(len(rows), 4, "neither the first nor the last")
+        np.testing.assert_allclose(rows[:, 0], [1, 1 / 5, 0, 0])
+        np.testing.assert_allclose(rows[:, 1], [1, 1, 1, 0])
+        np.testing.assert_allclose(rows[:, 2], 1)
+        np.testing.assert_allclose(rows[:, 3], [0, 0, 0, 1])
+        self.assertEqual(davis.reason(rows), "another")
+        self.assertEqual(davis.reason(rows[3:]), "not found")
+
+    def test_reads_published_results(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for method in davis.PUBLISHED:
+                Path(folder, f"{method}_davis.json").write_text(
+                    json.dumps({"id": method, "bear": {"J": ["0.500", "0.700"], "F": ["0.1", "0.1"]}}))
+            means = davis.read_published(folder)
+        self.assertAlmostEqual(means["sal"]["bear"], 0.6)
+
+
+if __name__ == "__main__":
+    unittest.main()
