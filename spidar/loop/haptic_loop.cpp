@@ -26,7 +26,11 @@ bool has_wanted(const TickRecord& record) noexcept {
 }  // namespace
 
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
-    : grip_(std::move(grip)), shared_limits_(limits), limits_(limits) {}
+    : grip_(std::move(grip)),
+      shared_limits_(limits),
+      set_limits_(limits),
+      limits_(limits),
+      limits_before_(limits) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -61,6 +65,7 @@ void HapticLoop::energise() noexcept {
   untrusted_ns_ = 0;
   brake_.reset();
   safety_.reset();
+  exerted_ = {};
   idle_.reset();
 }
 
@@ -104,13 +109,12 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
 
   // Keeps the values of the last tick while the writer is updating them.
   shared_clock_.try_load(clock_);
-  shared_limits_.try_load(limits_);
-  record.max_force_N = limits_.max_force_N;
-  record.max_torque_Nm = limits_.max_torque_Nm;
+  shared_limits_.try_load(set_limits_);
+  const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
+  follow_limits(dt_s);
   find_wanted(record);
   grip_->pass(1e-9 * static_cast<double>(passed_ns));
   if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
-    const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
     grip_->check_age(now_ns);
     touch(record, passed_ns);
     ask_callback(record, dt_s);
@@ -120,6 +124,8 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
+  record.max_force_N = limits_.max_force_N;
+  record.max_torque_Nm = limits_.max_torque_Nm;
   record.device = state_;
   record.held = brake_.held();
   const GripReading& grip = grip_->reading();
@@ -129,6 +135,14 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.buttons = grip.buttons;
   record.faulty_string = grip.faulty_string;
   publish(record);
+}
+
+/// A device that was lost or closed starts from zero, within any limit.
+void HapticLoop::follow_limits(double dt_s) noexcept {
+  limits_before_ = limits_;
+  const bool off = state_ == DeviceState::kLost || state_ == DeviceState::kClosed;
+  limits_ = off ? set_limits_
+                : limits_in_effect(set_limits_, limits_before_, safety_.last(), exerted_, dt_s);
 }
 
 void HapticLoop::find_wanted(TickRecord& record) noexcept {
@@ -200,7 +214,10 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   const Wrench braked = grip_->traits().can_fly
                             ? brake_.apply(allowed, grip.motion, limits_.max_slew_N_s, dt_s)
                             : allowed;
-  record.commanded = safety_.apply(braked, is_fresh(record), dt_s, limits_);
+  record.commanded = safety_.apply(braked, is_fresh(record), dt_s, set_limits_);
+  // A force that turns aside falls by less than its step.
+  limits_.max_force_N = std::max(limits_.max_force_N, record.commanded.force_N.norm());
+  limits_.max_torque_Nm = std::max(limits_.max_torque_Nm, record.commanded.torque_Nm.norm());
   counters_.rejected_wrenches = safety_.rejected();
 }
 
@@ -223,6 +240,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   if (status == ExchangeStatus::kOk) {
     errors_in_a_row_ = 0;
     acknowledged_power_ = power_;
+    exerted_ = grip.delivered;
     return follow(dt_s);
   }
   undo(record);
@@ -244,7 +262,8 @@ void HapticLoop::follow(double dt_s) noexcept {
 /// The grip may not have received this tick, so the next one starts from the last acknowledged one.
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
-  record.commanded = limit_total(safety_.last(), limits_);
+  limits_ = limits_before_;
+  record.commanded = safety_.last();
   record.acknowledged = false;
   power_ = acknowledged_power_;
 }

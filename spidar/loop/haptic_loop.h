@@ -98,8 +98,8 @@ class HapticLoop {
 
   /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
-  /// One caller at a time. A lower total limit takes effect in the next tick; a higher one is
-  /// reached through the slew limit.
+  /// One caller at a time. From the next tick on, the force approaches another total limit at the
+  /// slew limit.
   void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
@@ -148,6 +148,7 @@ class HapticLoop {
  private:
   void energise() noexcept;
   void lose() noexcept;
+  void follow_limits(double dt_s) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
   void ask_callback(TickRecord& record, double dt_s) noexcept;
@@ -171,7 +172,10 @@ class HapticLoop {
   Seqlock<LoopSnapshot> snapshot_;
   // Loop thread only.
   PlaybackClock clock_;
-  SafetyLimits limits_;
+  SafetyLimits set_limits_;     // as they were set
+  SafetyLimits limits_;         // in effect, see limits_in_effect()
+  SafetyLimits limits_before_;  // in effect before this tick
+  Wrench exerted_;              // delivered by the last acknowledged command
   TouchRendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};

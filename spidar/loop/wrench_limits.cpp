@@ -38,13 +38,34 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
           shorten(wanted.torque_Nm, non_negative(limits.max_torque_Nm))};
 }
 
+namespace {
+
+double limit_in_effect(double set, double before, double exerted, double step) {
+  return std::max(non_negative(set), std::min(before, exerted - step));
+}
+
+}  // namespace
+
+SafetyLimits limits_in_effect(const SafetyLimits& set, const SafetyLimits& before,
+                              const Wrench& commanded, const Wrench& delivered,
+                              double dt_s) noexcept {
+  SafetyLimits limits = set;
+  limits.max_force_N = limit_in_effect(set.max_force_N, before.max_force_N,
+                                       std::max(commanded.force_N.norm(), delivered.force_N.norm()),
+                                       non_negative(set.max_slew_N_s * dt_s));
+  limits.max_torque_Nm =
+      limit_in_effect(set.max_torque_Nm, before.max_torque_Nm,
+                      std::max(commanded.torque_Nm.norm(), delivered.torque_Nm.norm()),
+                      non_negative(set.max_slew_Nm_s * dt_s));
+  return limits;
+}
+
+// The total limits are balls: on a straight line to a point within them, the distance to them never
+// grows, and what is within them stays there.
 Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept {
-  // Both ends are within the total limits. These are balls, so every point between the ends is
-  // within them, too.
-  const Wrench from = limit_total(last_, limits);
-  last_.force_N = approach(from.force_N, wanted.force_N, non_negative(limits.max_slew_N_s * dt_s));
+  last_.force_N = approach(last_.force_N, wanted.force_N, non_negative(limits.max_slew_N_s * dt_s));
   last_.torque_Nm =
-      approach(from.torque_Nm, wanted.torque_Nm, non_negative(limits.max_slew_Nm_s * dt_s));
+      approach(last_.torque_Nm, wanted.torque_Nm, non_negative(limits.max_slew_Nm_s * dt_s));
   return last_;
 }
 
@@ -62,7 +83,15 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   const double share = stale_.apply(fresh, dt_s, limits);
   if (fresh) return slew_.apply(share * limit_total(finite_.apply(wanted), limits), dt_s, limits);
   const double left = before > 0 ? share / before : 0;
-  slew_.reset(left * limit_total(slew_.last(), limits));
+  const Wrench last = slew_.last();
+  const Wrench within = limit_total(left * last, limits);
+  const auto step = [&](double size, double max_slew) {
+    return std::max((1 - left) * size, non_negative(max_slew * dt_s));
+  };
+  slew_.reset(
+      {approach(last.force_N, within.force_N, step(last.force_N.norm(), limits.max_slew_N_s)),
+       approach(last.torque_Nm, within.torque_Nm,
+                step(last.torque_Nm.norm(), limits.max_slew_Nm_s))});
   return slew_.last();
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Which force acts when: playback, flush, limits.
+#include <array>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/tick_watch.h"
 
 namespace spidar::test::haptic_loop_test {
 namespace {
@@ -180,13 +183,106 @@ TEST(HapticLoop, CountsTimesThatDoNotRise) {
   EXPECT_EQ(driver.counters().refused_wrenches, 2u);
 }
 
-TEST(HapticLoop, LimitsChangeWhileRunning) {
+/// A force and a torque at their largest, with limits that a program changes.
+struct Limited : LoopDriver {
+  Limited(double force_N, double torque_Nm, const Pose& pose = {}) {
+    put_grip(*this, pose);
+    open();
+    set(force_N, torque_Nm);
+    for (int i = 0; i < 50; ++i)
+      loop->schedule(frame(i * kFrame, {{force_N, 0, 0}, {0, 0, torque_Nm}}));
+    play(0);
+    last = run(10 * kFrame);
+  }
+  void set(double force_N, double torque_Nm) {
+    limits.max_force_N = force_N;
+    limits.max_torque_Nm = torque_Nm;
+    loop->set_limits(limits);
+  }
+  /// One tick, in which nothing may change faster than the slew limits, neither in the command nor
+  /// at the hand.
+  void check(const std::string& where) {
+    const TickRecord now = watch.tick(*loop, now_ns += kTick_ns);
+    const Wrench commanded = now.commanded - last.commanded;
+    const Wrench delivered = now.delivered - last.delivered;
+    // The solver trades residual against tension, see CommandsWhatIsWanted.
+    const double solver_N = 2 * std::sqrt(TensionProblem{}.epsilon) * range_N();
+    const double force_N = limits.max_slew_N_s * 1e-3, torque_Nm = limits.max_slew_Nm_s * 1e-3;
+    EXPECT_LE(commanded.force_N.norm(), force_N + 1e-12) << where;
+    EXPECT_LE(commanded.torque_Nm.norm(), torque_Nm + 1e-12) << where;
+    EXPECT_LE(delivered.force_N.norm(), force_N + solver_N) << where;
+    EXPECT_LE(delivered.torque_Nm.norm(), torque_Nm + solver_N) << where;
+    last = now;
+  }
+  double range_N() const { return (profile.max_tension_N() - profile.min_tension_N()).norm(); }
+
+  SafetyLimits limits;
+  TickRecord last;
+  TickWatch watch;
+};
+
+TEST(HapticLoop, LoweredLimitIsApproachedAtTheSlewLimit) {
+  Pose aside;  // where the strings at rest pull the grip back
+  aside.position_m = {-0.02, 0.01, 0};
+  for (const Pose& pose : {Pose{}, aside}) {
+    for (const auto& [from_N, from_Nm, to_N, to_Nm] :
+         {std::array{3.0, 0.05, 0.0, 0.0}, std::array{3.0, 0.0, 0.25, 0.1},
+          std::array{0.5, 0.1, 0.5, 0.0}, std::array{7.0, 0.1, 1.0, 0.05}}) {
+      Limited driver(from_N, from_Nm, pose);
+      const std::string where = "from " + std::to_string(from_N) + " N, " +
+                                std::to_string(from_Nm) + " N m, to " + std::to_string(to_N) +
+                                " N, " + std::to_string(to_Nm) + " N m";
+      ASSERT_GT(driver.last.commanded.stacked().norm(), 0.4) << where;
+      driver.set(to_N, to_Nm);
+      const double takes_s = std::max((from_N - to_N) / driver.limits.max_slew_N_s,
+                                      (from_Nm - to_Nm) / driver.limits.max_slew_Nm_s);
+      for (int i = 0; i < 1000 * takes_s; ++i) driver.check(where);
+      // A tick for the rounding of the sum of the steps.
+      driver.check(where);
+      EXPECT_LE(driver.last.commanded.force_N.norm(), to_N * (1 + 1e-15)) << where;
+      EXPECT_LE(driver.last.commanded.torque_Nm.norm(), to_Nm * (1 + 1e-15)) << where;
+      EXPECT_EQ(driver.last.max_force_N, to_N) << where;
+      EXPECT_EQ(driver.last.max_torque_Nm, to_Nm) << where;
+    }
+  }
+}
+
+TEST(HapticLoop, ALimitIsNoSaw) {
+  Limited driver(3, 0.05);
+  for (int i = 0; i < 400; ++i) {
+    const bool low = i / 7 % 2 == 0;
+    driver.set(low ? 0.1 : 3, low ? 0 : 0.05);
+    driver.check("tick " + std::to_string(i));
+  }
+}
+
+TEST(HapticLoop, ALimitThatIsLoweredWhileTheDeviceDoesNotAnswer) {
+  Limited driver(3, 0.05);
+  driver.set(0, 0);
+  for (int i = 0; i < 30; ++i) {
+    driver.log().answer = i % 10 < 5 ? ExchangeStatus::kTimeout : ExchangeStatus::kOk;
+    driver.check("tick " + std::to_string(i));
+  }
+  EXPECT_EQ(driver.last.commanded.stacked().norm(), 0);
+}
+
+TEST(HapticLoop, ALimitThatIsLoweredDuringAPause) {
+  Limited driver(3, 0.05);
+  driver.pause();
+  for (int i = 0; i < 41; ++i) {
+    if (i == 15) driver.set(0.2, 0);
+    driver.check("tick " + std::to_string(i));
+  }
+  EXPECT_EQ(driver.last.commanded.stacked().norm(), 0);
+}
+
+TEST(HapticLoop, RaisedLimitIsApproachedAtTheSlewLimit) {
   Playing driver;
   driver.run(5 * kFrame);
   SafetyLimits limits;
   limits.max_force_N = 0.25;
   driver.loop->set_limits(limits);
-  EXPECT_LE(driver.tick().commanded.force_N.norm(), 0.25 * (1 + 1e-15));
+  driver.run(20 * kMs);
   limits.max_force_N = 3;
   limits.max_slew_N_s = 50;
   driver.loop->set_limits(limits);

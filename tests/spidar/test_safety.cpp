@@ -74,6 +74,34 @@ TEST(SlewLimit, ChangesByNoMoreThanTheLimit) {
   EXPECT_NEAR(slew.apply(force(-3, 0, 0), kTick_s, {}).force_N.x(), 2.7, 1e-12);
 }
 
+TEST(SlewLimit, LowersToALimitInStepsAsWell) {
+  SlewLimit slew;
+  slew.reset({{3, 0, 0}, {0, 0, 0.1}});
+  SafetyLimits none;
+  none.max_force_N = none.max_torque_Nm = 0;
+  for (int i = 1; i <= 9; ++i) {
+    const Wrench left = slew.apply(limit_total(force(3, 0, 0), none), kTick_s, none);
+    EXPECT_NEAR(left.force_N.x(), 3 - 0.3 * i, 1e-12);
+    EXPECT_NEAR(left.torque_Nm.z(), 0.1 - 0.01 * i, 1e-12);
+  }
+}
+
+TEST(LimitsInEffect, FallFromWhatTheHandGets) {
+  SafetyLimits low;
+  low.max_force_N = 1;
+  low.max_torque_Nm = 0;
+  const Wrench commanded{{0, 1.5, 0}, {0.03, 0, 0}}, delivered{{2.5, 0, 0}, {0, 0.02, 0}};
+  const SafetyLimits falling = limits_in_effect(low, {}, commanded, delivered, kTick_s);
+  EXPECT_NEAR(falling.max_force_N, 2.2, 1e-12) << "from the delivered force, not from the limit";
+  EXPECT_NEAR(falling.max_torque_Nm, 0.02, 1e-12) << "from the commanded torque";
+  EXPECT_EQ(limits_in_effect(low, low, commanded, 10 * delivered, kTick_s).max_force_N, 1)
+      << "a force above its limit raises no limit";
+  EXPECT_EQ(limits_in_effect({}, low, commanded, delivered, kTick_s).max_force_N, 3)
+      << "a raised limit takes effect at once";
+  low.max_force_N = kNaN;
+  EXPECT_EQ(limits_in_effect(low, low, {}, {}, kTick_s).max_force_N, 0);
+}
+
 TEST(SlewLimit, NoTimeNoStep) {
   SlewLimit slew;
   for (const double dt : {0.0, -1.0, kNaN}) {
@@ -164,16 +192,17 @@ TEST(WrenchLimits, HoldsItsLimitsForAnySequence) {
     const Wrench commanded = safety.apply(wanted, fresh, dt_s, limits);
 
     ASSERT_TRUE(commanded.is_finite()) << "seed " << kSeed << " call " << i;
-    ASSERT_LE(commanded.force_N.norm(), limits.max_force_N * (1 + kRounding))
+    // Above a limit that was lowered, only on the way to it.
+    ASSERT_LE(commanded.force_N.norm(),
+              std::max(limits.max_force_N, last.force_N.norm()) * (1 + kRounding))
         << "seed " << kSeed << " call " << i;
     ASSERT_LE(commanded.torque_Nm.norm(), limits.max_torque_Nm * (1 + kRounding))
         << "seed " << kSeed << " call " << i;
-    // Fresh: the slew limit. Stale: from at most what was ever allowed to zero in ramp_s. A limit
-    // that was lowered may cut off the rest at once.
-    const double rate_N_s =
-        fresh ? limits.max_slew_N_s : StaleRamp::kSteepest * largest_N / limits.ramp_s;
-    const double cut_off_N = std::max(0.0, last.force_N.norm() - limits.max_force_N);
-    ASSERT_LE((commanded.force_N - last.force_N).norm(), rate_N_s * dt_s + cut_off_N + 1e-12)
+    // Fresh: the slew limit. Stale: from at most what was ever allowed to zero in ramp_s, or at the
+    // slew limit to a limit that was lowered.
+    const double ramp_N_s = fresh ? 0 : StaleRamp::kSteepest * largest_N / limits.ramp_s;
+    const double rate_N_s = std::max(limits.max_slew_N_s, ramp_N_s);
+    ASSERT_LE((commanded.force_N - last.force_N).norm(), rate_N_s * dt_s + 1e-12)
         << "seed " << kSeed << " call " << i;
     last = commanded;
   }

@@ -106,19 +106,17 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
     fail(record, "torque too large");
   }
 
-  // See WrenchLimits. A lowered limit cuts off at once, and a lost device has nothing to command.
+  // See WrenchLimits. A lost device has nothing to command.
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
   if (following_ && !lost) {
     const double ramp = StaleRamp::kSteepest / limits.ramp_s;
     const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
     const double rate_Nm_s = std::max(limits.max_slew_Nm_s, ramp * largest_Nm_);
     const Wrench& before = last_.commanded;
-    const double cut_N = std::max(0.0, before.force_N.norm() - limits.max_force_N);
-    const double cut_Nm = std::max(0.0, before.torque_Nm.norm() - limits.max_torque_Nm);
-    if ((now.force_N - before.force_N).norm() > rate_N_s * dt_s + cut_N + 1e-12) {
+    if ((now.force_N - before.force_N).norm() > rate_N_s * dt_s + 1e-12) {
       fail(record, "force changes too fast");
     }
-    if ((now.torque_Nm - before.torque_Nm).norm() > rate_Nm_s * dt_s + cut_Nm + 1e-12) {
+    if ((now.torque_Nm - before.torque_Nm).norm() > rate_Nm_s * dt_s + 1e-12) {
       fail(record, "torque changes too fast");
     }
   }
