@@ -14,7 +14,7 @@ class ExampleBoard final : public Board {
  public:
   ExampleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
       : name_(std::move(name)), dac_(unipolar_dac(profile)), transport_(std::move(transport)) {
-    require_positive_motors(name_, profile);
+    require_fitting(name_, profile, {12, 0, false});  // bits, largest volts, negative ones
   }
 
   void open() override {

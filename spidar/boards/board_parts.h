@@ -13,6 +13,7 @@
 #include "spidar/guardian/guardian.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/bytes.h"
+#include "spidar/protocols/cyverse.h"
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/transports/transport.h"
@@ -72,26 +73,28 @@ struct DacScale {
   double volt(int digits) const noexcept { return digits / digits_per_V; }
 };
 
-/// Scale of the profile's D/A converter, from zero to its largest voltage, for the CyVerse boards.
-/// Their range is not published (inferred, because all published digits are positive).
+/// D/A converters of the CyVerse boards, from zero to the profile's largest voltage. Their range is
+/// not published (inferred, because all published digits are positive).
 inline DacScale unipolar_dac(const Profile& profile) noexcept {
-  const int max_digit = (1 << profile.dac_bits) - 1;
-  return {max_digit / profile.dac_max_V, 0, max_digit};
+  return {sh4::kMaxDigit / profile.dac_max_V, 0, sh4::kMaxDigit};
 }
 
 inline DacScale uart_dac() noexcept {
   return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
 }
 
-/// Throws DeviceError when the profile wants negative volts.
-inline void require_positive_motors(const std::string& device, const Profile& profile) {
-  for (int i = 0; i < profile.geometry.count; ++i) {
-    if (profile.drives[static_cast<size_t>(i)].motor_sign < 0)
-      throw DeviceError(device + ": profile \"" + profile.name +
-                        "\" wants negative volts for string " + std::to_string(i) +
-                        " (motor_sign), and the board puts out positive ones only: take a profile "
-                        "for this board, or correct motor_sign");
-  }
-}
+/// What the protocol of a board says about every board of its kind.
+struct BoardTraits {
+  int dac_bits = 12;
+  double max_V = 0;      ///< of its D/A; 0: not published, the profile says it
+  bool negative = true;  ///< whether it puts out negative volts
+};
+
+constexpr BoardTraits kCyverseTraits{sh4::kDacBits, 0, false};
+constexpr BoardTraits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
+
+/// Throws DeviceError, with the field's name, when the profile describes a board that this one
+/// cannot be.
+void require_fitting(const std::string& device, const Profile& profile, const BoardTraits& board);
 
 }  // namespace spidar

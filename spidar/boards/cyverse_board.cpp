@@ -15,7 +15,7 @@ CyverseBoard::CyverseBoard(std::string name, const Profile& profile,
       dac_(unipolar_dac(profile)),
       transport_(std::move(transport)),
       counts_(counter_bits) {
-  require_positive_motors(name_, profile);
+  require_fitting(name_, profile, kCyverseTraits);
 }
 
 void CyverseBoard::open() {

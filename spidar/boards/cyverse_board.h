@@ -19,7 +19,7 @@ namespace spidar {
 
 class CyverseBoard : public Board {
  public:
-  /// Throws DeviceError when the profile wants negative volts.
+  /// Throws DeviceError when the profile describes another board, see require_fitting().
   CyverseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
                int counter_bits);
 
@@ -63,7 +63,7 @@ class CyverseBoard : public Board {
 
 class Sh4Board final : public CyverseBoard {
  public:
-  /// Throws DeviceError when the profile wants negative volts.
+  /// Throws DeviceError when the profile describes another board, see require_fitting().
   Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
   std::string description() const override;
@@ -85,7 +85,7 @@ class Sh4Board final : public CyverseBoard {
 
 class SimpleBoard final : public CyverseBoard {
  public:
-  /// Throws DeviceError when the profile wants negative volts.
+  /// Throws DeviceError when the profile describes another board, see require_fitting().
   SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
   std::string description() const override;

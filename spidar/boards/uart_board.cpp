@@ -20,7 +20,9 @@ UartBoard::UartBoard(std::string name, const Profile& profile,
                      std::vector<std::unique_ptr<Transport>> lines)
     : name_(std::move(name)),
       strings_(static_cast<size_t>(profile.geometry.count)),
-      lines_(std::move(lines)) {}
+      lines_(std::move(lines)) {
+  require_fitting(name_, profile, kUartTraits);
+}
 
 void UartBoard::find_stations(Transport& line, int64_t patience_ns) {
   std::array<uint8_t, uart_motor::kEnquiryLength> enquiry{};

@@ -19,6 +19,7 @@ namespace spidar {
 /// Strings are numbered by line, then by board number, then by motor.
 class UartBoard final : public Board {
  public:
+  /// Throws DeviceError when the profile describes another board, see require_fitting().
   UartBoard(std::string name, const Profile& profile,
             std::vector<std::unique_ptr<Transport>> lines);
 

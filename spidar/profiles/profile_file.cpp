@@ -3,14 +3,10 @@
 #include "spidar/profiles/profile_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fcntl.h>
 #include <limits>
 #include <string_view>
-#include <sys/stat.h>
-#include <unistd.h>
+
+#include <Eigen/SVD>
 
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/toml_field.h"
@@ -26,9 +22,29 @@ constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
 // micrometres.
 constexpr double kMaxCoordinate_m = 5.0;
 constexpr double kMinLength_m = 1e-3;
-constexpr double kMin_m_per_count = 1e-8;
-constexpr double kMax_m_per_count = 1e-3;
+// The finest encoder of a SPIDAR has 8 µm, the coarsest 35 µm.
+constexpr double kMin_m_per_count = 1e-6;
+constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
+// Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
+constexpr double kMaxDac_V = 60;
+constexpr int kMinDacBits = 8;
+constexpr int kMaxDacBits = 16;
+// Steps of the D/A in the range of a string, at least: coarser ones are a mistaken unit. Those of
+// the shipped profiles have 280 or more.
+constexpr double kMinSteps = 16;
+// No string of a device for a hand pulls more; the strongest of the shipped profiles have 20 N.
+constexpr double kMaxTension_N = 100;
+// No limit bounds what the strings exert at rest: off the centre about the pull of one of them.
+constexpr double kMaxRest_N = kAnyForce_N;
+// The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
+constexpr double kMinHeating_s = 1;
+constexpr double kMaxHeating_s = 120;
+// What the strings reach in the weakest direction, for one newton of each. Shipped: 1.2 or more.
+constexpr double kMinReach = 0.1;
+// The weakest of six motions, relative to a string that follows it alone. Shipped: 0.2 or more.
+constexpr double kMinStiffness = 0.02;
+constexpr double kMaxResidual_m = 0.05;
 
 void check_length(const TomlField& field, int count) {
   if (field.size() != static_cast<size_t>(count))
@@ -45,6 +61,36 @@ Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
     field.fail("is more than " + shown(kMaxCoordinate_m) +
                " m from the centre; check it and geometry.unit");
   return point_m;
+}
+
+/// The strings must hold the grip: pull it in every direction, and lengthen or shorten with each of
+/// its six motions.
+void check_hold(const TomlField& in, const StringGeometry& geometry) {
+  const TomlField exits = in["exit"];
+  for (size_t i = 0; i < exits.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      if ((geometry.exit_m[i] - geometry.exit_m[k]).norm() < kMinLength_m &&
+          (geometry.grip_m[i] - geometry.grip_m[k]).norm() < kMinLength_m)
+        exits[i].fail("is that of string " + shown(k) +
+                      ", with the same grip point: two strings cannot be in one place");
+  const double radius_m = geometry.grip_radius_m();
+  if (radius_m < kMinLength_m)
+    in["grip"].fail("has all points within " + shown(kMinLength_m) +
+                    " m of the grip's origin: the strings could not turn the grip; check it and "
+                    "geometry.unit");
+  const StructureMatrix W = structure_matrix(geometry, {});
+  const double reach = least_reach(W.topRows<3>(), geometry.count);
+  if (!(reach >= kMinReach))
+    exits.fail("has no string that pulls to one side: with 1 N each, the strings give " +
+               shown(std::max(0.0, reach)) + " N there, must give " + shown(kMinReach) +
+               " N or more; the exits enclose the grip");
+  Eigen::Matrix<double, 6, Eigen::Dynamic> unit = W.leftCols(geometry.count);
+  unit.bottomRows<3>() /= radius_m;
+  const double weakest = Eigen::JacobiSVD<Eigen::MatrixXd>(unit).singularValues()[5];
+  if (!(weakest >= kMinStiffness))
+    in["grip"].fail("leaves a motion of the grip with which no string's length changes (" +
+                    shown(weakest) + ", must be " + shown(kMinStiffness) +
+                    " or more): no pose could be found");
 }
 
 StringGeometry read_geometry(const TomlField& in) {
@@ -69,6 +115,7 @@ StringGeometry read_geometry(const TomlField& in) {
                     " m from its grip point: the string would have no direction; check both and "
                     "geometry.unit");
   }
+  check_hold(in, geometry);
   return geometry;
 }
 
@@ -112,17 +159,31 @@ Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
   return values;
 }
 
-void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double dac_max_V) {
+void check_drive(const TomlField& in, size_t i, const Profile& profile) {
+  const StringDrive& drive = profile.drives[i];
+  const double dac_max_V = profile.dac_max_V;
   const std::string string = "string " + shown(i) + ": ";
   if (!(drive.min_tension_N < drive.max_tension_N))
     in["max_tension_N"].fail(string + shown(drive.max_tension_N) +
                              " N must be above min_tension_N, which is " +
                              shown(drive.min_tension_N) + " N");
+  if (drive.min_tension_N > kMaxRest_N)
+    in["min_tension_N"].fail(string + shown(drive.min_tension_N) + " N must be at most " +
+                             shown(kMaxRest_N) +
+                             " N: at rest the strings pull with it, and no limit bounds that");
+  if (drive.max_tension_N > kMaxTension_N)
+    in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N must be at most " +
+                             shown(kMaxTension_N) + " N; the unit is newtons");
   const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
   if (!(needed_V <= dac_max_V))
     in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N needs " + shown(needed_V) +
                              " V, but dac_max_V is " + shown(dac_max_V) +
                              "; lower it, or correct newtons_per_volt or dac_max_V");
+  const double steps = needed_V / dac_max_V * ((1 << profile.dac_bits) - 1);
+  if (!(steps >= kMinSteps))
+    in["newtons_per_volt"].fail(string + shown(drive.newtons_per_volt) + " N/V leaves " +
+                                shown(steps) + " steps of the D/A for max_tension_N, must leave " +
+                                shown(kMinSteps) + " or more; check it, dac_max_V and dac_bits");
   if (!(drive.min_tension_N <= drive.continuous_tension_N &&
         drive.continuous_tension_N <= drive.max_tension_N))
     in["continuous_tension_N"].fail(string + shown(drive.continuous_tension_N) +
@@ -133,6 +194,10 @@ void check_drive(const TomlField& in, size_t i, const StringDrive& drive, double
     in["metres_per_count"].fail(string + shown(drive.metres_per_count) + " must be from " +
                                 shown(kMin_m_per_count) + " to " + shown(kMax_m_per_count) +
                                 "; the unit is metres");
+  if (drive.heating_time_s < kMinHeating_s || drive.heating_time_s > kMaxHeating_s)
+    in["heating_time_s"].fail(string + shown(drive.heating_time_s) + " must be from " +
+                              shown(kMinHeating_s) + " to " + shown(kMaxHeating_s) +
+                              "; the unit is seconds, of the winding");
 }
 
 void read_strings(const TomlField& in, Profile& profile) {
@@ -161,7 +226,7 @@ void read_strings(const TomlField& in, Profile& profile) {
     drive.motor_sign = motor_sign[i];
     drive.encoder_sign = encoder_sign[i];
     drive.home_offset_m = home_offset_m[i];
-    check_drive(in, i, drive, profile.dac_max_V);
+    check_drive(in, i, profile);
   }
 }
 
@@ -200,18 +265,17 @@ double not_negative(const TomlField& field) {
   return value;
 }
 
-double drive_lag_s(const TomlField& field) {
-  const double lag_s = not_negative(field);
-  if (!(lag_s <= kMaxDriveLag_s))
-    field.fail("is " + shown(lag_s) + ", must be at most " + shown(kMaxDriveLag_s) +
-               "; the unit is seconds");
-  return lag_s;
+double at_most(const TomlField& field, double value, double most, const std::string& unit) {
+  if (!(value <= most))
+    field.fail("is " + shown(value) + ", must be at most " + shown(most) + "; the unit is " + unit);
+  return value;
 }
 
 CalibrationRecord read_calibration(const TomlField& in) {
   in.allow_only({"samples", "residual_m"});
+  const TomlField residual = in["residual_m"];
   return {in["samples"].integer(1, std::numeric_limits<int>::max()),
-          not_negative(in["residual_m"])};
+          at_most(residual, not_negative(residual), kMaxResidual_m, "metres")};
 }
 
 }  // namespace
@@ -229,52 +293,25 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
                    "strings", "calibration", "source"});
   Profile profile;
   profile.name = name;
-  profile.description = root["description"].string();
+  const TomlField description = root["description"];
+  profile.description = description.string();
+  if (std::any_of(profile.description.begin(), profile.description.end(),
+                  [](unsigned char c) { return c < ' '; }))
+    description.fail("has a control character, must be one line");
   profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", "unknown"});
-  profile.dac_bits = root["dac_bits"].integer(8, 24);
-  profile.dac_max_V = root["dac_max_V"].positive();
+  profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
+  const TomlField dac_max = root["dac_max_V"];
+  profile.dac_max_V = at_most(dac_max, dac_max.positive(), kMaxDac_V, "volts");
   profile.drive_lag_known = root.has("drive_lag_s");
-  if (profile.drive_lag_known) profile.drive_lag_s = drive_lag_s(root["drive_lag_s"]);
+  if (profile.drive_lag_known) {
+    const TomlField lag = root["drive_lag_s"];
+    profile.drive_lag_s = at_most(lag, not_negative(lag), kMaxDriveLag_s, "seconds");
+  }
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
   if (root.has("calibration")) profile.calibration = read_calibration(root["calibration"]);
   if (root.has("source")) profile.provenance = read_sources(root["source"]);
   return profile;
-}
-
-namespace {
-
-bool write_all(int file, const std::string& text) {
-  for (size_t done = 0; done < text.size();) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    done += static_cast<size_t>(written);
-  }
-  return fsync(file) == 0;
-}
-
-}  // namespace
-
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-  // Its name does not depend on that of the file, which may be as long as the system allows.
-  const std::string part = file.parent_path() / (".spidar-" + std::to_string(getpid()) + ".part");
-  const auto fail = [&] {
-    throw ProfileError(file.string() + ": cannot be written: " + std::strerror(errno));
-  };
-  struct stat named {};
-  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode) && !S_ISLNK(named.st_mode))
-    throw ProfileError(file.string() + ": cannot be written: it is no regular file");
-  const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (opened < 0) fail();
-  const bool written = write_all(opened, text);
-  int error = written ? 0 : errno;
-  if (close(opened) != 0 && error == 0) error = errno;
-  if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
-  if (error == 0) return;
-  unlink(part.c_str());
-  errno = error;
-  fail();
 }
 
 }  // namespace spidar

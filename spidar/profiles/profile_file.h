@@ -6,18 +6,20 @@
 ///
 ///     description = "…"           one line
 ///     board = "uart"              usb-sh4, usb-simple, uart, ahs, unknown
-///     dac_bits = 12               8 … 24
-///     dac_max_V = 3.3
+///     dac_bits = 12               8 … 16
+///     dac_max_V = 3.3             0 … 60
 ///     [geometry]
 ///     frame = "left-handed"       x right, y up, z away from the user; "right-handed": z towards
 ///     unit = "mm"                 or "m"
-///     exit = [[x, y, z], …]       6 to 8 strings, in the order of the board's channels
+///     exit = [[x, y, z], …]       6 to 8 strings, in the order of the board's channels; they hold
+///                                 the grip from all sides, in all six motions
 ///     grip = [[x, y, z], …]       as many, relative to the grip's origin, grip not turned
 ///     [strings]                   each one number for all strings or an array of one for each
-///     min_tension_N = 0.3
-///     max_tension_N = 6           within newtons_per_volt · dac_max_V
+///     min_tension_N = 0.3         at most 3
+///     max_tension_N = 6           at most 100, within newtons_per_volt · dac_max_V, and 16 steps of
+///                                 the D/A or more
 ///     newtons_per_volt = 12.5     above zero: signs are below
-///     metres_per_count = 2.25e-5  above zero
+///     metres_per_count = 2.25e-5  1e-6 … 1e-4
 ///     motor_sign = [1, …]         an array: 1 where a positive voltage pulls, else -1
 ///     encoder_sign = [1, …]       an array: 1 where the count rises as string is paid out, else -1
 ///     [[source]]                  where numbers are from; any number of these

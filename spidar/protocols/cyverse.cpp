@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/protocols/cyverse.h"
 
+#include <algorithm>
+
 namespace spidar::sh4 {
 namespace {
 
@@ -23,7 +25,8 @@ void encode_update(const DacDigits& digits, Packet& packet) noexcept {
   const MutableBytes bytes(packet);
   bytes.put_u8(0, kUpdateAll);
   bytes.put_u8(1, kBaseAnalyzer);
-  for (size_t i = 0; i < kChannels; ++i) bytes.put_u16(kDigitsAt + 2 * i, digits[i]);
+  for (size_t i = 0; i < kChannels; ++i)
+    bytes.put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
 }
 
 bool decode_update(ByteView packet, DacDigits& digits) noexcept {
@@ -86,7 +89,8 @@ void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
 void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   packet[0] = kSetDac;
-  for (size_t i = 0; i < kChannels; ++i) MutableBytes(packet).put_u16(kDigitsAt + 2 * i, digits[i]);
+  for (size_t i = 0; i < kChannels; ++i)
+    MutableBytes(packet).put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
 }
 
 void encode_latch(Packet& packet) noexcept {

@@ -22,6 +22,8 @@ constexpr uint8_t kEndpointOut = 0x02;
 constexpr uint8_t kEndpointIn = 0x86;
 constexpr size_t kPacketSize = 512;
 constexpr size_t kChannels = 8;
+constexpr int kDacBits = 12;
+constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
 
 using Packet = std::array<uint8_t, kPacketSize>;
@@ -39,7 +41,8 @@ struct Reading {
   int rotary() const noexcept { return inputs >> 4 & 0xF; }
 };
 
-/// The only command: sets the D/A digits and asks for all readings.
+/// The only command: sets the D/A digits, which are clamped to kMaxDigit, and asks for all
+/// readings.
 void encode_update(const DacDigits& digits, Packet& packet) noexcept;
 /// Returns false when it is not that command, or does not have kPacketSize bytes.
 bool decode_update(ByteView packet, DacDigits& digits) noexcept;
@@ -58,6 +61,8 @@ constexpr uint8_t kEndpointOut = 0x02;
 constexpr uint8_t kEndpointIn = 0x86;
 constexpr size_t kPacketSize = 32;
 constexpr size_t kChannels = 8;
+constexpr int kDacBits = 12;
+constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 
 using Packet = std::array<uint8_t, kPacketSize>;
 using DacDigits = std::array<uint16_t, kChannels>;
@@ -77,6 +82,7 @@ struct Reading {
 };
 
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
+/// Digits are clamped to kMaxDigit.
 void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
 void encode_latch(Packet& packet) noexcept;
 

@@ -16,8 +16,10 @@ namespace spidar::uart_motor {
 constexpr int kBaud = 2'000'000;
 constexpr int kMaxBoards = 8;
 constexpr size_t kMaxMotors = 8;
-constexpr double kDigitsPerVolt = 4096.0 / 3.3;
-constexpr int kMaxDigit = 4095;  ///< of either sign
+constexpr int kDacBits = 12;
+constexpr double kDac_V = 3.3;  ///< range of the D/A, of either sign
+constexpr double kDigitsPerVolt = (1 << kDacBits) / kDac_V;
+constexpr int kMaxDigit = (1 << kDacBits) - 1;  ///< of either sign
 constexpr size_t kCommands = 12;
 
 enum class Command : uint8_t {

@@ -34,11 +34,14 @@ void check(const Profile& profile) {
                        drive.max_tension_N > drive.min_tension_N &&
                        drive.max_tension_N <= drive.newtons_per_volt * profile.dac_max_V * 1.001 &&
                        std::isfinite(drive.home_offset_m) && drive.metres_per_count > 0 &&
-                       drive.heating_time_s > 0 && std::abs(drive.motor_sign) == 1 &&
-                       std::abs(drive.encoder_sign) == 1;
+                       drive.heating_time_s >= 1 && drive.heating_time_s <= 120 &&
+                       std::abs(drive.motor_sign) == 1 && std::abs(drive.encoder_sign) == 1;
     if (!sound) fail("a string that cannot be driven");
   }
   if (!(profile.drive_lag_s >= 0)) fail("a lag that is no time");
+  if (profile.dac_bits < 8 || profile.dac_bits > 16) fail("a D/A that no board has");
+  if (!(least_reach(structure_matrix(profile.geometry, {}).topRows<3>(), count) > 0))
+    fail("strings that cannot hold the grip");
 }
 
 void read(const std::string& text) {

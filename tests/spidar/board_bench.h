@@ -59,7 +59,8 @@ struct BoardBench {
   }
 
   const Kind kind;
-  const Profile profile = load_profile("spidar-g6x3-v2-r");
+  /// For the D/A of the boards: up to 9.867 V, or 3.3 V.
+  const Profile profile = load_profile(kind == Kind::kUart ? "spidar-g6x" : "spidar-g6x3-v2-r");
   MotorBench motors;
   RecordedMotors recorded{motors};
   std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>();

@@ -141,7 +141,7 @@ TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
 }
 
 TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
-  const Profile profile = load_profile("spidar-g6x3-v2-r");
+  const Profile profile = load_profile("spidar-g6x");
   for (const std::string spec :
        {"foo", "", "usb:", "sim:", "uart", "uart:", "mouse:", "ff:", "falcon:"}) {
     try {
@@ -188,10 +188,48 @@ TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
   }
 }
 
+/// A driver gets what it is to drive from the profile, but what the board is from its protocol.
+TEST(DeviceFactory, RefusesProfilesOfBoardsThatThereAreNot) {
+  const auto error_of = [](const char* spec, const Profile& profile) -> std::string {
+    try {
+      make_device(spec, profile);
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::vector<const char*> specs{"usb", "sim:sh4", "sim:simple", "uart:/dev/a", "sim:uart"};
+  const Profile fits = load_profile("spidar-g645");  // positive motors
+  for (const char* spec : specs) {
+    const bool is_uart = std::string(spec).find("uart") != std::string::npos;
+    Profile weak = fits;
+    for (StringDrive& drive : weak.drives) drive.max_tension_N = 3.3 * drive.newtons_per_volt;
+    EXPECT_EQ(error_of(spec, weak), "");
+    for (const int bits : {8, 11, 13, 16, 24}) {
+      Profile other = weak;
+      other.dac_bits = bits;
+      EXPECT_NE(error_of(spec, other).find("has dac_bits = " + std::to_string(bits)),
+                std::string::npos)
+          << spec << ": " << error_of(spec, other);
+    }
+    Profile fine = weak;
+    fine.drives[5].metres_per_count = 4.8e-6;
+    EXPECT_NE(error_of(spec, fine).find("metres_per_count = 4.8e-06 for string 5"),
+              std::string::npos)
+        << spec << ": " << error_of(spec, fine);
+    Profile strong = weak;
+    strong.drives[4].max_tension_N = 3.4 * strong.drives[4].newtons_per_volt;
+    EXPECT_EQ(error_of(spec, strong).find("wants 3.4 V for string 4 (max_tension_N)") !=
+                  std::string::npos,
+              is_uart)
+        << spec << ": " << error_of(spec, strong);
+  }
+}
+
 /// The simulated grip moves equally whether volts are passed directly or through packets.
 TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
   for (const char* spec : {"sim", "sim:sh4", "sim:simple", "sim:uart"}) {
-    const Profile profile = load_profile("spidar-g6x3-v2-r");
+    const Profile profile = load_profile("spidar-g6x");
     SessionSettings by_hand;
     by_hand.threaded = false;
     HapticSession session(profile, make_device(spec, profile), by_hand);

@@ -193,6 +193,19 @@ struct Broken {
   std::string at = {};  ///< text on the line that is named; `to` when empty
 };
 
+const std::string kExits =
+    kValid.substr(kValid.find("exit = ["), kValid.find("grip = [") - kValid.find("exit = ["));
+const std::string kGrips =
+    kValid.substr(kValid.find("grip = ["), kValid.find("\n\n[strings]") - kValid.find("grip = ["));
+
+/// The same lines with all points in one place.
+std::string one_exit(std::string exits) {
+  for (const char* point :
+       {"[-60, -61, -62]", "[-60, -61, 62]", "[60, -61, 62]", "[60, -61, -62]", "[-60, 61, 62]"})
+    exits.replace(exits.find(point), std::string(point).size(), "[-60, 61, -62]");
+  return exits;
+}
+
 class BrokenProfile : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenProfile, ErrorNamesFileLineFieldAndRemedy) {
@@ -223,7 +236,13 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"board = \"uart\"", "board = \"usb\"", {"board", "\"usb\"", "usb-sh4", "uart"}},
         Broken{"board = \"uart\"\n", "", {"board", "missing"}, "description"},
         Broken{"description = \"test\"", "description = 3", {"description", "integer", "string"}},
-        Broken{"dac_bits = 12", "dac_bits = 12.5", {"dac_bits", "floating-point", "8 to 24"}},
+        Broken{"dac_bits = 12", "dac_bits = 12.5", {"dac_bits", "floating-point", "8 to 16"}},
+        Broken{"dac_bits = 12", "dac_bits = 24", {"dac_bits", "is 24", "8 to 16"}},
+        Broken{"description = \"test\"",
+               "description = \"two\\nlines\"",
+               {"description", "control character", "one line"}},
+        Broken{
+            "dac_max_V = 3.3", "dac_max_V = 3300", {"dac_max_V", "is 3300", "at most 60", "volts"}},
         Broken{"dac_max_V = 3.3", "dac_max_V = 0", {"dac_max_V", "is 0", "above zero"}},
         Broken{"dac_max_V = 3.3",
                "dac_max_V = 3.3\ndrive_lag_s = 2",
@@ -243,6 +262,56 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"  [60, -61, 62],\n", "", {"geometry.exit", "5 strings", "6 to 8"}, "exit = ["},
         Broken{"[-20, 0, 6]]", "]", {"geometry.grip", "5 entries", "must have 6"}, "grip = ["},
         Broken{"[-60, 61, 62]", "[-20, 0, 6]", {"geometry.exit[5]", "grip point"}},
+        Broken{
+            kExits + kGrips,
+            "exit = [[-60, -61, 62], [60, -61, 62], [60, -61, -62], [-60, 61, -62], [-60, 61, "
+            "62],\n"
+            "[-60.0, -61, 62]]\n"
+            "grip = [[-20, 0, 2], [20, 0, 3], [0, -20, 4], [0, 20, 5], [-20, 0, 6], [-20, 0, 2]]",
+            {"geometry.exit[5]", "string 0", "same grip point"},
+            "[-60.0, -61, 62]"},
+        Broken{
+            kExits, one_exit(kExits), {"geometry.exit", "pulls to one side", "0.1 N"}, "exit = ["},
+        Broken{kGrips,
+               "grip = [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]",
+               {"geometry.grip", "grip's origin", "turn"}},
+        // All on one axis, about which the grip can turn.
+        Broken{kExits + kGrips,
+               "exit = [[-60, -61, -62], [-60, -61, 62], [60, -61, 62], [60, -61, -62],\n"
+               "[-60, 61, -62], [-60, 61, 62], [60, 61, 62], [60, 61, -62]]\n"
+               "grip = [[0, -20, 0], [0, -20, 0], [0, -20, 0], [0, -20, 0],\n"
+               "[0, 20, 0], [0, 20, 0], [0, 20, 0], [0, 20, 0]]",
+               {"geometry.grip", "no string's length changes"},
+               "grip = ["},
+        Broken{"[0.3, 0.3, 0.3, 0.4, 0.3, 0.3]",
+               "[0.3, 0.3, 3.5, 0.4, 0.3, 0.3]",
+               {"strings.min_tension_N", "string 2", "3.5 N", "at most 3 N"}},
+        Broken{"max_tension_N = 6\nnewtons_per_volt = 12.5",
+               "max_tension_N = 600\nnewtons_per_volt = 1250",
+               {"strings.max_tension_N", "600 N", "at most 100 N"},
+               "max_tension_N"},
+        Broken{"newtons_per_volt = 12.5",
+               "newtons_per_volt = 12500",
+               {"strings.newtons_per_volt", "12500", "steps", "16"}},
+        Broken{"metres_per_count = 2.25e-5",
+               "metres_per_count = 2.25e-5\nheating_time_s = 1e300",
+               {"strings.heating_time_s", "1e+300", "1 to 120", "seconds"},
+               "heating_time_s"},
+        Broken{"metres_per_count = 2.25e-5",
+               "metres_per_count = 2.25e-5\nheating_time_s = 0.01",
+               {"strings.heating_time_s", "0.01", "1 to 120"},
+               "heating_time_s"},
+        Broken{"metres_per_count = 2.25e-5",
+               "metres_per_count = 2.25e-5\ncontinuous_tension_N = 7",
+               {"strings.continuous_tension_N", "7 N", "max_tension_N"},
+               "continuous_tension_N"},
+        Broken{"metres_per_count = 2.25e-5",
+               "metres_per_count = 2.25e-7",
+               {"strings.metres_per_count", "2.25e-07", "1e-06 to 0.0001"}},
+        Broken{"[[source]]",
+               "[calibration]\nsamples = 9\nresidual_m = 2.5\n[[source]]",
+               {"calibration.residual_m", "is 2.5", "at most 0.05", "metres"},
+               "residual_m"},
         Broken{"max_tension_N = 6",
                "max_tension_N = 0.35",
                {"strings.max_tension_N", "string 3", "0.35", "min_tension_N", "0.4"}},

@@ -82,6 +82,22 @@ TEST(Sh4, ReadingHasEchoCountersAdcInputsInfo) {
   EXPECT_FALSE(sh4::decode_reading(view(padded(bytes, 513)), reading));
 }
 
+/// Whatever the driver computes: the upper bits of the board's twelve are not its own.
+TEST(Sh4, DigitsBeyondTheDacAreClamped) {
+  constexpr sh4::DacDigits kBeyond{4095, 4096, 5000, 0x1FFF, 0x8000, 0xFFFF, 0xF000, 7};
+  constexpr sh4::DacDigits kClamped{4095, 4095, 4095, 4095, 4095, 4095, 4095, 7};
+  sh4::Packet packet;
+  sh4::encode_update(kBeyond, packet);
+  sh4::DacDigits digits{};
+  ASSERT_TRUE(sh4::decode_update(packet, digits));
+  EXPECT_EQ(digits, kClamped);
+  usb_simple::Packet simple;
+  usb_simple::encode_set_dac(kBeyond, simple);
+  usb_simple::HostPacket said;
+  ASSERT_TRUE(usb_simple::decode_command(simple, said));
+  EXPECT_EQ(said.digits, kClamped);
+}
+
 // --- Simple
 
 TEST(UsbSimple, CommandsAreThoseOfTheFactSheet) {

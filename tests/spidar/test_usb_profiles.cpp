@@ -45,7 +45,7 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
        {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "usb", "uart:/dev/ttyUSB0"}) {
     EXPECT_EQ(board_info(device).profile, "") << device;
     EXPECT_THROW(profile_for(device, ""), NoProfile) << device;
-    EXPECT_EQ(profile_for(device, "spidar-g645").name, "spidar-g645") << device;
+    EXPECT_EQ(profile_for(device, "spidar-g6x").name, "spidar-g6x") << device;
   }
   // The pages list these for the SH4 and the Simple board.
   const std::string of_sh4 = NoProfile(board_info("usb:1-1")).what();
