@@ -226,7 +226,9 @@ GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device) {
 }
 
 bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device, int64_t timeout_ms) {
-  return device->device.wait_until_running(std::chrono::milliseconds(timeout_ms));
+  return gst_spidar::guarded(nullptr, false, [&] {
+    return device->device.wait_until_running(std::chrono::milliseconds(timeout_ms));
+  });
 }
 
 size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text, size_t size) {

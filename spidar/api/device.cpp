@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -45,6 +46,17 @@ spidar::PlaybackClock now_is_now() {
   clock.running_ns = clock.monotonic_ns;
   clock.playing = true;
   return clock;
+}
+
+/// Whether this thread is in a callback: of any device, because two could wait for each other.
+thread_local bool calls_back = false;
+
+/// The haptic thread waits for nobody, and what waits for a callback to end would wait for itself.
+void require_no_callback() {
+  if (calls_back)
+    throw std::logic_error(
+        "not within a callback, which must not wait; return the wrench from it, and do this in "
+        "another thread");
 }
 
 /// What a device gives at most.
@@ -91,6 +103,13 @@ struct __attribute__((visibility("hidden"))) Device::Impl {
     session.loop().set_playback_clock(now_is_now());
   }
 
+  /// One call at a time of those that change anything. Throws std::logic_error within a callback.
+  std::unique_lock<std::mutex> alone() {
+    require_no_callback();
+    return std::unique_lock<std::mutex>(calls);
+  }
+
+  std::mutex calls;
   TouchedSurface surface;  // the loop must not outlive it
   HapticSession session;
   const DeviceRange range;
@@ -108,6 +127,7 @@ bool Device::push(const Wrench& wrench) {
   spidar::TimedWrench entry;
   entry.wrench = from_api(wrench);
   if (!entry.wrench.is_finite()) throw std::invalid_argument("a wrench must be six finite numbers");
+  const auto alone = impl_->alone();
   // The clock may stand still between two calls, but times must rise.
   entry.time_ns = std::max(HapticSession::monotonic_now_ns(), impl_->pushed_ns + 1);
   entry.hold_ns = kHold_ns;
@@ -123,6 +143,10 @@ void Device::set_callback(Callback callback, Energy energy) {
   spidar::WrenchCallback::Function function;
   if (callback) {
     function = [callback = std::move(callback)](const spidar::CallbackInput& input) {
+      struct Flag {
+        Flag() { calls_back = true; }
+        ~Flag() { calls_back = false; }
+      } const flag;
       GripState state;
       state.pose = to_api(input.pose);
       state.velocity_m_s = to_api(input.velocity.linear_m_s);
@@ -132,11 +156,16 @@ void Device::set_callback(Callback callback, Energy energy) {
       return from_api(callback(state));
     };
   }
+  const auto alone = impl_->alone();
   impl_->session.loop().callback().set(
       std::move(function), {energy == Energy::kPassive, impl_->range.surface.drive_lag_s});
 }
 
 std::string Device::callback_error() const {
+  // A callback that runs has no error. The text of one that threw stays as long as no other one is
+  // set.
+  if (calls_back) return {};
+  const std::lock_guard<std::mutex> alone(impl_->calls);
   const spidar::WrenchCallback& callback = impl_->session.loop().callback();
   switch (callback.state()) {
     case spidar::WrenchCallback::State::kThrew:
@@ -155,10 +184,12 @@ void Device::set_limits(double max_force_N, double max_torque_Nm) {
   spidar::SafetyLimits limits;
   limits.max_force_N = max_force_N;
   limits.max_torque_Nm = max_torque_Nm;
+  const auto alone = impl_->alone();
   impl_->session.loop().set_limits(limits);
 }
 
 bool Device::set_surface(const Surface& surface) {
+  const auto alone = impl_->alone();
   return impl_->surface.set(surface, impl_->range.surface, impl_->session.loop());
 }
 
@@ -213,6 +244,7 @@ DeviceState Device::state() const {
 }
 
 bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
+  require_no_callback();
   // Longer ones would overflow the clock.
   constexpr std::chrono::milliseconds kYears = std::chrono::hours(24 * 365 * 100);
   const auto until = std::chrono::steady_clock::now() + std::min(timeout, kYears);

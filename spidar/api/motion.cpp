@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <mutex>
 #include <stdexcept>
 
 #include <gst-spidar/motion.h>
@@ -51,6 +52,7 @@ spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
+  std::mutex calls;  // one at a time
   spidar::MotionAnalyzer analyzer{settings_of({})};
 };
 
@@ -60,6 +62,7 @@ MotionToWrench::MotionToWrench(MotionToWrench&& other) noexcept = default;
 MotionToWrench& MotionToWrench::operator=(MotionToWrench&& other) noexcept = default;
 
 MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::nanoseconds time) {
+  const std::lock_guard<std::mutex> alone(impl_->calls);
   const spidar::Frame& frame = impl_->analyzer.analyze(from_api(picture), time.count());
   MotionResult result;
   result.wrench = to_api(frame.wrench);
@@ -72,10 +75,12 @@ MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::na
 }
 
 void MotionToWrench::restart() {
+  const std::lock_guard<std::mutex> alone(impl_->calls);
   impl_->analyzer.restart();
 }
 
 void MotionToWrench::configure(const MotionSettings& settings) {
+  const std::lock_guard<std::mutex> alone(impl_->calls);
   impl_->analyzer.configure(settings_of(settings));
 }
 

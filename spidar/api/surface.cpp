@@ -65,6 +65,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
     mailbox_ = std::make_unique<spidar::TouchMailbox>(
         2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::TouchMailbox::kLeastSlots);
     loop.connect_touch(mailbox_.get());
+    connected_ = mailbox_.get();
   }
   if (loop.snapshot().last.device == spidar::DeviceState::kLost) return false;
   spidar::TouchFrame* const frame = free_slot();
@@ -81,7 +82,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
 }
 
 void TouchedSurface::clear() noexcept {
-  if (mailbox_) mailbox_->forget();
+  if (spidar::TouchMailbox* const mailbox = connected_) mailbox->forget();
 }
 
 /// The loop frees those of former surfaces in its next tick, unless the device is lost meanwhile.

@@ -3,6 +3,7 @@
 /// The surface that an application lets the grip touch.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include <Eigen/Core>
@@ -22,18 +23,20 @@ struct SurfaceRange {
   double drive_lag_s = 0;
 };
 
-/// One thread at a time. To be destroyed after the loop.
+/// To be destroyed after the loop.
 class TouchedSurface {
  public:
-  /// See Device::set_surface(). The same range and loop each time.
+  /// See Device::set_surface(). The same range and loop each time. One thread at a time.
   bool set(const Surface& surface, const SurfaceRange& range, spidar::HapticLoop& loop);
+  /// Any thread, without waiting.
   void clear() noexcept;
 
  private:
   spidar::TouchFrame* free_slot() noexcept;
 
   spidar::ReliefBuilder builder_;
-  std::unique_ptr<spidar::TouchMailbox> mailbox_;  ///< null before the first surface
+  std::unique_ptr<spidar::TouchMailbox> mailbox_;          ///< null before the first surface
+  std::atomic<spidar::TouchMailbox*> connected_{nullptr};  ///< the same, for clear()
 };
 
 }  // namespace v0

@@ -121,11 +121,48 @@ class Devices(unittest.TestCase):
 
     def test_a_callback_cannot_wait_for_itself(self):
         with Device("sim") as device:
-            for waits in (device.close, lambda: device.set_callback(None)):
+            for waits in (
+                device.close,
+                lambda: device.set_callback(None),
+                lambda: device.push((0, 0, 0)),
+                lambda: device.set_limits(1, 0.1),
+                lambda: device.set_surface(b"\xff" * 256, 16, 16),
+                lambda: device.wait_until_running(3600),
+            ):
                 device.set_callback(lambda grip, waits=waits: waits())
                 self.assertTrue(comes_true(device.callback_error))
                 self.assertIn("RuntimeError: not within a callback", device.callback_error())
             self.assertRaisesRegex(TypeError, "function of a GripState", device.set_callback, 3)
+
+    def test_threads_share_a_device(self):
+        with Device("sim") as device:
+            self.assertTrue(device.wait_until_running(30))
+            raised = []
+
+            def over_and_over(call):
+                try:
+                    for _ in range(100):
+                        call()
+                except Exception as error:
+                    raised.append(error)
+
+            calls = 2 * [
+                lambda: device.set_callback(lambda grip: (0, 0, 0)),
+                lambda: device.set_surface(b"\xff" * 256, 16, 16),
+                device.clear_surface,
+                lambda: device.push((0.5, 0, 0)),
+                lambda: device.set_limits(1, 0.05),
+                device.callback_error,
+            ]
+            threads = [threading.Thread(target=over_and_over, args=(call,)) for call in calls]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(raised, [])
+            device.set_callback(None)
+            device.clear_surface()
+            self.assertTrue(comes_true(lambda: device.push((0.5, 0, 0)) and device.felt().force_N.x > 0.4))
 
     def test_what_is_wrong_is_named(self):
         with self.assertRaisesRegex(RuntimeError, 'unknown device "nosuch"; known are'):

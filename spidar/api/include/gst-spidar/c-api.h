@@ -69,7 +69,7 @@ typedef enum {
   GST_SPIDAR_OPENING = 0, /*!< the strings are being tightened, which takes 0.2 s */
   GST_SPIDAR_RUNNING = 1, /*!< wrenches are felt */
   GST_SPIDAR_IDLE = 2,    /*!< nothing was to be felt for minutes: motors off; a wrench wakes it */
-  GST_SPIDAR_LOST = 3     /*!< does not answer; it is tried again until it does */
+  GST_SPIDAR_LOST = 3     /*!< does not answer; opened again as soon as it does (docs/api.md) */
 } GstSpidarState;
 
 /*! What a device can do. */
@@ -126,8 +126,13 @@ typedef enum {
   GST_SPIDAR_ANY = 1 /*!< no bound but the limits of every wrench */
 } GstSpidarEnergy;
 
-/*! An open device: gst_spidar::Device. What only reads (takes it as const) is for any thread, all
- * else for one thread at a time. */
+/*! An open device: gst_spidar::Device. All functions are for any thread: the library makes the
+ * calls that change something one after another. Only closing is not: nothing else may run on the
+ * device then.
+ *
+ * Within a callback, of this device or another, these fail with GST_SPIDAR_ERROR_FAILED, because
+ * they might wait: push, set_callback, set_limits, set_surface; wait_until_running returns false.
+ */
 typedef struct GstSpidarDevice GstSpidarDevice;
 
 /*! Opens the device called `name`: "sim" is the simulated SPIDAR, "usb" a board on USB, "ff" a
@@ -160,8 +165,7 @@ typedef bool (*GstSpidarCallback)(const GstSpidarGripState* grip, GstSpidarWrenc
  * known, and adds its wrench to what is pushed. It must return within 0.5 ms, and neither allocate,
  * lock nor wait. A wrench that is not finite counts as none. One that returns false, or late twenty
  * times in a row, is not called again; NULL ends the calls. When this returns, the callback before
- * has ended. Not to be called within a callback. False when that fails: the callback before
- * remains. */
+ * has ended. False when that fails: the callback before remains. */
 GST_SPIDAR_API bool gst_spidar_device_set_callback(GstSpidarDevice* device,
                                                    GstSpidarCallback callback, void* user_data,
                                                    GstSpidarEnergy energy, GstSpidarError* error);
@@ -285,7 +289,7 @@ typedef struct {
 } GstSpidarMotionResult;
 
 /*! Measures the motion of a picture and says what is to be felt of it: gst_spidar::MotionToWrench.
- * One thread at a time. */
+ * All functions are for any thread; only freeing is not. */
 typedef struct GstSpidarMotion GstSpidarMotion;
 
 /*! The settings that a motion has at first, to change some of them. */

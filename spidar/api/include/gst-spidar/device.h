@@ -24,7 +24,11 @@ enum class DeviceState {
   kOpening,  ///< the strings are being tightened, which takes 0.2 s
   kRunning,  ///< wrenches are felt
   kIdle,     ///< nothing was to be felt for minutes and the motors are off; a wrench wakes it
-  kLost,     ///< does not answer, for example unplugged; it is tried again until it does
+  /// It does not answer, for example unplugged. It is opened again by itself as soon as it answers,
+  /// and wrenches are felt again. Only a board that was without power while its grip was beside the
+  /// centre stays lost, with "counter jump" as its last_fault(): hold the grip at the centre, close
+  /// the device and open it anew.
+  kLost,
 };
 
 /// What a device can do.
@@ -84,7 +88,11 @@ enum class Energy {
 /// change, and with no new wrench the device ramps to rest. A separate process,
 /// spidar-guardian, zeroes the motors of a real board if this process dies.
 ///
-/// What only reads (is const) is for any thread, all else for one thread at a time.
+/// All functions are for any thread: the library makes the calls that change something one after
+/// another. Moving and destroying the object are not: nothing else may run on it then.
+///
+/// Within a callback, of this device or another, these throw std::logic_error, because they might
+/// wait: push(), set_callback(), set_limits(), set_surface(), wait_until_running().
 class GST_SPIDAR_API Device {
  public:
   /// How long a wrench holds: a program that hangs does not keep pulling.
@@ -124,7 +132,7 @@ class GST_SPIDAR_API Device {
   /// is not called again, and callback_error() says why. An empty one removes the one before. If
   /// one never returns, the guardian sets a real board to rest after 50 ms.
   ///
-  /// When this returns, the callback before has ended. Not to be called within a callback.
+  /// When this returns, the callback before has ended.
   void set_callback(Callback callback, Energy energy = Energy::kPassive);
 
   /// Why the callback is not called any more; empty while it is, and when there is none.
@@ -135,9 +143,9 @@ class GST_SPIDAR_API Device {
 
   /// Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
   /// pushed. From the next millisecond on, what exceeds them falls by 300 N and 10 N m a second.
-  /// Throws std::invalid_argument unless both are finite and not negative, and the profile's strings
-  /// can give them in every direction and about every axis, or they are at most what they are at
-  /// first.
+  /// Throws std::invalid_argument unless both are finite and not negative, and the profile's
+  /// strings can give them in every direction and about every axis, or they are at most what they
+  /// are at first.
   void set_limits(double max_force_N, double max_torque_Nm);
 
   /// Lets the grip touch a surface, until another one or clear_surface(). Its force is added to

@@ -62,7 +62,8 @@ struct MotionResult {
 };
 
 /// Measures the motion of a picture and says what is to be felt of it, with the defaults of the
-/// GStreamer element. One thread at a time.
+/// GStreamer element. All functions are for any thread: the library makes one call after another.
+/// Moving and destroying the object are not.
 class GST_SPIDAR_API MotionToWrench {
  public:
   /// With the settings that a MotionSettings has at first.

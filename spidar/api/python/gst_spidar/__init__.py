@@ -8,6 +8,7 @@
 Needs nothing but the library and Python. What the functions do in detail, and the units, are in the header
 gst-spidar/c-api.h. A wrong argument raises ValueError, all else RuntimeError, with what would be right."""
 
+import threading
 import time
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int64, c_uint32, c_void_p
 
@@ -31,10 +32,11 @@ def list_profiles():
 
 
 class Device(_Handle):
-    """An open device: see list_devices() and list_profiles(). Closing it takes about 60 ms."""
+    """An open device: see list_devices() and list_profiles(). Closing it takes about 60 ms. Any threads may use it;
+    calls that change something run one after another, and those that might wait raise RuntimeError within a callback."""
 
     def __init__(self, name, profile=""):
-        self._callback, self._raised = None, []
+        self._callback, self._raised, self._setting = None, [], threading.Lock()
         super().__init__(_checked("device_open", c_void_p, str(name).encode(), str(profile).encode()), "device_close")
 
     def push(self, force_N=(0, 0, 0), torque_Nm=(0, 0, 0)):
@@ -68,8 +70,9 @@ class Device(_Handle):
                 _in_thread.calls_back = False
 
         callback = _Callback(call) if function else _Callback()
-        self._checked("device_set_callback", c_bool, callback, None, 0 if passive else 1)
-        self._callback, self._raised = callback, raised  # kept while it may be called
+        with self._setting:
+            self._checked("device_set_callback", c_bool, callback, None, 0 if passive else 1)
+            self._callback, self._raised = callback, raised  # kept while it may be called
 
     def callback_error(self):
         """Why the callback is not called any more; empty while it is."""
@@ -125,6 +128,7 @@ class Device(_Handle):
 
     def wait_until_running(self, timeout_s):
         """Until the pose is known; False when the time is over."""
+        _require_no_callback()
         until_s = time.monotonic() + timeout_s
         # In short pieces, so that Ctrl+C ends it.
         while not self._call("device_wait_until_running", c_bool, c_int64(50)):
