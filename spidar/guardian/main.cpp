@@ -36,6 +36,13 @@ using spidar::LastWill;
 constexpr int kRetry_ms = 10;
 constexpr int kTransfer_ms = 20;
 
+/// Whether a file will never take a packet again: its device is gone, or it is none. Of these the
+/// kernel's usbfs gives only ENODEV and ESHUTDOWN; an emulation that this process does not see
+/// gives the others.
+bool is_gone(int error) {
+  return error == ENODEV || error == ESHUTDOWN || error == ENOTTY || error == EBADF;
+}
+
 /// Does nothing if the interface is claimed already. A host that has closed the board has released
 /// it, perhaps to a driver of the kernel, which is detached. Returns errno.
 int claim(const LastWill& will) {
@@ -53,7 +60,7 @@ int claim(const LastWill& will) {
 /// which it has set to zero.
 bool send_usb(LastWill& will) {
   const int error = claim(will);
-  if (error != 0) return error == ENODEV || error == EBUSY;
+  if (error != 0) return is_gone(error) || error == EBUSY;
   for (uint32_t i = 0; i < will.packets; ++i) {
     usbdevfs_bulktransfer transfer{};
     transfer.ep = will.endpoint;
@@ -61,7 +68,7 @@ bool send_usb(LastWill& will) {
     transfer.timeout = kTransfer_ms;
     transfer.data = will.packet[i].data();
     if (ioctl(will.file, USBDEVFS_BULK, &transfer) >= 0) continue;
-    if (errno == ENODEV || errno == ESHUTDOWN) return true;
+    if (is_gone(errno)) return true;
     unsigned endpoint = will.endpoint;
     ioctl(will.file, USBDEVFS_CLEAR_HALT, &endpoint);
     return false;

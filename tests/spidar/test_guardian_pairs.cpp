@@ -320,5 +320,22 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
   clear_bus();
 }
 
+/// A guardian that can never reach its board ends: here, the board is on a bus that the guardian
+/// does not see, and answers as no device does.
+TEST(GuardianPairs, EndsWithItsPlayerWhenItsFileIsNoDevice) {
+  ChildProcess victim({"/proc/self/exe", "--pull", "usb", kUsbProfile},
+                      {"SPIDAR_EMULATED_BUS=sh4"});
+  pid_t guardian = 0;
+  wait_for([&] { return (guardian = guardian_process(victim.id())) != 0 || !victim.lives(); });
+  ASSERT_TRUE(victim.lives());
+  victim.end(SIGKILL);
+  // Its parent is another process now, which may not have taken note of its end yet.
+  wait_for([&] {
+    std::ifstream status("/proc/" + std::to_string(guardian) + "/stat");
+    std::string number, name, state;
+    return !(status >> number >> name >> state) || state == "Z";
+  });
+}
+
 }  // namespace
 }  // namespace spidar::test::guardian_pairs_test
