@@ -131,7 +131,7 @@ double bound_of_blocks_px(double across, int side) {
   std::vector<uint32_t> owners(relative.size());
   for (int i = 0; i < static_cast<int>(owners.size()); ++i) {
     const int columns = field.grid().columns;
-    relative[static_cast<size_t>(i)].has_texture = true;
+    relative[static_cast<size_t>(i)].shows_motion = true;
     owners[static_cast<size_t>(i)] = i % columns < side && i / columns < side;
   }
   ObjectMotion found;

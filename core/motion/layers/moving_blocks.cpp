@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/LU>
 
@@ -35,6 +36,9 @@ constexpr float kSlower = 0.6f;
 /// share of the picture's noise, and a share of the difference that the block's own motion leaves.
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseShare = 0.15f;
+/// The same of a block without texture where no object is known, on the mean: noise and coding may
+/// be in both of the differences.
+constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 
 /// A block that stands out moves if this many around it do: errors seldom lie side by side.
 constexpr int kLeastNeighbours = 3;
@@ -60,6 +64,37 @@ float distance2(const RelativeBlock& relative, const MotionBlock& block,
 
 bool moves_slowly(const RelativeBlock& relative) {
   return std::hypot(relative.x_px, relative.y_px) <= kDifferentPixels_px;
+}
+
+/// By how much worse the background's motion explains a block's pixels than its own motion does, Σ
+/// |now − before|; nothing if it leads too far out of the picture.
+std::optional<int> worse_with_background(const BlockField& field, size_t index,
+                                         const RelativeBlock& relative) {
+  const int with_background = field.difference_if_moved(
+      static_cast<int>(index), relative.background_x_px, relative.background_y_px);
+  if (with_background < 0) return std::nullopt;
+  return with_background - field.blocks()[index].difference;
+}
+
+/// How much worse that must be if a block moves fast.
+float least_worse(const BlockField& field, const MotionBlock& block) {
+  return kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(field.noise_grey2())) +
+         kWorseShare * static_cast<float>(block.difference);
+}
+
+/// Whether the pixels of a block tell its motion from the background's without any texture.
+bool pixels_tell(const BlockField& field, size_t index, const RelativeBlock& relative,
+                 bool expected) {
+  // Both are right to half a pixel.
+  if (std::hypot(relative.x_px, relative.y_px) < kMostOff_px / 2) return false;
+  const float least =
+      expected ? least_worse(field, field.blocks()[index]) : kFarWorse_grey * kBlockArea_px;
+  const std::optional<int> worse = worse_with_background(field, index, relative);
+  return worse && static_cast<float>(*worse) > least;
+}
+
+bool is_expected(const std::vector<uint8_t>& expected, size_t index) {
+  return index < expected.size() && expected[index] != 0;
 }
 
 /// A block of which less was in the previous picture cannot be compared with it.
@@ -99,7 +134,8 @@ void MovingBlocks::reset() {
 }
 
 /// Motion of each block relative to the background.
-void MovingBlocks::compare(const BlockField& field, const Background& background) {
+void MovingBlocks::compare(const BlockField& field, const Background& background,
+                           const std::vector<uint8_t>& expected) {
   const std::vector<MotionBlock>& blocks = field.blocks();
   relative_.resize(blocks.size());
   for (size_t i = 0; i < blocks.size(); ++i) {
@@ -114,7 +150,8 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.background_y_px = moved_px.y();
     relative.x_px = block.moved_x_px - moved_px.x();
     relative.y_px = block.moved_y_px - moved_px.y();
-    relative.has_texture = block.has_texture();
+    relative.shows_motion =
+        block.has_texture() || pixels_tell(field, i, relative, is_expected(expected, i));
     // If less of it was in the picture before, the camera has just brought it into view.
     relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kSeenBefore;
   }
@@ -137,7 +174,7 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
                               const Eigen::Matrix2f& noise_px2, bool expected) const {
   const MotionBlock& block = field.blocks()[index];
   const RelativeBlock& relative = relative_[index];
-  if (!relative.has_texture) return false;
+  if (!relative.shows_motion) return false;
   const float least2 = expected ? kSlower * kSlower * kLeastDistance2 : kLeastDistance2;
   if (distance2(relative, block, noise_px2) < least2) return false;
   if (relative.was_outside) return false;
@@ -149,16 +186,9 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
     const Eigen::Matrix2f depths_px2 = kDepths * parallax_.covariance_px2();
     if (distance2(relative, block, depths_px2) < kLeastDistance2) return false;
   }
-  const int with_background = field.difference_if_moved(
-      static_cast<int>(index), relative.background_x_px, relative.background_y_px);
-  if (with_background < 0) return false;
-  const float worse = static_cast<float>(with_background - block.difference);
-  const float least_worse =
-      expected || is_slow
-          ? 0
-          : kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(field.noise_grey2())) +
-                kWorseShare * static_cast<float>(block.difference);
-  return worse >= least_worse;
+  const std::optional<int> worse = worse_with_background(field, index, relative);
+  if (!worse) return false;
+  return static_cast<float>(*worse) >= (expected || is_slow ? 0 : least_worse(field, block));
 }
 
 void MovingBlocks::leave_out_burned_in(const BlockField& field,
@@ -167,7 +197,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   for (size_t i = 0; i < stands_out_.size(); ++i) {
     if (stands_out_[i] == 0) continue;
     burned_in_.look(field, {i, relative_[i].background_x_px, relative_[i].background_y_px,
-                            moves_slowly(relative_[i]), i < expected.size() && expected[i] != 0});
+                            moves_slowly(relative_[i]), is_expected(expected, i)});
   }
   burned_in_.end(field.grid());
   for (size_t i = 0; i < stands_out_.size(); ++i) {
@@ -240,15 +270,14 @@ void MovingBlocks::remember_motion(const BlockField& field) {
 const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
                                                      const Background& background,
                                                      const std::vector<uint8_t>& expected) {
-  compare(field, background);
+  compare(field, background, expected);
   camera_is_still_ = background.model.kind == ModelKind::kStill;
   if (!camera_is_still_) measure_parallax(field);
   const auto noise_px = static_cast<float>(background.sigma_px);
   const Eigen::Matrix2f noise_px2 = noise_px * noise_px * Eigen::Matrix2f::Identity();
   stands_out_.resize(relative_.size());
   for (size_t i = 0; i < stands_out_.size(); ++i) {
-    const bool is_expected = i < expected.size() && expected[i] != 0;
-    stands_out_[i] = stands_out(field, i, noise_px2, is_expected);
+    stands_out_[i] = stands_out(field, i, noise_px2, is_expected(expected, i));
   }
   leave_out_burned_in(field, expected);
   remember_what_stood_out(field);

@@ -29,19 +29,20 @@ struct RelativeBlock {
   float y_px = 0;
   float background_x_px = 0;  ///< motion of the background at this place
   float background_y_px = 0;
-  bool has_texture = false;  ///< enough to tell how it moves
-  bool was_outside = false;  ///< most of it was outside of the film in the previous picture
-  bool is_covered = false;   ///< something burned in hides the film here, see BurnedIn::covers()
-  bool lasts = false;        ///< has stood out for so long that it moves without any neighbour
-  bool moves = false;        ///< moves by itself, taking its neighbours into account
+  bool shows_motion = false;  ///< its texture, or its pixels, tell how it moves
+  bool was_outside = false;   ///< most of it was outside of the film in the previous picture
+  bool is_covered = false;    ///< something burned in hides the film here, see BurnedIn::covers()
+  bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
+  bool moves = false;         ///< moves by itself, taking its neighbours into account
 };
 
 /// Compares each block with the background. A block moves by itself when its motion is further from
 /// the background's than its own error and the background's noise explain. The background's motion
-/// must also explain the pixels of a fast block clearly worse. They do not tell motions of less
-/// than a pixel apart: a slow block must stand out from the parallax of the scene instead, unless
-/// the camera rests or an object is known there. While the motion of the background is unknown, no
-/// block is known to move by itself. A single block that stands out is an error unless it lasts.
+/// must also explain the pixels of a fast block clearly worse, and far worse if the block has no
+/// texture, as that of something out of focus. They do not tell motions of less than a pixel apart:
+/// a slow block must stand out from the parallax of the scene instead, unless the camera rests or
+/// an object is known there. While the motion of the background is unknown, no block is known to
+/// move by itself. A single block that stands out is an error unless it lasts.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -67,7 +68,8 @@ class MovingBlocks {
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();
   };
 
-  void compare(const BlockField& field, const Background& background);
+  void compare(const BlockField& field, const Background& background,
+               const std::vector<uint8_t>& expected);
   void measure_parallax(const BlockField& field);
   bool stands_out(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
                   bool expected) const;

@@ -38,7 +38,7 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
   MotionBlock sum;
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const RelativeBlock& relative = evidence.relative[i];
-    if (evidence.owners[i] != key || !relative.has_texture) continue;
+    if (evidence.owners[i] != key || !relative.shows_motion) continue;
     const MotionBlock& block = evidence.field.blocks()[i];
     const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
     const Eigen::Vector2d from_px = Eigen::Vector2d(block.x_px, block.y_px) - moved_px;

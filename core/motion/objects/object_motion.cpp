@@ -19,13 +19,13 @@ ObjectMeter::ObjectMeter() {
   collected_.weights.reserve(kMostDisplacements);
 }
 
-/// Collects the textured blocks of an object.
+/// Collects the blocks of an object that show how they move.
 void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   collected_.points.clear();
   const std::vector<MotionBlock>& blocks = evidence.field.blocks();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const RelativeBlock& relative = evidence.relative[i];
-    if (evidence.owners[i] != key || !relative.has_texture) continue;
+    if (evidence.owners[i] != key || !relative.shows_motion) continue;
     if (collected_.points.size() >= kMostDisplacements) break;
     const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
     const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);

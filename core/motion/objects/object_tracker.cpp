@@ -88,10 +88,11 @@ bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
 /// enough for what is left of a known object, and for a new one if it lasts. Where most of a known
 /// object stands still beside it, it comes to rest: the block is its rim.
-bool ObjectTracker::is_enough(const Region& region, const Life* life) const {
+bool ObjectTracker::is_enough(const Region& region, const Life* life,
+                              const BlockField& field) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
-  const bool is_rim = life->is_rim(region) && remains_there(*life, remains_of(*life));
+  const bool is_rim = life->is_rim(region) && remains_there(*life, remains_of(*life, field));
   return !life->is_layer && !is_rim;
 }
 
@@ -121,7 +122,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       // Noise does not move twice in the same way.
       if (back || (life && !life->moves_like(region, frame.interval_s))) life = back;
     }
-    if (!is_enough(region, life)) continue;
+    if (!is_enough(region, life, frame.field)) continue;
     if (!life) {
       region_keys_[k] = create(region);
       continue;
@@ -162,7 +163,7 @@ double ObjectTracker::noise_around(const Life& life) {
   around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == life.key || !block.has_texture || block.was_outside ||
+    if (owners_[i] == life.key || !block.shows_motion || block.was_outside ||
         moving_.burned_in().holds(i)) {
       continue;
     }
@@ -215,12 +216,12 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-ObjectTracker::Remains ObjectTracker::remains_of(const Life& life) const {
+ObjectTracker::Remains ObjectTracker::remains_of(const Life& life, const BlockField& field) const {
   Remains remains;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
     ++remains.blocks;
-    remains.textured += (*relative_)[i].has_texture;
+    remains.found += (*relative_)[i].shows_motion || field.match_of(i) == BlockField::Match::kFound;
   }
   return remains;
 }
@@ -241,8 +242,8 @@ void ObjectTracker::stay(Life& life, const FieldInFrame& frame) {
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
-  const Remains remains = remains_of(life);
-  object.tracks = background_->is_known ? remains.textured : 0;
+  const Remains remains = remains_of(life, frame.field);
+  object.tracks = background_->is_known ? remains.found : 0;
   if (object.tracks > 0 && remains_there(life, remains)) {
     life.turn(State::kRests);
     stay(life, frame);

@@ -62,7 +62,7 @@ class ObjectTracker {
   bool moves(size_t block) const { return (*relative_)[block].moves; }
   /// Whether a block was used to measure the motion of an object in the last frame.
   bool is_measured(size_t block) const {
-    return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].has_texture;
+    return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].shows_motion;
   }
 
   /// Forgets everything, after a cut or a seek.
@@ -78,18 +78,18 @@ class ObjectTracker {
   /// Blocks on which an object was before, and which now do not clearly move by themselves.
   struct Remains {
     int blocks = 0;
-    int textured = 0;  ///< those of them that show how they move
+    int found = 0;  ///< those of them that are found in the picture before, and are not plain
   };
 
   void claim(const FieldInFrame& frame);
   Life* owner_of(int16_t region);
   Life* expected_at(const Region& region, const FieldInFrame& frame);
   static bool remains_there(const Life& life, const Remains& remains);
-  bool is_enough(const Region& region, const Life* life) const;
+  bool is_enough(const Region& region, const Life* life, const BlockField& field) const;
   uint32_t create(const Region& region);
   bool has_vanished(const Life& life, const FieldInFrame& frame) const;
   void observe(Life& life, const FieldInFrame& frame);
-  Remains remains_of(const Life& life) const;
+  Remains remains_of(const Life& life, const BlockField& field) const;
   void stay(Life& life, const FieldInFrame& frame);
   void miss(Life& life, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
