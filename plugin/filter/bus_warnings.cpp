@@ -15,6 +15,7 @@ namespace spidar {
 
 void BusWarnings::start() {
   begin_stream();
+  trace_ = false;
   device_.start();
 }
 
@@ -32,11 +33,16 @@ void BusWarnings::check_bins() {
                        "with ges-launch-1.0 --videosink=\"spidarmotion ! autovideosink\"."));
 }
 
+void BusWarnings::check_trace(int error) {
+  if (error == 0 || trace_) return;
+  trace_ = true;
+  GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
+                      ("The trace can no longer be written: %s.", g_strerror(error)),
+                      ("The video continues without the trace."));
+}
+
 void BusWarnings::check_frame(const FrameReport& report) {
-  if (report.trace_failed) {
-    GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("The trace can no longer be written."),
-                        ("The disk may be full. The video continues without the trace."));
-  }
+  check_trace(report.trace_error);
   const guint bit = 1u << static_cast<guint>(report.problem);
   if (frame_problems_ & bit) return;
   frame_problems_ |= bit;

@@ -28,6 +28,8 @@ class BusWarnings {
   /// Looks at the bins around the element, which may have a running time of their own.
   void check_bins();
   void check_frame(const FrameReport& report);
+  /// Once: the trace cannot be written any more, errno or 0.
+  void check_trace(int error);
   void check_touch(const MotionEngine& engine, const FrameReport& report,
                    const TouchProperties& wanted);
   /// The grip is to point: does the device know where it is?
@@ -39,6 +41,7 @@ class BusWarnings {
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
   guint touch_problems_ = 0;  // bit i: TouchProblem i was said
   bool pointer_ = false;      // said
+  bool trace_ = false;        // said
   DeviceWarnings device_;
 };
 

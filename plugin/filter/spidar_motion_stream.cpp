@@ -291,13 +291,11 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
   GST_DEBUG_OBJECT(self, "stop");
   self->loader->stop();
-  if (!self->engine->stop()) {
-    GST_ELEMENT_WARNING(self, RESOURCE, WRITE, ("The end of the trace could not be written."),
-                        ("Disk full?"));
-  }
+  const spidar::LineWriter::Status trace = self->engine->stop();
   // Reported here, because messages during the change to NULL are discarded.
-  if (self->engine->output().session()) self->engine->output().session()->drain_trace();
-  self->warnings->device().check_haptic_trace(self->engine->output().session());
+  self->warnings->check_trace(trace.error);
+  if (trace.error == 0) spidar::warn_of_missing_rows(GST_ELEMENT(self), "The trace", trace.dropped);
+  self->warnings->device().end_haptic_trace(self->engine->output().session());
   return TRUE;
 }
 

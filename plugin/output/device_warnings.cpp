@@ -69,12 +69,21 @@ void DeviceWarnings::start() {
 }
 
 void DeviceWarnings::check_haptic_trace(const HapticSession* session) {
-  const int error = session ? session->trace_error() : 0;
+  const int error = session ? session->trace_status().error : 0;
   if (error == 0 || haptic_trace_) return;
   haptic_trace_ = true;
   GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
                       ("The haptic trace can no longer be written: %s.", g_strerror(error)),
                       ("%s and the force continue without it.", what_.c_str()));
+}
+
+void DeviceWarnings::end_haptic_trace(HapticSession* session) {
+  if (!session) return;
+  session->drain_trace();
+  check_haptic_trace(session);
+  const TraceStatus status = session->trace_status();
+  if (status.error == 0)
+    warn_of_missing_rows(element_, "The haptic trace", status.lost_rows + status.waiting_rows);
 }
 
 void DeviceWarnings::check_strings(const HapticSession& session) {
@@ -163,6 +172,18 @@ bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
                       ("%s %s continues without it.", text.c_str(), what_.c_str()),
                       ("The device is reopened when it returns."));
   return true;
+}
+
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(element)
+
+void warn_of_missing_rows(GstElement* element, const char* trace, uint64_t rows) {
+  if (rows == 0) return;
+  GST_ELEMENT_WARNING(
+      element, RESOURCE, WRITE,
+      ("%s lacks %" G_GUINT64_FORMAT " rows, which what it is written to did not take in time.",
+       trace, static_cast<guint64>(rows)),
+      ("A reader of a pipe that stands still, or a slow disk or network folder."));
 }
 
 }  // namespace spidar

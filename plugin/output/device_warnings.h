@@ -31,8 +31,10 @@ class DeviceWarnings {
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.
   bool check(const HapticSession* session, OnDeviceError policy);
-  /// Once a device, also at its end: the haptic trace cannot be written any more.
+  /// Once a device: the haptic trace cannot be written any more.
   void check_haptic_trace(const HapticSession* session);
+  /// The stream ends: the same of the last rows of the haptic trace, and how many are missing.
+  void end_haptic_trace(HapticSession* session);
 
  private:
   void check_strings(const HapticSession& session);
@@ -49,5 +51,8 @@ class DeviceWarnings {
   DeviceState state_ = DeviceState::kClosed;
   uint64_t times_lost_ = 0;
 };
+
+/// Warns of rows that are missing in `trace`, "The trace", if there are any.
+void warn_of_missing_rows(GstElement* element, const char* trace, uint64_t rows);
 
 }  // namespace spidar

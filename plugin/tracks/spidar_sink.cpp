@@ -194,8 +194,7 @@ static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->queue->forget();
   // Reported here, because messages during the change to NULL are discarded.
-  if (self->output->session()) self->output->session()->drain_trace();
-  self->warnings->check_haptic_trace(self->output->session());
+  self->warnings->end_haptic_trace(self->output->session());
   return TRUE;
 }
 

@@ -17,7 +17,6 @@
 namespace spidar {
 namespace {
 
-constexpr size_t kFlush_bytes = 1 << 16;
 constexpr size_t kMaxRow_bytes = 2048;  // 49 fields of at most 32 characters
 
 /// Appends fields and the commas between them.
@@ -88,44 +87,35 @@ void append_row(const TickRecord& record, std::string& csv) {
 }
 
 TickTrace::TickTrace(const std::string& path) {
-  std::string reason;
-  file_ = open_own_output(path.c_str(), reason);
-  if (file_ < 0) throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
-  pending_.reserve(kFlush_bytes + kMaxRow_bytes);
-  pending_.append(trace_header()).append("\n");
-}
-
-TickTrace::~TickTrace() {
-  flush();
-  close(file_);
+  const std::string reason = file_.open(path);
+  if (!reason.empty())
+    throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
+  row_.reserve(kMaxRow_bytes);
+  file_.add(trace_header() + "\n");
 }
 
 void TickTrace::add(const TickRecord& record) noexcept {
-  if (record.tick > last_tick_ + 1) status_.lost_rows += record.tick - last_tick_ - 1;
+  if (record.tick > last_tick_ + 1) missing_ticks_ += record.tick - last_tick_ - 1;
   last_tick_ = record.tick;
-  if (status_.error != 0) {
-    ++status_.lost_rows;
-    return;
-  }
-  append_row(record, pending_);
-  ++pending_rows_;
-  if (pending_.size() >= kFlush_bytes) flush();
+  row_.clear();
+  append_row(record, row_);
+  file_.add(row_);
 }
 
 void TickTrace::flush() noexcept {
-  const SigpipeBlock no_sigpipe;
-  size_t written = 0;
-  while (status_.error == 0 && written < pending_.size()) {
-    const ssize_t n = write(file_, pending_.data() + written, pending_.size() - written);
-    if (n >= 0) {
-      written += static_cast<size_t>(n);
-    } else if (errno != EINTR) {
-      status_.error = errno;
-    }
-  }
-  (status_.error == 0 ? status_.rows : status_.lost_rows) += pending_rows_;
-  pending_.clear();
-  pending_rows_ = 0;
+  file_.flush();
+}
+
+TraceStatus TickTrace::status() const noexcept {
+  const LineWriter::Status file = file_.status();
+  TraceStatus status;
+  // The header is the first line: it is written, or dropped.
+  status.rows = file.lines > 0 ? file.lines - 1 : 0;
+  const uint64_t dropped = file.lines > 0 || file.dropped == 0 ? file.dropped : file.dropped - 1;
+  status.lost_rows = missing_ticks_ + dropped;
+  status.waiting_rows = file.waiting;
+  status.error = file.error;
+  return status;
 }
 
 TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
@@ -149,20 +139,33 @@ void TraceThread::run() noexcept {
   std::unique_lock lock(mutex_);
   while (!stop_) {
     wake_.wait_for(lock, std::chrono::milliseconds(50));
-    drain_locked();
+    take_records();
   }
+}
+
+/// With the lock.
+void TraceThread::take_records() noexcept {
+  TickRecord record;
+  while (loop_.pop_record(record)) trace_.add(record);
+  note_status();
+}
+
+void TraceThread::note_status() noexcept {
+  const TraceStatus now = trace_.status();
+  const std::lock_guard lock(status_mutex_);
+  status_ = now;
 }
 
 void TraceThread::drain() noexcept {
   const std::lock_guard lock(mutex_);
-  drain_locked();
+  take_records();
+  trace_.flush();
+  note_status();
 }
 
-void TraceThread::drain_locked() noexcept {
-  TickRecord record;
-  while (loop_.pop_record(record)) trace_.add(record);
-  trace_.flush();
-  error_.store(trace_.status().error, std::memory_order_relaxed);
+TraceStatus TraceThread::status() const noexcept {
+  const std::lock_guard lock(status_mutex_);
+  return status_;
 }
 
 }  // namespace spidar

@@ -3,7 +3,6 @@
 /// The haptic trace: a CSV file with one row for each tick.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -13,6 +12,7 @@
 
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/tick_record.h"
+#include "spidar/realtime/line_writer.h"
 
 namespace spidar {
 
@@ -23,8 +23,9 @@ struct TraceError : std::runtime_error {
 
 /// Progress of a trace.
 struct TraceStatus {
-  uint64_t rows = 0;       ///< handed to the operating system
-  uint64_t lost_rows = 0;  ///< ticks that are missing
+  uint64_t rows = 0;          ///< handed to the operating system
+  uint64_t lost_rows = 0;     ///< ticks that are missing, and rows that were not taken
+  uint64_t waiting_rows = 0;  ///< not taken yet
   /// errno of the write that failed and ended the trace; 0 if there was no error.
   int error = 0;
 };
@@ -37,29 +38,25 @@ std::string trace_header();
 /// means no frame, becomes −1.
 void append_row(const TickRecord& record, std::string& csv);
 
-/// The file. Rows are collected and written by flush(). One thread at a time.
+/// The file. One thread at a time, which does not wait for the file (LineWriter).
 class TickTrace {
  public:
   /// Creates or empties the file. Throws TraceError.
   explicit TickTrace(const std::string& path);
-  /// flush()
-  ~TickTrace();
-  TickTrace(const TickTrace&) = delete;
-  TickTrace& operator=(const TickTrace&) = delete;
 
   void add(const TickRecord& record) noexcept;
 
-  /// A failure ends the trace; later rows are counted as lost.
+  /// Returns when all rows are written, or what they go to stands still.
   void flush() noexcept;
 
-  const TraceStatus& status() const noexcept { return status_; }
+  /// After a failure, which ends the trace, all rows are counted as lost.
+  TraceStatus status() const noexcept;
 
  private:
-  int file_ = -1;
-  std::string pending_;
-  uint64_t pending_rows_ = 0;
+  LineWriter file_;
+  std::string row_;  // its memory is used again
   uint64_t last_tick_ = 0;
-  TraceStatus status_;
+  uint64_t missing_ticks_ = 0;
 };
 
 /// Reads the records of a loop every 50 ms. The loop can store more than four seconds of them.
@@ -71,22 +68,24 @@ class TraceThread {
   /// Writes the remaining records.
   ~TraceThread();
 
-  /// Writes all records so far.
+  /// Writes all records so far, as far as they are taken.
   void drain() noexcept;
 
-  /// TraceStatus::error, without waiting for the file.
-  int error() const noexcept { return error_.load(std::memory_order_relaxed); }
+  /// As of the last time that records were taken; without waiting for the file.
+  TraceStatus status() const noexcept;
 
  private:
   void run() noexcept;
-  void drain_locked() noexcept;
+  void take_records() noexcept;
+  void note_status() noexcept;
 
   HapticLoop& loop_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;
   TickTrace trace_;
-  std::atomic<int> error_{0};
+  mutable std::mutex status_mutex_;
+  TraceStatus status_;
   std::thread thread_;
 };
 

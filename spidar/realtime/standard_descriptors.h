@@ -28,38 +28,71 @@ inline void open_standard_descriptors() {
   if (lowest_free > STDERR_FILENO) close(lowest_free);
 }
 
-/// Opens a file for writing that the user has named, and makes it if it is not there. `flags` are
-/// O_TRUNC or O_APPEND. A link to another file is not followed, so that nobody who may write into
-/// the folder can have that file overwritten; one to a device or pipe, as /dev/stdout may be, is.
-/// Returns the descriptor, or −1 with the reason in errno, ELOOP for such a link.
-inline int open_output(const char* path, int flags) noexcept {
-  const int made = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | flags, 0666);
-  if (made >= 0 || errno != ELOOP) return made;
-  const int followed = open(path, O_WRONLY | O_CLOEXEC);
+/// Whether `descriptor` is the file that the standard output or the standard error is.
+inline bool is_standard_output(int descriptor, int standard) noexcept {
+  struct stat one {
+  }, other{};
+  return fstat(descriptor, &one) == 0 && fstat(standard, &other) == 0 &&
+         one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+/// Of a link: a device or pipe, as /dev/stdout may be; or the file that the standard output or the
+/// standard error goes into, which is continued where that is. −1 with ELOOP in errno for others.
+inline int open_linked_output(const char* path) noexcept {
+  const int followed = open(path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+  if (followed < 0) return -1;
   struct stat status {};
-  if (followed >= 0 && fstat(followed, &status) == 0 && !S_ISREG(status.st_mode)) return followed;
-  if (followed >= 0) close(followed);
-  errno = ELOOP;
-  return -1;
+  if (fstat(followed, &status) == 0 && !S_ISREG(status.st_mode)) return followed;
+  int found = -1;
+  for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) {
+    if (found < 0 && is_standard_output(followed, standard))
+      found = fcntl(standard, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  }
+  close(followed);
+  if (found < 0) errno = ELOOP;
+  return found;
+}
+
+/// Opens a file for writing that the user has named, and makes it if it is not there. `flags` are
+/// O_TRUNC or O_APPEND, and O_NONBLOCK where writing is not to wait either; opening never does. A
+/// link to another file is not followed, so that nobody who may write into the folder can have that
+/// file overwritten; others are (open_linked_output()). Returns the descriptor, or −1 with the
+/// reason in errno: ELOOP for such a link, EPIPE for a pipe that nobody reads.
+inline int open_output(const char* path, int flags) noexcept {
+  int opened = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0666);
+  if (opened < 0 && errno == ELOOP) opened = open_linked_output(path);
+  struct stat status {};
+  if (opened < 0) {
+    const int error = errno;
+    const bool is_pipe = error == ENXIO && stat(path, &status) == 0 && S_ISFIFO(status.st_mode);
+    errno = is_pipe ? EPIPE : error;
+    return -1;
+  }
+  const bool is_own = fstat(opened, &status) == 0 && !S_ISREG(status.st_mode);
+  if (is_own && (flags & O_NONBLOCK) == 0) fcntl(opened, F_SETFL, flags & O_APPEND);
+  return opened;
 }
 
 /// For messages, `error` as open_output() leaves it in errno.
 inline std::string output_reason(int error) {
-  return error == ELOOP ? "it is a link, and what it leads to is not overwritten"
-                        : std::strerror(error);
+  return error == ELOOP   ? "it is a link, and what it leads to is not overwritten"
+         : error == EPIPE ? "it is a pipe that nobody reads; start the reader first"
+                          : std::strerror(error);
 }
 
-/// As open_output(), but the file is emptied and locked until it is closed, so that two traces do
-/// not overwrite each other. Devices and pipes may have several writers, and some network file
-/// systems have no locks. Returns −1 with the reason in words.
+/// As open_output() with O_NONBLOCK, but the file is emptied and locked until it is closed, so that
+/// two traces do not overwrite each other. Devices, pipes and the standard output may have several
+/// writers, and some network file systems have no locks. Returns −1 with the reason in words.
 inline int open_own_output(const char* path, std::string& reason) {
-  const int opened = open_output(path, 0);
+  const int opened = open_output(path, O_NONBLOCK);
   struct stat status {};
   if (opened < 0) {
     reason = output_reason(errno);
     return -1;
   }
   if (fstat(opened, &status) != 0 || !S_ISREG(status.st_mode)) return opened;
+  if (is_standard_output(opened, STDOUT_FILENO) || is_standard_output(opened, STDERR_FILENO))
+    return opened;
   if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     reason = "another element or program is writing it; each needs its own file";
   } else if (ftruncate(opened, 0) != 0) {

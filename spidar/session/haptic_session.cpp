@@ -99,8 +99,8 @@ void HapticSession::drain_trace() noexcept {
   if (impl_->trace) impl_->trace->drain();
 }
 
-int HapticSession::trace_error() const noexcept {
-  return impl_->trace ? impl_->trace->error() : 0;
+TraceStatus HapticSession::trace_status() const noexcept {
+  return impl_->trace ? impl_->trace->status() : TraceStatus();
 }
 
 int64_t HapticSession::monotonic_now_ns() noexcept {

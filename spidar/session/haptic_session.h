@@ -52,8 +52,8 @@ class HapticSession {
   /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
   /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
-  /// See TraceStatus::error; 0 without a trace.
-  int trace_error() const noexcept;
+  /// Of the trace, if there is one. Does not wait for what it is written to.
+  TraceStatus trace_status() const noexcept;
 
   /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;

@@ -4,8 +4,10 @@
 
 import csv
 import errno
+import fcntl
 import math
 import os
+import subprocess
 import time
 import unittest
 
@@ -243,6 +245,56 @@ class Traces(ElementCase):
                 warnings += self.warnings()
             self.assertEqual(len(warnings), 1)
             self.assertIn("can no longer be written", warnings[0])
+
+
+    def test_a_pipe_that_nobody_reads_is_a_warning_and_the_video_goes_on(self):
+        """The reader is not yet there, or has ended. Opening would wait for it for ever."""
+        for properties, name in (("device=none trace=", "p.csv"), ("device=none trace=", "p.jsonl"),
+                                 ("device=sim haptic-trace=", "p.csv")):
+            with self.subTest(properties + name):
+                self.path(name).unlink(missing_ok=True)
+                os.mkfifo(self.path(name), 0o600)
+                self.open(f"{properties}{self.path(name)}", 64, 64)
+                self.push(3)
+                warnings = self.warnings()
+                self.assertEqual(len(warnings), 1)
+                self.assertIn("a pipe that nobody reads", warnings[0])
+
+    def test_a_pipe_whose_reader_stands_still_holds_up_neither_the_video_nor_its_end(self):
+        """More rows than a pipe holds. Their number is told when the stream ends."""
+        for properties, name in (("device=none trace=", "p.csv"), ("device=none trace=", "p.jsonl"),
+                                 ("device=sim haptic-trace=", "p.csv")):
+            with self.subTest(properties + name):
+                self.path(name).unlink(missing_ok=True)
+                os.mkfifo(self.path(name), 0o600)
+                reader = os.open(self.path(name), os.O_RDONLY | os.O_NONBLOCK)
+                fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096)  # the smallest pipe
+                self.open(f"{properties}{self.path(name)}", 64, 64)
+                # A row a frame of at least 40 bytes, or one of at least 100 bytes a millisecond.
+                self.push(200)
+                while "device=sim" in properties and self.stats("ticks")[0] < 200:
+                    self.push(1)
+                self.element.get_parent().set_state(Gst.State.READY)
+                warnings = self.warnings()
+                self.assertEqual(len(warnings), 1)
+                self.assertRegex(warnings[0], "lacks [0-9]+ rows")
+                self.element.get_parent().set_state(Gst.State.NULL)
+                os.close(reader)
+
+    def test_a_player_that_is_terminated_leaves_whole_rows(self):
+        names = ("t.csv", "t.jsonl", "h.csv")
+        for trace in names[:2]:
+            with self.subTest(trace):
+                player = subprocess.Popen(["gst-launch-1.0", "-q", *f"videotestsrc is-live=true ! spidarmotion trace={trace} "
+                                           "haptic-trace=h.csv ! fakesink".split()], cwd=self.folder)
+                files = [self.path(trace), self.path("h.csv")]
+                while not all(file.exists() and file.read_bytes().count(b"\n") > 3 for file in files):
+                    self.assertIsNone(player.poll())
+                    time.sleep(.01)
+                player.terminate()
+                player.wait()
+                for file in files:
+                    self.assertEqual(file.read_bytes()[-1:], b"\n", file)
 
 
 class Stats(ElementCase):

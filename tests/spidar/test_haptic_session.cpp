@@ -156,7 +156,7 @@ TEST(HapticSession, FullDiskDoesNotStopTheLoop) {
   SessionSettings settings;
   settings.trace_path = "/dev/full";
   HapticSession session(profile, make_device("sim", profile), settings);
-  ASSERT_TRUE(wait_for([&] { return session.trace_error() == ENOSPC; }));
+  ASSERT_TRUE(wait_for([&] { return session.trace_status().error == ENOSPC; }));
   const uint64_t ticks = session.loop().snapshot().counters.ticks;
   EXPECT_TRUE(wait_for([&] { return session.loop().snapshot().counters.ticks > ticks; }));
 }

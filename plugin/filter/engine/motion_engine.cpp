@@ -40,7 +40,7 @@ std::string MotionEngine::start(const std::string& trace_path) {
   return trace_path.empty() ? std::string() : trace_.open(trace_path);
 }
 
-bool MotionEngine::stop() {
+LineWriter::Status MotionEngine::stop() {
   flush();
   return trace_.close();
 }
@@ -153,7 +153,7 @@ FrameReport& MotionEngine::process(const PassingFrame& frame) {
   report_.frame.stream_ns = times->stream_ns;
   if (!is_taken) return report_;
   report_.device_limit = no_force_watch_.of_device(output_.snapshot());
-  if (trace_.is_open()) report_.trace_failed = !trace_.write(report_);
+  report_.trace_error = trace_.write(report_);
   if (report_.analyzed) stats_.add(report_.frame, report_.took_ns);
   return report_;
 }

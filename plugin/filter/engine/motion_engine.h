@@ -47,8 +47,8 @@ class MotionEngine {
   void close();
   /// Begins a stream. Empty, or why the trace cannot be written.
   std::string start(const std::string& trace_path);
-  /// Ends it. False when the last rows of the trace could not be written.
-  bool stop();
+  /// Ends it. What became of the rows of the trace.
+  LineWriter::Status stop();
 
   // --- any thread
 

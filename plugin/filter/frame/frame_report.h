@@ -87,7 +87,7 @@ struct FrameReport {
   double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown
   TouchScene touch;
   std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
-  bool trace_failed = false;            ///< the trace could not be written and was closed
+  int trace_error = 0;                  ///< errno of the write that ended the trace, or 0
   // Of the settings with which it was analysed:
   MotionKind motion = MotionKind::kObject;  ///< which motion is felt
   ControllerSettings controller;

@@ -2,16 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/reports/frame_trace.h"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <initializer_list>
 #include <string_view>
 #include <strings.h>
-#include <utility>
 
 #include "core/analysis/analysis_json.h"
-#include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
 namespace {
@@ -41,23 +37,9 @@ std::string FrameTrace::open(const std::string& path) {
   if (!is_json_ && !ends_with(path, ".csv")) {
     return "its name ends neither in .csv nor in .jsonl, which says what to write";
   }
-  std::string reason;
-  const int opened = open_own_output(path.c_str(), reason);
-  if (opened < 0) return reason;
-  file_ = fdopen(opened, "w");
-  if (!file_) {
-    reason = std::strerror(errno);
-    ::close(opened);
-    return reason;
-  }
-  line_ = is_json_ ? "" : kHeader;
-  const SigpipeBlock no_sigpipe;
-  if (!put() || std::fflush(file_) != 0) {
-    reason = std::strerror(errno);
-    close();
-    return reason;
-  }
-  return {};
+  std::string reason = file_.open(path);
+  if (reason.empty() && !is_json_) file_.add(kHeader);
+  return reason;
 }
 
 void FrameTrace::append_csv(const FrameReport& report) {
@@ -77,27 +59,16 @@ void FrameTrace::append_csv(const FrameReport& report) {
   line_.append(nick(report.device_limit)).append("\n");
 }
 
-bool FrameTrace::write(const FrameReport& report) {
+int FrameTrace::write(const FrameReport& report) {
+  if (!file_.is_open()) return 0;
   line_.clear();
   if (is_json_) {
     line_ = json_line(report.frame);
   } else {
     append_csv(report);
   }
-  if (put()) return true;
-  close();
-  return false;
-}
-
-bool FrameTrace::put() {
-  const SigpipeBlock no_sigpipe;
-  return std::fwrite(line_.data(), 1, line_.size(), file_) == line_.size();
-}
-
-bool FrameTrace::close() {
-  if (!file_) return true;
-  const SigpipeBlock no_sigpipe;
-  return std::fclose(std::exchange(file_, nullptr)) == 0;
+  file_.add(line_);
+  return file_.status().error;
 }
 
 }  // namespace spidar

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 
 #include "plugin/filter/frame/frame_report.h"
+#include "spidar/realtime/line_writer.h"
 
 namespace spidar {
 
@@ -16,23 +16,19 @@ namespace spidar {
 /// reading them back needs.
 class FrameTrace {
  public:
-  ~FrameTrace() { close(); }
-
   /// Empty string, or the reason why the file cannot be written.
   std::string open(const std::string& path);
-  bool is_open() const { return file_ != nullptr; }
 
-  /// False when the disk is full or gone: the trace is closed then.
-  bool write(const FrameReport& report);
+  /// Does not wait for the file. errno of the write that ended the trace; 0 if none did.
+  int write(const FrameReport& report);
 
-  /// False when the last rows could not be written.
-  bool close();
+  /// Writes the last rows, as far as they are taken.
+  LineWriter::Status close() { return file_.close(); }
 
  private:
-  bool put();
   void append_csv(const FrameReport& report);
 
-  std::FILE* file_ = nullptr;
+  LineWriter file_;
   bool is_json_ = false;
   std::string line_;  ///< of the frame before: its memory is used again
 };

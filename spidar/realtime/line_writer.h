@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Lines that go into a file, a pipe or a device, whose other end may stand still.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace spidar {
+
+/// Writes lines in a thread of its own, so that whoever adds them does not wait for an other end
+/// that stands still: a reader that has stopped reading, or a network folder. What that does not
+/// take is dropped, in whole lines, and counted. One that is slow loses nothing. Also when the
+/// process is killed, the last line that is there is complete, and what was added more than kPeriod
+/// ago is there.
+///
+/// All methods are called by one thread at a time.
+class LineWriter {
+ public:
+  static constexpr std::chrono::milliseconds kPeriod{50};
+  /// So much may wait: ten seconds of a haptic trace, which has 0.4 MB a second.
+  static constexpr size_t kMostWaiting_bytes = size_t{4} << 20;
+  /// Where nothing was taken for so long, the other end stands still.
+  static constexpr std::chrono::milliseconds kStandstill{500};
+  /// How long a call waits for an other end that is slow.
+  static constexpr std::chrono::milliseconds kLongestWait{5000};
+
+  struct Status {
+    uint64_t lines = 0;    ///< handed to the operating system
+    uint64_t dropped = 0;  ///< because they were not taken, or after an error
+    uint64_t waiting = 0;  ///< not taken yet
+    int error = 0;         ///< errno of the write that failed and ended the output; 0: none
+  };
+
+  LineWriter() = default;
+  /// close()
+  ~LineWriter() { close(); }
+  LineWriter(const LineWriter&) = delete;
+  LineWriter& operator=(const LineWriter&) = delete;
+
+  /// As open_own_output(), with a pipe that nobody reads as an error. Returns empty, or why the
+  /// file cannot be written.
+  std::string open(const std::string& path);
+  bool is_open() const { return output_ != nullptr; }
+
+  /// Whole lines, each with its end. Waits only if more than kMostWaiting_bytes wait, and once for
+  /// each standstill.
+  void add(std::string_view lines);
+  /// Returns when all lines are written, or the other end stands still.
+  void flush();
+  /// flush(); what has not been taken by then is dropped. Where the system does not return from
+  /// writing, the thread is left behind, and ends when it does.
+  Status close();
+
+  /// So far, or until close().
+  Status status() const;
+
+ private:
+  struct Output;
+
+  bool is_stuck();
+  template <typename Condition>
+  void await(Condition condition);
+
+  std::shared_ptr<Output> output_;
+  std::thread thread_;
+  Status last_;  // of the output that was closed
+  bool stuck_ = false;
+  uint64_t stuck_at_ = 0;  // what had been written by then
+};
+
+}  // namespace spidar

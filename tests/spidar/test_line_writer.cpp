@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "spidar/realtime/line_writer.h"
+#include "spidar/realtime/standard_descriptors.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test::line_writer_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kLine = std::string(99, 'x') + "\n";
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+uint64_t lines_in(const std::string& text) {
+  return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// All that comes out of the pipe until nobody writes into it.
+std::string read_all(int pipe) {
+  std::string text;
+  char part[4096];
+  for (ssize_t n = 1; n > 0;) {
+    n = read(pipe, part, sizeof part);
+    if (n > 0) text.append(part, static_cast<size_t>(n));
+  }
+  return text;
+}
+
+class LineWriterPipe : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(mkfifo(path.c_str(), 0600), 0); }
+
+  const TemporaryFolder folder;
+  const std::string path = folder.path / "pipe";
+  LineWriter writer;
+};
+
+TEST_F(LineWriterPipe, WithoutAReaderIsRefusedAtOnce) {
+  EXPECT_NE(writer.open(path).find("a pipe that nobody reads"), std::string::npos);
+  EXPECT_FALSE(writer.is_open());
+  EXPECT_EQ(open_output(path.c_str(), 0), -1) << "would wait for ever";
+}
+
+TEST_F(LineWriterPipe, WhatAReaderThatStandsStillDoesNotTakeIsDroppedAndCounted) {
+  const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_EQ(writer.open(path), "");
+  // Twice what may wait, and what a pipe holds is little beside it. It takes no longer than the
+  // standstill: with a wait for each line this would take hours.
+  const uint64_t lines = 2 * LineWriter::kMostWaiting_bytes / kLine.size();
+  for (uint64_t i = 0; i < lines; ++i) writer.add(kLine);
+  const LineWriter::Status status = writer.close();
+  EXPECT_EQ(status.error, 0);
+  EXPECT_GT(status.dropped, lines / 2);
+  EXPECT_EQ(status.lines + status.dropped, lines);
+  const std::string text = read_all(reader);
+  EXPECT_EQ(lines_in(text), status.lines);
+  EXPECT_EQ(text.size(), status.lines * kLine.size()) << "whole lines";
+  close(reader);
+}
+
+TEST_F(LineWriterPipe, ASlowReaderGetsEveryLine) {
+  const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_EQ(writer.open(path), "");
+  fcntl(reader, F_SETFL, 0);
+  std::string text;
+  std::thread reading([&] {
+    std::this_thread::sleep_for(LineWriter::kPeriod);
+    text = read_all(reader);
+  });
+  const uint64_t lines = 2 * LineWriter::kMostWaiting_bytes / kLine.size();
+  for (uint64_t i = 0; i < lines; ++i) writer.add(kLine);
+  const LineWriter::Status status = writer.close();
+  reading.join();
+  EXPECT_EQ(status.dropped, 0u);
+  EXPECT_EQ(lines_in(text), lines);
+  close(reader);
+}
+
+TEST(LineWriter, AKilledProcessLeavesWholeLines) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / "lines.csv";
+  const pid_t child = fork();
+  if (child == 0) {
+    LineWriter writer;
+    if (!writer.open(path).empty()) _exit(1);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // also when this test is ended
+    while (true) {
+      writer.add(kLine);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  while (!fs::exists(path) || fs::file_size(path) < kLine.size())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGTERM);
+  waitpid(child, nullptr, 0);
+  const std::string text = content(path);
+  EXPECT_EQ(text.back(), '\n');
+}
+
+/// Runs `write` in a process whose standard output is `file`.
+template <typename Write>
+void with_output_into(const fs::path& file, Write write) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int output = open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+    dup2(output, STDOUT_FILENO);
+    _exit(write() ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+TEST(LineWriter, TheStandardOutputIsContinuedWhereItIs) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / "output";
+  for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    SCOPED_TRACE(name);
+    fs::remove(path);
+    with_output_into(path, [name] {
+      bool good = write(STDOUT_FILENO, "printed\n", 8) == 8;
+      LineWriter writer;
+      good = good && writer.open(name).empty();
+      writer.add("a line\n");
+      good = good && writer.close().lines == 1;
+      return good && write(STDOUT_FILENO, "printed\n", 8) == 8;
+    });
+    EXPECT_EQ(content(path), "printed\na line\nprinted\n");
+  }
+}
+
+TEST(LineWriter, ALinkToAnotherFileIsRefused) {
+  const TemporaryFolder folder;
+  const fs::path kept = folder.path / "kept", link = folder.path / "link";
+  std::ofstream(kept) << "as it was\n";
+  fs::create_symlink(kept, link);
+  LineWriter writer;
+  EXPECT_NE(writer.open(link).find("it is a link"), std::string::npos);
+  EXPECT_EQ(content(kept), "as it was\n");
+}
+
+}  // namespace
+}  // namespace spidar::test::line_writer_test
