@@ -27,6 +27,7 @@
 #include "examples/play/report.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/tools/gnuplot.h"
+#include "spidar/tools/command_line.h"
 
 namespace fs = std::filesystem;
 
@@ -249,9 +250,9 @@ int main(int argc, char** argv) {
   try {
     const Options options = parse(app, argc, argv);
     gst_init(nullptr, nullptr);
-    return play(options);
+    return spidar::status_after_printing("play", play(options));
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kMistake;
+    return spidar::status_after_printing("play", app.exit(error) == 0 ? 0 : kMistake);
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kMistake;

@@ -25,6 +25,7 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
+#include "spidar/tools/command_line.h"
 
 namespace fs = std::filesystem;
 using namespace spidar;
@@ -202,9 +203,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     gst_init(nullptr, nullptr);
     touch(image, is_depth, folder);
-    return 0;
+    return spidar::status_after_printing("touch", 0);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kMistake;
+    return spidar::status_after_printing("touch", app.exit(error) == 0 ? 0 : kMistake);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "touch: %s\n", error.what());
     return 1;

@@ -22,6 +22,7 @@
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/tools/command_line.h"
 
 namespace spidar {
 namespace {
@@ -102,11 +103,11 @@ Wish parse(int argc, char** argv) {
   if (argc < 2) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
   if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
     std::fputs(kHelp, stdout);
-    std::exit(0);
+    std::exit(spidar::status_after_printing("spidar-feel", 0));
   }
   if (std::strcmp(argv[1], "--version") == 0) {
     std::puts("spidar-feel " PACKAGE_VERSION);
-    std::exit(0);
+    std::exit(spidar::status_after_printing("spidar-feel", 0));
   }
   int at = 1;
   while (at < argc && argv[at][0] != '-' && std::strchr(argv[at], '='))

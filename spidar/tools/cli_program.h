@@ -40,13 +40,13 @@ inline void check_command(const CLI::App& program, int argc, char** argv) {
 }
 
 /// The exit status of `run`, which parses the command line and may throw. Prints the help, the
-/// version, or what was wrong.
+/// version, or what was wrong, with what is printed itself.
 inline int exit_status_of(const CLI::App& program, const std::function<int()>& run) {
   const std::string name = program.get_name();
   try {
-    return run();
+    return status_after_printing(name, run());
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kDone : kWrongUsage;
+    return status_after_printing(name, program.exit(error) == 0 ? kDone : kWrongUsage);
   } catch (const UsageError& error) {
     std::cerr << name << ": " << error.what() << "; see " << name << " --help\n";
     return kWrongUsage;

@@ -3,6 +3,9 @@
 /// What the command-line programs say when something is wrong, and how they end.
 #pragma once
 
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -20,6 +23,19 @@ class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// The exit status of a program that has printed to the standard output: `status`, or kFailed in the
+/// place of kDone when that has not arrived, on a full disk for example. It says so, unless a reader
+/// has gone that had enough.
+inline int status_after_printing(const std::string& program, int status) {
+  errno = 0;
+  std::cout.flush();
+  std::fflush(stdout);
+  if (std::cout.good() && std::ferror(stdout) == 0) return status;
+  if (errno != EPIPE)
+    std::cerr << program << ": what is printed cannot be written; is the disk full?\n";
+  return status == kDone ? kFailed : status;
+}
 
 /// A number as a person writes it: with up to six digits, without zeros at the end.
 inline std::string shown(double value) {

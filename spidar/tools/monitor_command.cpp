@@ -141,7 +141,7 @@ int monitor(const MonitorOptions& options) {
   if (options.taut) hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s);
   hold.stay(options.seconds, [&](const DeviceReading& reading) {
     monitor.show(reading);
-    return true;
+    return std::cout.good();  // a full disk ends it
   });
   hold.release();
   print_link(chosen.device->health());

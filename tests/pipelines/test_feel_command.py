@@ -36,6 +36,9 @@ class Command(track_case.TrackCase):
                 ("controller=linear max-force=2 -- true", 0, ""), ("--help", 0, "usage: spidar-feel"),
                 ("--version", 0, "spidar-feel ")):
             self.assertIn(said, self.feel(arguments, status))
+        if os.path.exists("/dev/full"):
+            for option in ("--help", "--version"):
+                self.assertIn("what is printed cannot be written", self.feel(option + " > /dev/full", 1))
         self.assertEqual(self.feel("device=none -- printenv SPIDAR_FEEL GST_TRACERS"), "device=none\n\nspidarfeel\n")
         self.assertIn("stats;spidarfeel\n", self.feel("printenv GST_TRACERS", env="GST_TRACERS=stats"))
 
@@ -45,7 +48,7 @@ class Command(track_case.TrackCase):
                 ("device=sim:zzz", 'unknown simulated board "zzz"; known are: sim:sh4, '),
                 ("device=uart:,/dev/ttyUSB0 profile=spidar-g6x4", "a path is empty"),
                 ("profile=nope", 'unknown profile "nope"; known are spidar-g, '),
-                ("profile=nope.toml", "nope.toml: cannot be read: No such file or directory"),
+                ("profile=nope.toml", "nope.toml: it cannot be read: No such file or directory"),
                 ("device=none profile=nope", 'unknown profile "nope"'),
                 ("device=usb", "usb: the motors get no force: no board is plugged in whose profile is"),
                 ("device=usb profile=spidar-gcc", 'usb: profile "spidar-gcc" is for boards of the kind ahs')):

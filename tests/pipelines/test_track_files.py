@@ -70,6 +70,22 @@ class Files(track_case.TrackCase):
                     self.assertIn("film.avi: failed: Could not write to resource.", said)
                 self.assertEqual(self.files(), before)
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
+    def test_what_cannot_be_printed_is_an_error(self):
+        self.make_track()
+        self.make_film()
+        for command in ("--version", "--help", "info a.wav", "info --json a.wav", "check a.wav", "convert a.wav a.ahap",
+                        "record film.avi film.avi"):
+            with self.subTest(command):
+                said = self.run_in_folder(f"{PROGRAM} {command} > /dev/full", status=1)
+                self.assertIn("spidartrack: what is printed cannot be written", said)
+        # A reader that had enough needs no message.
+        reader, writer = os.pipe()
+        os.close(reader)
+        run = subprocess.run([PROGRAM, "check", "a.wav"], cwd=self.folder, stdout=writer, stderr=subprocess.PIPE, check=False)
+        os.close(writer)
+        self.assertEqual((run.returncode, run.stderr), (1, b""))
+
     def test_a_low_limit_of_the_stack_is_enough(self):
         """It is also that of the threads, as 128 KiB are with musl."""
         self.make_film()

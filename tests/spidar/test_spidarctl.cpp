@@ -256,5 +256,18 @@ TEST(Spidarctl, InterruptReleasesTheStrings) {
   expect_contains(outcome.text, "the strings are released");
 }
 
+TEST(Spidarctl, WhatCannotBePrintedIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  // The last one would go on for an hour.
+  for (const char* arguments : {"--version", "--help", "list", "list --json", "info sim",
+                                "monitor sim --seconds 3600", "zero sim"}) {
+    SCOPED_TRACE(arguments);
+    const CommandResult result =
+        run_shell(std::string(SPIDARCTL) + " " + arguments + " 2>&1 >/dev/full");
+    EXPECT_EQ(result.status, 1);
+    expect_contains(result.text, "spidarctl: what is printed cannot be written");
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::spidarctl_test
