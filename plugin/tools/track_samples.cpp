@@ -4,8 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <gst/gst.h>
@@ -18,14 +16,20 @@
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
+#include "spidar/regular_file.h"
 
 namespace spidar {
 namespace {
 
+/// Of HJIF and funscripts: a track of 24 hours has less.
+constexpr size_t kMostText_bytes = size_t{1} << 30;
+
 std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
-  return {std::istreambuf_iterator<char>(file), {}};
+  try {
+    return read_regular_file(path, kMostText_bytes);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
 }
 
 std::vector<TrackSample> samples_of(const TrackFile& track) {

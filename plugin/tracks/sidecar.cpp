@@ -56,16 +56,6 @@ std::string find_before(const std::string& film, std::initializer_list<const cha
   return found == files.begin() || found == files.end() ? std::string() : files.front();
 }
 
-std::ifstream open_regular_file(const std::string& path) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (!fs::exists(status)) throw std::runtime_error("there is no such file");
-  if (!fs::is_regular_file(status)) throw std::runtime_error("it is not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("it cannot be read");
-  return file;
-}
-
 const char* const kOtherPictures =
     "it was recorded from other pictures, or from these before they were encoded anew";
 

@@ -3,7 +3,6 @@
 /// Files that lie beside a film: its haptic track, and the rules of what is felt.
 #pragma once
 
-#include <fstream>
 #include <initializer_list>
 #include <string>
 
@@ -22,10 +21,6 @@ std::string find_beside(const std::string& film, std::initializer_list<const cha
 /// when there is none.
 std::string find_before(const std::string& film, std::initializer_list<const char*> ends,
                         const std::string& file);
-
-/// Throws std::runtime_error, which says what is wrong, when `path` is not a regular file or cannot
-/// be read.
-std::ifstream open_regular_file(const std::string& path);
 
 /// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
 std::string film_of(GstPad* pad);

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "spidar/boards/board_parts.h"
 #include "spidar/boards/falcon_kinematics.h"
+#include "spidar/regular_file.h"
 
 namespace spidar {
 namespace {
@@ -30,14 +29,16 @@ std::string firmware_path() {
 
 std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
   const std::string path = firmware_path();
-  std::error_code not_there;
-  const bool is_file = std::filesystem::is_regular_file(path, not_there);
-  std::ifstream file(path, std::ios::binary);
-  if (!is_file || !file.is_open())
-    throw DeviceError(name + ": has not got its firmware (" + to_string(answer) + "), and " + path +
-                      " cannot be read; SPIDAR_FALCON_FIRMWARE names the file, which is "
+  std::string text;
+  try {
+    text = read_regular_file(path, size_t{1} << 20);
+  } catch (const std::runtime_error& error) {
+    throw DeviceError(name + ": has not got its firmware (" + to_string(answer) + "). " + path +
+                      ": " + error.what() +
+                      "; SPIDAR_FALCON_FIRMWARE names the file, which is "
                       "firmware/nvent_firmware.bin in the sources of libnifalcon");
-  const std::vector<uint8_t> firmware{std::istreambuf_iterator<char>(file), {}};
+  }
+  const std::vector<uint8_t> firmware(text.begin(), text.end());
   if (firmware.empty() || firmware.size() > kMostFirmware)
     throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
                       " bytes and is no firmware of a Falcon, which has some 8 kB");

@@ -3,16 +3,14 @@
 #include "spidar/profiles/profile.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "spidar/install_folder.h"
 #include "spidar/profiles/profile_file.h"
+#include "spidar/regular_file.h"
 
 namespace spidar {
 namespace {
@@ -20,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".toml";
-constexpr std::uintmax_t kMaxFileSize = 1 << 20;  // a profile has a few kilobytes
+constexpr size_t kMost_bytes = 1 << 20;  // a profile has a few kilobytes
 
 std::vector<fs::path> search_path() {
   std::vector<fs::path> folders;
@@ -39,16 +37,12 @@ bool is_path(const std::string& name_or_path) {
 }
 
 Profile read_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (error) throw ProfileError(path.string() + ": cannot be read: " + error.message());
-  if (!fs::is_regular_file(status))
-    throw ProfileError(path.string() + ": not a regular file; a profile is a TOML file");
-  if (fs::file_size(path, error) > kMaxFileSize)
-    throw ProfileError(path.string() + ": larger than a megabyte; a profile is a small TOML file");
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw ProfileError(path.string() + ": cannot be read: " + std::strerror(errno));
+  std::string text;
+  try {
+    text = read_regular_file(path.string(), kMost_bytes);
+  } catch (const std::runtime_error& error) {
+    throw ProfileError(path.string() + ": " + error.what() + "; a profile is a small TOML file");
+  }
   return parse_profile(text, path.string(), path.stem().string());
 }
 

@@ -182,6 +182,8 @@ TEST(Profile, ReportsAPathThatIsNoFile) {
   expect_contains(error_of(missing), missing);
   expect_contains(error_of(missing), "No such file");
   expect_contains(error_of("/dev/zero"), "not a regular file");
+  // A regular file, as far as the system tells.
+  expect_contains(error_of("/proc/self/mem"), "cannot be read: Input/output error");
 }
 
 // One line of the valid file is replaced; the error names the file, this line (or the one given),

@@ -80,10 +80,10 @@ TEST_F(UsbFalcon, GetsItsFirmwareOnceAfterEachPlugIn) {
 TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
   plug_homed(0);
   std::filesystem::remove(path);
-  EXPECT_EQ(opening(*grip()),
-            "falcon: has not got its firmware (time-out), and " + path +
-                " cannot be read; SPIDAR_FALCON_FIRMWARE names the file, which is "
-                "firmware/nvent_firmware.bin in the sources of libnifalcon");
+  EXPECT_EQ(opening(*grip()), "falcon: has not got its firmware (time-out). " + path +
+                                  ": it cannot be read: No such file or directory; "
+                                  "SPIDAR_FALCON_FIRMWARE names the file, which is "
+                                  "firmware/nvent_firmware.bin in the sources of libnifalcon");
   write_firmware(100'000);
   EXPECT_EQ(opening(*grip()), "falcon: " + path +
                                   " has 100000 bytes and is no firmware of a Falcon, which has "
@@ -91,7 +91,7 @@ TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
   write_firmware(0);
   EXPECT_NE(opening(*grip()).find("is no firmware of a Falcon"), std::string::npos);
   setenv("SPIDAR_FALCON_FIRMWARE", "/tmp", 1);
-  EXPECT_NE(opening(*grip()).find("/tmp cannot be read"), std::string::npos);
+  EXPECT_NE(opening(*grip()).find("/tmp: it is not a regular file"), std::string::npos);
   unsetenv("SPIDAR_FALCON_FIRMWARE");
   setenv("HOME", "/no/such/home", 1);
   EXPECT_NE(opening(*grip()).find("/no/such/home/.local/share/gst-spidar/novint-falcon.bin"),

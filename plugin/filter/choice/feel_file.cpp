@@ -3,14 +3,13 @@
 #include "plugin/filter/choice/feel_file.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
+#include "spidar/regular_file.h"
 
 namespace spidar {
 
@@ -19,22 +18,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Far more than a person writes.
-constexpr uintmax_t kLargest_bytes = 1 << 20;
+constexpr size_t kLargest_bytes = 1 << 20;
 
 std::string read_rules_text(const std::string& path) {
-  std::ifstream file;
   try {
-    file = open_regular_file(path);
+    return read_regular_file(path, kLargest_bytes);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
-  std::error_code ignored;
-  if (fs::file_size(path, ignored) > kLargest_bytes) {
-    throw std::runtime_error(path + ": it has more than a megabyte, and is no file of rules");
-  }
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw std::runtime_error(path + ": it cannot be read");
-  return text;
 }
 
 /// As it is saved.
