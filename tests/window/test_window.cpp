@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Debug windows on an X server of the test: opened, used, closed, and everything that can go wrong.
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "spidar/profiles/profile.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
@@ -51,6 +53,33 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
   source->wait_until_closed();
   EXPECT_NE(window.take_picture("/dev/null", kLong), "");
   EXPECT_TRUE(source->warnings().empty());
+}
+
+/// A window manager may choose any size, and a film may be as narrow as one line of the window.
+TEST_F(WindowTest, AnySizeIsDrawn) {
+  ElementState state;
+  DeviceView& device = state.device.emplace();
+  device.name = "sim";
+  device.geometry = load_profile("spidar-g").geometry;
+  device.last.device = DeviceState::kRunning;
+  device.last.delivered.force_N = {1, 1, 0};
+  const auto source = std::make_shared<FakeSource>(state);
+  Window window(source);
+  FrameReport report;
+  report.controller.max_force_N = 3;
+  report.frame.wrench.force_N = {1, 1, 0};
+  give(window, report);
+  constexpr std::array<double, 8> kSides{1, 2, 10, 47, 99, 100, 130, 700};
+  for (const double width : kSides) {
+    for (const double height : kSides) {
+      SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
+      UserInput input;
+      input.size_px = Eigen::Vector2d(width, height);
+      window.input(input);
+      ASSERT_EQ(window.take_picture("/dev/null", kLong), "");
+      ASSERT_TRUE(source->warnings().empty());
+    }
+  }
 }
 
 TEST_F(WindowTest, SSavesAPicture) {

@@ -147,6 +147,8 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   if (last.faulty_string >= 0)
     note += ", string " + std::to_string(last.faulty_string) + " at fault";
   const Rect content = draw_panel(brush, panel, "Grip", note);
+  // Lengths in a panel without room are zero, and are divided by.
+  if (content.width <= 0 || content.height <= 0) return;
   brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
   const GripProjection project(content, device.geometry);
   const GripView view{brush, project, last.pose, device.geometry.grip_radius_m()};
