@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 
 #include <gst-spidar/device.h>
@@ -28,10 +29,17 @@ namespace {
 
 using spidar::HapticSession;
 
+constexpr const char* kOtherProcess =
+    "the device was opened by the process that this one is a copy of (fork): open it in this one";
+
 constexpr int64_t kHold_ns = std::chrono::nanoseconds(Device::kHold).count();
 static_assert(kHold_ns <= spidar::WrenchTimeline::kLongestHold_ns, "longer than any frame is held");
 
 spidar::Profile profile_for(const std::string& device, const std::string& profile) {
+  for (const std::string& name : {device, profile})
+    if (name.find('\0') != std::string::npos)
+      throw std::invalid_argument("a name has a NUL in it, behind \"" + std::string(name.c_str()) +
+                                  "\"");
   if (device == "none") throw std::runtime_error("\"none\" is no device that can be opened");
   spidar::Profile found = spidar::profile_for(device, profile);
   // That of its own drives.
@@ -103,12 +111,17 @@ struct __attribute__((visibility("hidden"))) Device::Impl {
     session.loop().set_playback_clock(now_is_now());
   }
 
-  /// One call at a time of those that change anything. Throws std::logic_error within a callback.
+  /// One call at a time of those that change anything. Throws std::logic_error within a callback,
+  /// and std::runtime_error in a child that has a copy of this by fork().
   std::unique_lock<std::mutex> alone() {
     require_no_callback();
+    if (is_copy()) throw std::runtime_error(kOtherProcess);
     return std::unique_lock<std::mutex>(calls);
   }
+  /// After fork(), the child has a copy of this without the thread that drives the device.
+  bool is_copy() const { return getpid() != owner; }
 
+  const pid_t owner = getpid();
   std::mutex calls;
   TouchedSurface surface;  // the loop must not outlive it
   HapticSession session;
@@ -119,9 +132,18 @@ struct __attribute__((visibility("hidden"))) Device::Impl {
 Device::Device(const std::string& name, const std::string& profile)
     : impl_(std::make_unique<Impl>(name, profile_for(name, profile))) {}
 
-Device::~Device() = default;
+Device::~Device() {
+  // The device is that of the parent, and there is no thread to wait for.
+  if (impl_ && impl_->is_copy()) static_cast<void>(impl_.release());
+}
+
 Device::Device(Device&& other) noexcept = default;
-Device& Device::operator=(Device&& other) noexcept = default;
+
+Device& Device::operator=(Device&& other) noexcept {
+  Device taken(std::move(other));
+  std::swap(impl_, taken.impl_);
+  return *this;
+}
 
 bool Device::push(const Wrench& wrench) {
   spidar::TimedWrench entry;
@@ -231,6 +253,7 @@ Wrench Device::felt() const {
 }
 
 DeviceState Device::state() const {
+  if (impl_->is_copy()) return DeviceState::kLost;
   switch (impl_->session.loop().snapshot().last.device) {
     case spidar::DeviceState::kLost:
       return DeviceState::kLost;
@@ -256,6 +279,7 @@ bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
 }
 
 std::string Device::last_fault() const {
+  if (impl_->is_copy()) return kOtherProcess;
   const spidar::LinkFault fault = impl_->session.grip().health().last_fault;
   return fault == spidar::LinkFault::kNone ? "" : to_string(fault);
 }

@@ -8,6 +8,7 @@ check_python.py EXAMPLES    EXAMPLES is the folder; PYTHONPATH and LD_LIBRARY_PA
 import array
 import gc
 import math
+import os
 import re
 import subprocess
 import sys
@@ -186,6 +187,26 @@ class Devices(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "it is closed; make another one"):
             device.push((1, 0, 0))
         device.close()  # again
+
+    def test_a_name_that_c_would_cut_is_refused(self):
+        for names in (("sim\0x",), ("sim", "spidar-g\0.toml")):
+            with self.assertRaisesRegex(ValueError, "has a NUL in it"):
+                Device(*names)
+
+    def test_a_forked_process_is_told_that_it_has_no_device(self):
+        with Device("sim") as device:
+            self.assertTrue(device.wait_until_running(30))
+            child = os.fork()
+            if child == 0:
+                try:
+                    device.push((1, 0, 0))
+                except RuntimeError as error:
+                    is_told = "fork" in str(error) and device.state() == State.LOST
+                    device.close()  # and does not wait for a thread that it has not
+                    os._exit(0 if is_told else 1)
+                os._exit(2)
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
+            self.assertTrue(device.push((1, 0, 0)), "the parent has it still")
 
     def test_two_devices(self):
         with Device("sim") as first, Device("sim:sh4") as second:

@@ -308,6 +308,11 @@ TEST(Device, WhatIsWrongIsNamed) {
                std::invalid_argument);
 }
 
+TEST(Device, ANameThatCWouldCutIsRefused) {
+  EXPECT_THROW(gst_spidar::Device(std::string("sim\0x", 5)), std::invalid_argument);
+  EXPECT_THROW(gst_spidar::Device("sim", std::string("spidar-g\0x", 10)), std::invalid_argument);
+}
+
 TEST(Device, NamesAreListed) {
   bool has_sim = false;
   for (const std::string& name : list_devices()) has_sim |= name == "sim";

@@ -132,6 +132,8 @@ typedef enum {
  *
  * Within a callback, of this device or another, these fail with GST_SPIDAR_ERROR_FAILED, because
  * they might wait: push, set_callback, set_limits, set_surface; wait_until_running returns false.
+ *
+ * After fork(), the device stays with the parent: in the child it is lost.
  */
 typedef struct GstSpidarDevice GstSpidarDevice;
 

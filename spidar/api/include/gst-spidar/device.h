@@ -93,6 +93,9 @@ enum class Energy {
 ///
 /// Within a callback, of this device or another, these throw std::logic_error, because they might
 /// wait: push(), set_callback(), set_limits(), set_surface(), wait_until_running().
+///
+/// After fork(), the device stays with the parent: in the child it is kLost, and what would change
+/// it throws std::runtime_error.
 class GST_SPIDAR_API Device {
  public:
   /// How long a wrench holds: a program that hangs does not keep pulling.

@@ -15,7 +15,7 @@ from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int64, c_uint32, 
 from gst_spidar._library import Capabilities, Controller, FeltMotion, GripState, MotionResult, MotionSettings, Pose
 from gst_spidar._library import Quaternion, State, Vector3, Wrench
 from gst_spidar._library import _call, _Callback, _checked, _grey, _Handle, _in_thread, _names, _require_no_callback, _Surface
-from gst_spidar._library import _vector
+from gst_spidar._library import _text, _vector
 
 __all__ = """Capabilities Controller Device FeltMotion GripState MotionResult MotionToWrench Pose Quaternion State Vector3
     Wrench list_devices list_profiles""".split()
@@ -37,7 +37,8 @@ class Device(_Handle):
 
     def __init__(self, name, profile=""):
         self._callback, self._raised, self._setting = None, [], threading.Lock()
-        super().__init__(_checked("device_open", c_void_p, str(name).encode(), str(profile).encode()), "device_close")
+        names = _text(name, "the name of a device"), _text(profile, "the name of a profile")
+        super().__init__(_checked("device_open", c_void_p, *names), "device_close")
 
     def push(self, force_N=(0, 0, 0), torque_Nm=(0, 0, 0)):
         """The wrench from now on, for 100 ms or until the next call. False while the device takes none."""

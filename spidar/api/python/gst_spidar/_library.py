@@ -106,6 +106,14 @@ def _checked(name, result, *arguments):
     return found
 
 
+def _text(text, what):
+    """As C takes it, which would take what is before a NUL for the whole."""
+    encoded = str(text).encode()
+    if b"\0" in encoded:
+        raise ValueError(f"{what} has a NUL in it: {text!r}")
+    return encoded
+
+
 def _names(name):
     names = _checked(name, POINTER(c_char_p))
     found = list(itertools.takewhile(lambda text: text is not None, (names[i] for i in itertools.count())))
