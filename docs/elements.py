@@ -215,7 +215,7 @@ def observed(fields):
         still, unfelt = play("videotestsrc num-buffers=5 pattern=black ! spidarmotion name=m ! fakesink sync=true")
         messages, stats = messages | more | still, stats | touching | unfelt
         track = "audiotestsrc num-buffers=2 wave=silence ! audio/x-raw,format=F32LE,rate=1000,channels=6,channel-mask=(bitmask)0x3f"
-        _, track_stats = play(f"{track} ! spidarsink name=m")
+        _, track_stats = play(f"{track} ! spidarsink accept-unmarked=true name=m")
         header = Path(csv).read_text(encoding="utf-8").split("\n")[0].split(",")
         tick_header = Path(ticks).read_text(encoding="utf-8").split("\n")[0].split(",")
         objects = [json.loads(line) for line in Path(lines).read_text(encoding="utf-8").splitlines()]

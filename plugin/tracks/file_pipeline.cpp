@@ -6,10 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/track/track_format.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/tracks/track_input.h"
+#include "plugin/tracks/track_mark.h"
 
 namespace spidar {
 namespace {
@@ -142,12 +141,13 @@ StreamKind kind_of(const GstCaps* caps) {
   const std::string name = gst_structure_get_name(structure);
   if (name.rfind("video/", 0) == 0 || name.rfind("image/", 0) == 0) return StreamKind::kVideo;
   if (name.rfind("audio/", 0) != 0) return StreamKind::kOther;
-  int channels = 0, rate_Hz = 0;
-  gst_structure_get_int(structure, "channels", &channels);
-  gst_structure_get_int(structure, "rate", &rate_Hz);
-  const bool haptic = channels == static_cast<int>(kTrackChannels) && rate_Hz > 0 &&
-                      rate_Hz <= TrackInput::kHighestRate_Hz;
-  return haptic ? StreamKind::kHapticTrack : StreamKind::kSound;
+  return has_form_of_track(caps) ? StreamKind::kHapticTrack : StreamKind::kSound;
+}
+
+StreamKind kind_of(GstPad* pad) {
+  const Ref<GstCaps> caps(caps_of(pad));
+  const StreamKind kind = kind_of(caps.get());
+  return kind == StreamKind::kSound && is_marked(pad) ? StreamKind::kHapticTrack : kind;
 }
 
 std::string why_missing(GstElement* bin) {

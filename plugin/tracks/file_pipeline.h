@@ -66,12 +66,14 @@ std::string seconds_text(int64_t ns);
 enum class StreamKind {
   kVideo,
   kSound,        ///< for ears
-  kHapticTrack,  ///< six channels, at a rate that no sound has
+  kHapticTrack,  ///< of the form of one (has_form_of_track()), or marked as one (is_marked())
   kOther,
 };
 
 /// Of the caps of a parsed or decoded stream.
 StreamKind kind_of(const GstCaps* caps);
+/// Of the stream at a pad, by its caps and by the tags that have come to it.
+StreamKind kind_of(GstPad* pad);
 
 /// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
 /// unless there is a known reason.

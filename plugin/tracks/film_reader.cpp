@@ -209,8 +209,7 @@ class FilmReader {
 
   /// Whether it is a track is known before it flows, or not earlier.
   StreamKind kind_of_stream(GstPad* pad) {
-    const Ref<GstCaps> caps(caps_of(pad));
-    const StreamKind kind = kind_of(caps.get());
+    const StreamKind kind = kind_of(pad);
     const std::lock_guard<std::mutex> lock(mutex_);
     film_.has_track = film_.has_track || kind == StreamKind::kHapticTrack;
     return kind;

@@ -16,6 +16,7 @@ struct SinkProperties {
   double max_force_N = 3;
   double gain = 1;
   bool mute = false;
+  bool accept_unmarked = false;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   std::string haptic_trace;
 };
@@ -44,6 +45,11 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
            "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
            "property is set to false"},
           kControllable, KEPT_IN(mute)),
+      SinkRow::on_off(
+          {"accept-unmarked", "Accept unmarked",
+           "Feel sound of six channels that nothing marks as a haptic track. Tracks that "
+           "spidarextract and spidartrack make are marked by a tag; other sound is not felt"},
+          kReady, KEPT_IN(accept_unmarked)),
       on_device_error_row<SinkProperties>(),
       haptic_trace_row<SinkProperties>(),
       SinkRow::statistics({"stats", "Statistics",

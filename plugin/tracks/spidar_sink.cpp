@@ -9,6 +9,9 @@
  * y, z and torque x, y, z, of which 1.0 is 10 N or 1 N m. F32, S16, S24 or S32, from 200 to 8000
  * samples a second; channel-mask 0 or 0x3f.
  *
+ * A player may convert any sound to this: a stream is felt only if a tag of it marks it as a haptic
+ * track, HAPTIC_FULL_SCALE, or with #GstSpidarSink:accept-unmarked. Else a warning says so.
+ *
  * A sample is felt when a video sink shows the frame of the same running time: at base time +
  * running time + pipeline latency + #GstBaseSink:ts-offset. Between two samples the force is
  * interpolated. The safety chain is that of spidarmotion. Before PLAYING, in PAUSED, and from 50 ms
@@ -33,6 +36,7 @@
 #include "plugin/tracks/sink_properties.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
+#include "plugin/tracks/track_mark.h"
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT
@@ -52,10 +56,12 @@ struct _GstSpidarSink {
   SinkProperties* properties;  // object lock
   spidar::TrackFaults faults;  // object lock; of the stream so far
   guint64 samples;             // object lock
+  gint wants_no_sync;          // atomic: sync=false was set, which has no effect
   BlockQueue* queue;
   HapticOutput* output;
   // Streaming thread.
   spidar::TrackInput* input;
+  bool is_marked;  // the stream, as a haptic track
   spidar::DeviceWarnings* warnings;
   spidar::TrackWarnings* track_warnings;
 };
@@ -124,14 +130,15 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   GST_OBJECT_LOCK(self);
   const double gain = self->properties->gain;
+  const bool is_felt = self->is_marked || self->properties->accept_unmarked;
   const spidar::OnDeviceError policy = self->properties->on_device_error;
   GST_OBJECT_UNLOCK(self);
   const guint64 samples_before = self->input->samples();
   const GstFlowReturn flow = self->input->read(
-      buffer, sink->segment, gain, [self, buffer](const spidar::TrackBlock& block) {
+      buffer, sink->segment, gain, [self, buffer, is_felt](const spidar::TrackBlock& block) {
         const GstFlowReturn waited =
             wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
-        if (waited == GST_FLOW_OK) self->queue->add(block);
+        if (waited == GST_FLOW_OK && is_felt) self->queue->add(block);
         return waited;
       });
   const bool has_time =
@@ -141,7 +148,9 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   self->faults = self->input->faults();
   self->samples = self->input->samples();
   GST_OBJECT_UNLOCK(self);
-  self->track_warnings->check(self->input->faults(), has_time);
+  if (g_atomic_int_exchange(&self->wants_no_sync, FALSE)) self->track_warnings->tell_of_sync();
+  if (is_felt) self->track_warnings->check(self->input->faults(), has_time);
+  if (!is_felt) self->track_warnings->tell_of_mark();
   if (!self->warnings->check(self->output->session(), policy)) return GST_FLOW_ERROR;
   return flow;
 }
@@ -157,6 +166,7 @@ static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* eve
 
 static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
+  spidar::follow_mark(event, self->is_marked);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       self->queue->forget();
@@ -180,6 +190,13 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
       break;
   }
   return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->event(sink, event);
+}
+
+/// Without `sync` the base class does not wait, and the whole track would be over at once.
+static void keep_sync(GstSpidarSink* self) {
+  if (gst_base_sink_get_sync(GST_BASE_SINK(self))) return;
+  gst_base_sink_set_sync(GST_BASE_SINK(self), TRUE);
+  g_atomic_int_set(&self->wants_no_sync, TRUE);
 }
 
 static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
@@ -304,6 +321,7 @@ static void gst_spidar_sink_init(GstSpidarSink* self) {
   self->input = new spidar::TrackInput;
   self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
   self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
+  g_signal_connect(self, "notify::sync", G_CALLBACK(keep_sync), nullptr);
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }
 

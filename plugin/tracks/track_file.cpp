@@ -15,19 +15,20 @@
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
+#include "plugin/tracks/track_mark.h"
 
 namespace spidar {
 namespace {
 
 constexpr const char* kDescription =
     "Wrench on the grip: fx fy fz tx ty tz; x right, y up, z towards the viewer. Full scale is 10 "
-    "N and 1 N m.\nHAPTIC_FULL_SCALE=10 N, 1 N m";
+    "N and 1 N m.\n";
 // Lines of the comment after the description.
 constexpr const char* kFilm = "HAPTIC_FILM=";
 constexpr const char* kSettings = "HAPTIC_SETTINGS=";
 
 std::string comment_of(const TrackNotes& notes) {
-  std::string comment = kDescription;
+  std::string comment = std::string(kDescription) + kTrackMark;
   if (!notes.film.empty()) comment += std::string("\n") + kFilm + to_text(notes.film);
   if (notes.settings) comment += std::string("\n") + kSettings + *notes.settings;
   return comment;
@@ -59,7 +60,7 @@ GstPadProbeReturn replace_tags(GstPad* pad, GstPadProbeInfo* info, gpointer user
 GstTagList* track_tags(const TrackNotes& notes) {
   GstTagList* tags =
       gst_tag_list_new(GST_TAG_TITLE, "Haptic track", GST_TAG_COMMENT, comment_of(notes).c_str(),
-                       GST_TAG_EXTENDED_COMMENT, "HAPTIC_FULL_SCALE=10 N, 1 N m", nullptr);
+                       GST_TAG_EXTENDED_COMMENT, kTrackMark, nullptr);
   gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);
   return tags;
 }
@@ -135,8 +136,7 @@ std::string unparsed_type(GstPad* pad) {
 
 /// The first stream that is wanted is decoded, and all others are ignored.
 GstElement* take_stream(Reading& reading, GstPad* pad) {
-  const Ref<GstCaps> caps(caps_of(pad));
-  const StreamKind kind = kind_of(caps.get());
+  const StreamKind kind = kind_of(pad);
   if (kind == StreamKind::kSound) reading.has_sound = true;
   if (!is_wanted(reading, kind)) return nullptr;
   reading.is_chosen = true;
@@ -161,12 +161,24 @@ void add_stream(GstElement*, GstPad* pad, gpointer user) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, count_end, user, nullptr);
 }
 
+/// Of sound that could be a track: six channels, at some rate.
+std::string why_unmarked(const GstCaps* caps) {
+  int rate_Hz = 0;
+  gst_structure_get_int(gst_caps_get_structure(caps, 0), "rate", &rate_Hz);
+  return "Nothing says that this sound of " + std::to_string(rate_Hz) +
+         " Hz is a haptic track: a track has " + std::to_string(kTrackRate_Hz) +
+         " samples a second, or the tag HAPTIC_FULL_SCALE. If it is one, mark it: " +
+         how_to_mark() + ".";
+}
+
 /// Runs in the streaming thread of the pipeline that reads the file.
 void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
   auto& reading = *static_cast<Reading*>(user);
   const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
   if (caps.get() != reading.caps.get()) {  // also in the middle of a stream
     reading.problem = reading.input.set_caps(caps.get());
+    if (reading.problem.empty() && reading.wanted == Wanted::kFirstSound)
+      reading.problem = why_unmarked(caps.get());
     reading.caps.reset(gst_caps_ref(caps.get()));
     if (reading.only_notes || !reading.problem.empty()) give_up(GST_PAD_PARENT(pad));
   }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "plugin/gobject/category.h"
 #include "plugin/timing/instant_rate.h"
+#include "plugin/tracks/track_mark.h"
 
 namespace spidar {
 namespace {
@@ -199,6 +201,25 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
 // GST_ELEMENT_WARNING logs there.
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
+
+void TrackWarnings::tell_of_mark() {
+  if (std::exchange(unmarked_, true)) return;
+  GST_ELEMENT_WARNING(
+      element_, STREAM, WRONG_TYPE,
+      ("This sound is not felt: nothing says that it is a haptic track. Tracks that spidarextract "
+       "and spidartrack make have the tag %s. If this is one, set accept-unmarked=true, or mark "
+       "the file: %s",
+       kTrackMark, how_to_mark().c_str()),
+      ("Sound for ears would push and pull the hand."));
+}
+
+void TrackWarnings::tell_of_sync() {
+  GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
+                      ("sync=false has no effect: each sample of a haptic track is felt at its "
+                       "time, at base time + "
+                       "running time + latency + ts-offset."),
+                      ("Without it, the whole track would be over at once."));
+}
 
 void TrackWarnings::check(const TrackFaults& faults, bool has_time, const std::string& path) {
   const std::string track = "The haptic track" + (path.empty() ? "" : " " + path);

@@ -190,6 +190,8 @@ def run(line, films, source, build):
         early += f"exit status {status}\n"
     if "CRITICAL" in said:
         early += "says CRITICAL\n"
+    if "nothing says that it is a haptic track" in said:
+        early += "plays a track that is not marked\n"
     return early and early + said
 
 

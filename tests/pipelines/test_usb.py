@@ -84,7 +84,7 @@ class Boards(Pipelines):
         for device, said in (("usb", "usb:1-1: the motors get no force: no profile is named.* spidar-g6c, "),
                              (f"usb:7 {PROFILE}", "usb:7")):
             for sink in (f"spidarmotion device={device} ! fakesink", "fakesink audiotestsrc num-buffers=3 ! "
-                         f"audio/x-raw,rate=1000,channels=6,channel-mask=(bitmask)0 ! spidarsink device={device}"):
+                         f"audio/x-raw,rate=1000,channels=6,channel-mask=(bitmask)0 ! spidarsink accept-unmarked=true device={device}"):
                 pipeline = self.start(SHORT + sink)
                 self.assertRegex(self.next_warning(pipeline), said)
                 self.assertEqual(self.next_warning(pipeline), "eos")

@@ -24,14 +24,22 @@ def wave(ms):
     return (share, -share / 2, share / 3, share / 100, share / 70, -share / 50)
 
 
-def write_wav(path, samples, rate=1000):
+def chunk(name, content):
+    """Of a RIFF file."""
+    return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
+
+
+# A comment that says that it is a haptic track.
+MARK = chunk(b"LIST", b"INFO" + chunk(b"ICMT", b"HAPTIC_FULL_SCALE=10 N, 1 N m\0"))
+
+
+def write_wav(path, samples, rate=1000, marked=True):
     """Samples of any number of channels as a WAV file of floats."""
     channels = len(samples[0])
     data = array.array("f", [value for sample in samples for value in sample]).tobytes()
-    pathlib.Path(path).write_bytes(
-        b"RIFF" + struct.pack("<I", 36 + len(data)) + b"WAVEfmt " +
-        struct.pack("<IHHIIHH", 16, 3, channels, rate, 4 * channels * rate, 4 * channels, 32) +
-        b"data" + struct.pack("<I", len(data)) + data)
+    form = struct.pack("<HHIIHH", 3, channels, rate, 4 * channels * rate, 4 * channels, 32)
+    chunks = b"WAVE" + chunk(b"fmt ", form) + (MARK if marked else b"") + chunk(b"data", data)
+    pathlib.Path(path).write_bytes(chunk(b"RIFF", chunks))
 
 
 def read_wav(path):

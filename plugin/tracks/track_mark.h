@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What says of a stream of sound that it is a haptic track.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// A line of the comment of a track, which FLAC, Matroska and WAV keep, and a tag of its own where
+/// there are such. Whatever writes tracks writes it.
+extern const char* const kTrackMark;
+
+/// Whether tags of a stream contain the mark. Those of a container apply to all of its streams, and
+/// say nothing of one of them.
+bool is_marked(const GstTagList* tags);
+
+/// Whether the stream to which `event` belongs is marked, after it.
+void follow_mark(GstEvent* event, bool& marked);
+
+/// Whether a tag that has come to `pad` is marked.
+bool is_marked(GstPad* pad);
+
+/// Whether sound that nothing has converted, such as that in a file, has the form of the tracks
+/// that this project writes: six channels of 1000 samples a second, which no sound for ears has.
+bool has_form_of_track(const GstCaps* caps);
+
+/// How to mark a file, as the rest of a sentence.
+std::string how_to_mark();
+
+}  // namespace spidar
