@@ -6,58 +6,12 @@
 #include <cmath>
 
 #include "spidar/grip/grip.h"
+#include "spidar/loop/brake_table.h"
 
 namespace spidar {
 namespace {
 
-/// A bare grip is compared over this time with what the strings did to it. A hand of 100 N/m takes
-/// 30 ms to stop a grip.
-constexpr double kMemory_s = 0.05;
-/// A slower grip is not examined while the whole wrench acts, and while none of it does. A hand of
-/// 300 N/m is never moved as fast as the former.
-constexpr double kSlowest_m_s = 0.55;
-constexpr double kSlowestAtRest_m_s = 0.15;
-/// From the full wrench to rest; the slew limit of the safety chain comes after it.
-constexpr double kRelease_s = 0.01;
-/// The grip must move within 37° of the way that the strings would move it, …
-constexpr double kAligned = 0.8;
-/// … and at no less than this share and no more than this multiple of the speed.
-constexpr double kLeastShare = 0.85;
-constexpr double kMostShare = 3;
-/// Force and displacement are smoothed over this time, in which a grip in a loose hand follows.
-constexpr double kYieldTime_s = 0.05;
-/// A softer hold is a loose hand or none: a firm hand has 300 N/m, a light one 100.
-constexpr double kLooseHand_N_m = 100;
-/// A smaller displacement is no yielding: a hand moves by as much without any force.
-constexpr double kLeastYield_m = 0.01;
-/// A weaker force tells nothing.
-constexpr double kTellingForce_N = 0.1;
-/// A hand that is stiffer than kFirmHand_N_m for this long, at that force at least, has shown that
-/// it is there. A bare grip in a loose hand needs 70 ms to follow a force.
-constexpr double kFirmHand_N_m = 200;
-constexpr double kFirmForce_N = 0.3;
-constexpr double kWithstands_s = 0.3;
-/// Before that, a grip that is this far and this fast along the force (kAligned) is thrown. With 30
-/// mm, sawtooths of 3 N throw one in a hand of 60 N/m at 1.07 m/s; with 20 mm, hands of 300 to 600
-/// N/m lose three times as much force. What the grip stores while it is slow, it keeps for
-/// kStored_s: until the smoothed force has turned, and the grip has come back.
-constexpr double kThrown_m = 0.025;
-constexpr double kThrown_m_s = 0.4;
-constexpr double kStored_s = 0.2;
-/// Twice the energy that throws a bare grip of 50 g at 1 m/s.
-constexpr double kThrows_J = 0.05;
-/// From the full wrench to rest while the strings balance the grip. If it went to rest within
-/// kRelease_s, the strings would throw it.
-constexpr double kEases_s = 0.1;
-/// A grip that turns faster than a hand for this long is bare. With 15 ms, one that spins at 38
-/// rad/s gets 1.10 m/s. Poses that fit the lengths as well as the true one look like a turn for 5
-/// ms, seldom for 15.
-constexpr double kSpins_s = 0.01;
-/// From a pose to the force that depends on it: a tick until the next exchange, and half a tick in
-/// which it is held.
-constexpr double kLoop_s = 1.5e-3;
-/// No force is followed for longer: in a loose hand the acceleration is another one by then.
-constexpr double kLongestFall_s = 0.02;
+using namespace brake;
 
 /// How much longer `force_N` accelerates the grip along `velocity_m_s` than if it ended at once. It
 /// falls with `max_slew_N_s`, and what it does meanwhile, its present strength does in half of the
@@ -72,8 +26,8 @@ double still_pushes_s(const Eigen::Vector3d& force_N, const Eigen::Vector3d& vel
 
 /// What is left of a force at `speed_m_s`.
 double left_at(double speed_m_s) {
-  constexpr double kWay_m_s = GripBrake::kFadeTo_m_s - GripBrake::kFadeFrom_m_s;
-  return std::clamp((GripBrake::kFadeTo_m_s - speed_m_s) / kWay_m_s, 0.0, 1.0);
+  constexpr double kWay_m_s = kFadeTo_m_s - kFadeFrom_m_s;
+  return std::clamp((kFadeTo_m_s - speed_m_s) / kWay_m_s, 0.0, 1.0);
 }
 
 /// Reduces the part of `vector` along `velocity` to the share that the speed leaves. A turn has the
@@ -90,12 +44,16 @@ Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velo
 /// The damping force in the same way.
 Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, double earlier_m_s) {
   const double speed_m_s = metres * velocity.norm();
-  const double above_m_s = speed_m_s + earlier_m_s - GripBrake::kDampedFrom_m_s;
+  const double above_m_s = speed_m_s + earlier_m_s - kDampedFrom_m_s;
   if (!(above_m_s > 0)) return Eigen::Vector3d::Zero();
-  return -metres * metres * GripBrake::kDamping_N_s_m * above_m_s / speed_m_s * velocity;
+  return -metres * metres * kDamping_N_s_m * above_m_s / speed_m_s * velocity;
 }
 
 }  // namespace
+
+void GripBrake::release() noexcept {
+  resting_s_ = kRest_s;
+}
 
 void GripBrake::reset() noexcept {
   strings_N_.setZero();

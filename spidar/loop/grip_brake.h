@@ -31,28 +31,12 @@ namespace spidar {
 ///   that is reversed. The speed is then foreseen for as long as the force that still acts along it
 ///   needs to fall.
 ///
+/// The speeds, times and shares are in brake_table.h, with their sources.
+///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
 class GripBrake {
  public:
-  /// Chosen: with 0.57, a hand of 300 N/m notices it (the test AHandNoticesNothing); with 0.59, a
-  /// step of 3 N throws a bare grip of 51 g at 1.006 m/s.
-  static constexpr double kFadeFrom_m_s = 0.58;
-  static constexpr double kFadeTo_m_s = 1.0;
-  static constexpr double kFastest_m_s = 1.5;
-  /// A hand that turns to and fro by 45°, four times a second, reaches 20 rad/s. A film turns one
-  /// of 150 N/m or more at no more than 9 rad/s, and a bare grip at up to 40.
-  static constexpr double kFastest_rad_s = 20;
-  /// The damping force rises with kDamping_N_s_m from here on. A damper that acts with a delay T on
-  /// a mass m is stable up to π/2 · m / T: 8 N s/m for 50 g and 10 ms.
-  static constexpr double kDampedFrom_m_s = 0.6;
-  static constexpr double kDamping_N_s_m = 7.5;
-  static constexpr double kEarlier_m_s = 0.3;
-  /// Mass of a bare grip. It may be a third as heavy, and a fifth heavier.
-  static constexpr double kBareGrip_kg = 0.1;
-  static constexpr double kRest_s = 1.0;
-  static constexpr double kReturn_s = 1.0;
-
   /// `radius_m` is where a torque acts as a force.
   GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
 
@@ -60,7 +44,7 @@ class GripBrake {
   /// stays so until kRest_s after its pose is known again.
   void reset() noexcept;
   /// Nobody holds the grip.
-  void release() noexcept { resting_s_ = kRest_s; }
+  void release() noexcept;
 
   /// Position and velocity after an exchange, `dt_s` after the last call.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double dt_s) noexcept;

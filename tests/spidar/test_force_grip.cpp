@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/grip/picture_size.h"
+#include "spidar/loop/brake_table.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
@@ -254,7 +255,7 @@ TEST(ForceGrip, AStickThatSwingsKeepsItsForce) {
     if (ms <= 300) continue;
     ASSERT_EQ(now.commanded.force_N, Eigen::Vector3d(1, 0.5, 0)) << ms;
   }
-  EXPECT_GT(fastest_m_s, GripBrake::kFastest_m_s);
+  EXPECT_GT(fastest_m_s, brake::kFastest_m_s);
 }
 
 TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {

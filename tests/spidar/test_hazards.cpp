@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/string_grip.h"
+#include "spidar/loop/brake_table.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_thread.h"
 #include "tests/support/faulty_device.h"
@@ -256,7 +257,7 @@ TEST(Hazards, InPairs) {
     EXPECT_LE(worst.above_acting_ms, kMostAbove_ms) << where;
     EXPECT_LE(worst.after_acting_ms, kMostAfter_ms) << where;
     // Faster than that, the force rests even if somebody seems to hold the grip.
-    EXPECT_LE(worst.speed_m_s, GripBrake::kFastest_m_s) << where;
+    EXPECT_LE(worst.speed_m_s, brake::kFastest_m_s) << where;
     if (std::getenv("SPIDAR_SHOW") != nullptr)
       std::printf("%llu %s %s+%s %s: %.2f N %.2f m/s %d %d %d %d\n",
                   static_cast<unsigned long long>(n), profile.name.c_str(), kNames[first],

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/grip_motion.h"
+#include "spidar/loop/brake_table.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 
@@ -27,7 +28,7 @@ TEST(ReleasedGrip, ItsForceRestsAndReturns) {
   EXPECT_FALSE(grip.snapshot().last.held);
   grip.run(0.2);
   EXPECT_LT(grip.snapshot().last.commanded.force_N.norm(), 1e-3);
-  // It swings for some seconds. GripBrake::kRest_s and kReturn_s after it was last faster than
+  // It swings for some seconds. brake::kRest_s and kReturn_s after it was last faster than
   // 0.15 m/s, both 1 s, the whole force is back.
   grip.run(9.5);
   EXPECT_TRUE(grip.snapshot().last.held);
@@ -104,13 +105,13 @@ TEST(ReleasedGrip, AGripThatComesBackFromATurnGetsNoForceYet) {
   turn_to(GripWatch::kMaxTurn_rad + 0.2);
   EXPECT_EQ(grip.snapshot().pose_trouble, PoseTrouble::kTurned);
   EXPECT_FALSE(grip.snapshot().last.held);
-  grip.run(GripBrake::kRest_s + GripBrake::kReturn_s + 1);
+  grip.run(brake::kRest_s + brake::kReturn_s + 1);
   turn_to(GripWatch::kMaxTurn_rad - 0.5);
   ASSERT_EQ(grip.snapshot().pose_trouble, PoseTrouble::kNone);
   grip.run(0.5);
   EXPECT_FALSE(grip.snapshot().last.held);
   EXPECT_EQ(grip.snapshot().last.commanded.force_N.norm(), 0);
-  grip.run(GripBrake::kRest_s + GripBrake::kReturn_s);
+  grip.run(brake::kRest_s + brake::kReturn_s);
   EXPECT_TRUE(grip.snapshot().last.held);
 }
 
@@ -119,7 +120,7 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   for (int i = 0; i < 100; ++i) {
     Pose pose;
     pose.orientation =
-        Eigen::AngleAxisd(1.1e-3 * GripBrake::kFastest_rad_s * i, Eigen::Vector3d::UnitZ());
+        Eigen::AngleAxisd(1.1e-3 * brake::kFastest_rad_s * i, Eigen::Vector3d::UnitZ());
     spins.see(pose, i * kTick_ns);
   }
   GripBrake brake(0.03, 0);
@@ -154,9 +155,9 @@ TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {
   EXPECT_EQ(run(1, true), 1);
   EXPECT_EQ(run(1, false), 1);  // a hand holds it, as far as is known
   brake.release();
-  EXPECT_EQ(run(2 * (GripBrake::kRest_s + GripBrake::kReturn_s), false), 0);
-  EXPECT_EQ(run(0.9 * GripBrake::kRest_s, true), 0);
-  EXPECT_EQ(run(0.2 * GripBrake::kRest_s + GripBrake::kReturn_s, true), 1);
+  EXPECT_EQ(run(2 * (brake::kRest_s + brake::kReturn_s), false), 0);
+  EXPECT_EQ(run(0.9 * brake::kRest_s, true), 0);
+  EXPECT_EQ(run(0.2 * brake::kRest_s + brake::kReturn_s, true), 1);
 }
 
 // The strings at rest pull the grip back to the centre, with a force that has a potential. A hand
