@@ -34,7 +34,8 @@ unsigned usable_processors() {
 /// The command line. Of each command, run() is called when it is parsed.
 class CommandLine {
  public:
-  CommandLine() {
+  /// `descriptors` are as many as the program may have open.
+  explicit CommandLine(rlim_t descriptors) : descriptors_(descriptors) {
     app_.set_help_flag("-h,--help", "Explain the program or the command, and end");
     app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION, "Print the version, and end");
     app_.require_subcommand(1);
@@ -103,6 +104,11 @@ Properties of spidarmotion that change the force come last, after two dashes:
     app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
   }
   int record() {
+    // Of a film, the part file and both ends of a pipe are open, and one more while its process
+    // begins; besides them, the manifest and what libraries open.
+    constexpr rlim_t kOfFilm = 4, kOthers = 32;
+    const rlim_t films = std::max(descriptors_, kOthers + kOfFilm) - kOthers;
+    record_.jobs = static_cast<unsigned>(std::min<rlim_t>(record_.jobs, films / kOfFilm));
     set_films(record_, films_, properties_);
     return record_films(record_);
   }
@@ -183,6 +189,7 @@ An existing TO is replaced when the new file is complete. Prints what TO cannot 
   }
   int plot() { return plot_track(plot_); }
 
+  const rlim_t descriptors_;
   CLI::App app_{"Records, inspects, checks, converts and plots haptic tracks.", "spidartrack"};
   RecordOptions record_;
   std::vector<std::string> films_, properties_;
@@ -212,6 +219,7 @@ void request_stacks() {
 
 int main(int argc, char** argv) {
   open_standard_descriptors();
+  const rlim_t descriptors = raise_descriptor_limit();
   request_stacks();
   const int film_status = run_film_process(argc, argv);
   if (film_status >= 0) return film_status;
@@ -222,6 +230,6 @@ int main(int argc, char** argv) {
     return kFailed;
   }
   gst_init(nullptr, nullptr);
-  CommandLine line;
+  CommandLine line(descriptors);
   return exit_status_of(line.program(), [&] { return line.run(argc, argv); });
 }

@@ -11,8 +11,10 @@
 #include <fcntl.h>
 #include <string>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace spidar {
 
@@ -26,6 +28,15 @@ inline void open_standard_descriptors() {
     lowest_free = open("/dev/null", O_RDWR);
   } while (lowest_free >= 0 && lowest_free <= STDERR_FILENO);
   if (lowest_free > STDERR_FILENO) close(lowest_free);
+}
+
+/// Raises the number of descriptors that the process may have open to the largest that it may set,
+/// for itself and the processes that it starts. Returns it.
+inline rlim_t raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
+  const rlim_t before = std::exchange(limit.rlim_cur, limit.rlim_max);
+  return setrlimit(RLIMIT_NOFILE, &limit) == 0 ? limit.rlim_max : before;
 }
 
 /// Whether `descriptor` is the file that the standard output or the standard error is.

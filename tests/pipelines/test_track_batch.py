@@ -218,6 +218,19 @@ class Batch(track_case.TrackCase):
         self.assertIn("z.avi.haptic.flac is there", self.path("log").read_text())
 
     @track_case.needs("taskset")
+    def test_there_are_as_many_jobs_as_descriptors_allow(self):
+        """A process of one film has enough of them. All films at once would need 50: the soft limit
+        is raised, and under the hard one some wait."""
+        self.path("in").mkdir()
+        self.make_film("in/0.avi", 2)
+        for n in range(1, 20):
+            os.link(self.path("in/0.avi"), self.path(f"in/{n}.avi"))
+        for limit in ("ulimit -S -n 40", "ulimit -n 40"):
+            with self.subTest(limit):
+                said = self.run_in_folder(f"{limit}; {PROGRAM} record -j20 --force in")
+                self.assertIn("20 recorded", said)
+                self.assertNotIn("CRITICAL", said)
+
     def test_there_are_as_many_jobs_as_processors_that_may_be_used(self):
         self.make_film("x.avi", 4000)
         for name in ("y.avi", "z.avi"):
