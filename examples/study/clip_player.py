@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """Plays clips whose motion is felt, one after the other, on a device that stays open."""
 
+import fcntl
 import os
 import select
 import tempfile
@@ -17,6 +18,9 @@ Gst.init(None)
 
 SINKS = {"window": "autovideosink", "headless": "fakesink sync=true", "fast": "fakesink sync=false"}
 SOUNDS = {"window": "autoaudiosink", "headless": "fakesink sync=true", "fast": "fakesink sync=false"}
+# Frames are analysed before they are due, so that a busy machine is not late at once. 4 at 25/s are 160 ms.
+AHEAD = "queue max-size-buffers=4 max-size-bytes=0 max-size-time=0"
+PIPE_BYTES = 1 << 20  # two seconds of rows, which are dropped if nobody takes them
 TRACE_LATE_S = 2  # how long to wait for the trace's rows, which are written every 50 ms
 
 
@@ -51,6 +55,7 @@ class TickRecorder:
         self.path = os.path.join(self.folder.name, "ticks")
         os.mkfifo(self.path)
         self.pipe = os.open(self.path, os.O_RDONLY | os.O_NONBLOCK)
+        fcntl.fcntl(self.pipe, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
         self.header = self.rest = b""
         self.file, self.last_ns, self.until_ns = None, 0, 0
         self.is_closed = False
@@ -142,23 +147,23 @@ class Player:
         self.pipeline = Gst.parse_launch(
             "uridecodebin name=source force-sw-decoders=true "
             f"videoconvert name=before ! videoflip video-direction={turn} name=turned "
-            f"videoflip video-direction={turn} name=back ! videoconvert ! {SINKS[self.output]}")
+            f"videoflip video-direction={turn} name=back ! videoconvert ! {AHEAD} ! {SINKS[self.output]}")
         get = self.pipeline.get_by_name
         self.pipeline.add(self.filter)
         get("turned").link(self.filter)
         self.filter.link(get("back"))
 
         def link(_, pad):
-            if pad.query_caps(None).to_string().startswith("video/"):
-                if not get("before").get_static_pad("sink").is_linked():
-                    pad.link(get("before").get_static_pad("sink"))
+            kind = pad.query_caps(None).to_string()
+            if kind.startswith("video/x-raw") and not get("before").get_static_pad("sink").is_linked():
+                pad.link(get("before").get_static_pad("sink"))
+            if not kind.startswith("audio/x-raw"):
                 return
-            sound = Gst.parse_bin_from_description(f"audioconvert ! audioresample ! {SOUNDS[self.output]}", True)
+            sound = Gst.parse_bin_from_description(f"queue ! audioconvert ! audioresample ! {SOUNDS[self.output]}", True)
             self.pipeline.add(sound)
             sound.sync_state_with_parent()
             pad.link(sound.get_static_pad("sink"))
 
-        get("source").set_property("caps", Gst.Caps.from_string("video/x-raw; audio/x-raw"))
         get("source").set_property("uri", uri_of(clip))
         get("source").connect("pad-added", link)
         self.filter.set_locked_state(False)

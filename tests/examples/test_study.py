@@ -68,9 +68,9 @@ class Schedule(unittest.TestCase):
         """Whether the weaker condition of a clip comes first in both parts: by chance, in half of the cases."""
         same = [(order_of(shown, "controllers", clip)[0] == "linear") ==
                 (order_of(shown, "haptics", clip).index("without") < order_of(shown, "haptics", clip).index("with"))
-                for index in range(120) for shown in [trials.schedule(CLIPS, index, 1)] for clip in CLIPS]
-        # 360 of them; 120 participants are independent of each other at least: 4 standard deviations of their mean.
-        self.assertLess(abs(sum(same) / len(same) - 0.5), 4 * math.sqrt(0.25 / 120))
+                for index in range(1200) for shown in [trials.schedule(CLIPS, index, 1)] for clip in CLIPS]
+        # 1200 participants are independent of each other at least: 4 standard deviations of their mean.
+        self.assertLess(abs(sum(same) / len(same) - 0.5), 4 * math.sqrt(0.25 / 1200))
 
     def test_is_random_but_the_same_each_time(self):
         orders = {tuple(trial.clip for trial in trials.schedule(CLIPS, index, 1)) for index in range(30)}

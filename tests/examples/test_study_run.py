@@ -6,7 +6,6 @@
     test_study_run.py FOLDER-OF-STUDY.PY
 """
 
-import csv
 import json
 import math
 import random
@@ -15,13 +14,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
-from collections import defaultdict
 from pathlib import Path
 
 FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import briefing  # noqa: E402
+import clip_player  # noqa: E402
 import records  # noqa: E402
 import trials  # noqa: E402
 
@@ -69,7 +68,7 @@ class SimulatedParticipant:
 
     def take_part(self, trials_at_most=None):
         """All that was printed. Goes on in another session where the machine was too slow for a presentation."""
-        for _ in range(10):
+        for _ in range(20):
             printed, code = self.session(trials_at_most)
             if not (code == 1 and "failed 3 times" in printed):
                 return printed, code
@@ -143,34 +142,26 @@ class Run(unittest.TestCase):
         shown = [row for row in records.read_rows(f"{answers}.presentations") if not row["problem"]]
         settings = json.loads(Path(f"{answers}.settings.json").read_text())
         clip, = settings["clips"].values()
-        ticks, rms_N, mean = defaultdict(list), {}, {}
+        rms_N = {}
         for name in people:
             given = [answer for answer in asked if answer.participant == name]
             self.assertEqual(len(given), 2 + 3 * 3)
             traces = {row["trial"]: row["trace"] for row in shown if row["participant"] == name}
             for trial, condition in {(answer.trial, answer.condition) for answer in given}:
-                with open(f"{answers}.traces/{traces[str(trial)]}.haptic.csv", newline="") as file:
-                    rows = [row for row in csv.DictReader(file) if row["playing"] == "1"]
+                rows = [row for row in records.read_rows(f"{answers}.traces/{traces[str(trial)]}.haptic.csv")
+                        if row["playing"] == "1"]
                 wanted, delivered = ([[float(row[f"{which}_force_{axis}_N"]) for axis in "xyz"] for row in rows]
                                      for which in ("wanted", "delivered"))
-                ticks[name].append((trial, int(rows[0]["tick"])))
                 rms_N[name, condition] = math.sqrt(sum(v * v for row in wanted for v in row) / len(rows))
-                mean[name, condition] = [row[0] for row in wanted]
                 if condition == "without":
                     self.assertLess(max(math.hypot(*row) for row in delivered), 0.04, "a hand feels nothing")
                 else:
                     self.assertGreater(max(math.hypot(*row) for row in delivered), 0.04)
                 self.assertLessEqual(max(math.hypot(*row) for row in wanted), briefing.GENTLE_N + 1e-6)
-        for name in people[1:]:  # in one session
-            in_order = [tick for _, tick in sorted(ticks[name])]
-            self.assertEqual(in_order, sorted(set(in_order)), "one opening of the device serves the whole session")
         target_N = min(clip["rms_N"].values())
         for (name, condition), rms in rms_N.items():
             # What counts is within 11 % of the force that was measured before, and that is matched exactly.
             self.assertAlmostEqual(rms, 0 if condition == "without" else target_N, delta=0.115 * target_N)
-        for name in people:
-            sham, real = mean[name, "sham"], mean[name, "with"]
-            self.assertLess(sum(a * b for a, b in zip(sham, real)), 0, "the sham pulls the other way")
 
     def check_what_must_not_change(self, answers):
         for more, message in ([["--seed", "2"], "seed was 1, not 2"], [["--", "device=sim", "alpha=0.01"], "properties was"],
@@ -183,6 +174,30 @@ class Run(unittest.TestCase):
         self.clip.write_bytes(content + b"\0")
         refused = study("run", "--headless", answers, "P02", self.clip)
         self.assertEqual((refused.returncode, "clips_sha256" in refused.stderr), (2, True), refused)
+
+    def test_the_sham_pulls_the_other_way_as_strongly(self):
+        forces_N = []
+        for is_turned in False, True:
+            trace = self.file(f"turned-{is_turned}.csv")
+            with clip_player.Player(["device=none"], "fast") as player:
+                player.play(str(self.clip), [f"trace={trace}"], is_turned)
+            forces_N.append([[float(row[f"force_{axis}_N"]) for axis in "xy"] for row in records.read_rows(trace)])
+        real, sham = forces_N
+        product = lambda a, b: sum(p * q for pair in zip(a, b) for p, q in zip(*pair))
+        # The same blocks of the same picture, in another order: not to the bit, but as far as a hand can tell (11 %).
+        self.assertLess(product(sham, real), -0.89 * product(real, real))
+        self.assertAlmostEqual(product(sham, sham), product(real, real), delta=0.22 * product(real, real))
+
+    def test_one_opening_of_the_device_serves_all_clips(self):
+        """So the position of the grip has one centre."""
+        traces = [self.file("first.csv"), self.file("second.csv")]
+        with clip_player.Player(["device=sim", "max-force=1"], "headless") as player:
+            for trace in traces:
+                self.assertTrue(player.play(str(self.clip), [f"trace={trace}.frames.csv"], haptic_trace=trace))
+        ticks = [[int(row["tick"]) for row in records.read_rows(trace)] for trace in traces]
+        self.assertGreater(len(ticks[0]), 0)
+        self.assertGreater(ticks[1][0], ticks[0][-1])
+        self.assertEqual(ticks[1], sorted(set(ticks[1])))
 
     def test_without_a_board_nobody_is_asked(self):
         answers = self.file("usb.csv")
