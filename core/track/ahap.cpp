@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "core/track/exchange_formats.h"
@@ -33,6 +34,12 @@ double intensity(const TrackSample& sample) {
   return std::isfinite(share) ? rounded(std::min(share, 1.0)) : 0;
 }
 
+std::string description(double gain) {
+  char text[64];
+  std::snprintf(text, sizeof text, "Force of a film: 1 is %.3g N", kTrackForceScale_N / gain);
+  return text;
+}
+
 OrderedJson event(double time_s, double duration_s) {
   return {{"Event",
            {{"Time", rounded(time_s)},
@@ -60,7 +67,7 @@ OrderedJson curve(const std::vector<double>& values, const std::vector<size_t>& 
 
 }  // namespace
 
-std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance) {
+std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance, double gain) {
   std::vector<double> values;
   values.reserve(samples.size());
   for (const TrackSample& sample : samples) values.push_back(intensity(sample));
@@ -75,7 +82,7 @@ std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance
     pattern.push_back(curve(values, points, begin, end));
   }
   return OrderedJson{{"Version", 1.0},
-                     {"Metadata", {{"Description", "Force of a film: 1 is 10 N"}}},
+                     {"Metadata", {{"Description", description(gain)}}},
                      {"Pattern", pattern}}
              .dump() +
          "\n";

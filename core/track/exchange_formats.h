@@ -64,13 +64,18 @@ constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
                                         size_t most_samples = kMostFunscriptSamples);
 
+/// Of the full scale.
+constexpr double kAhapTolerance = 0.02;
+
 /// A vibration as strong as the force: a continuous event whose intensity is the magnitude of the
 /// force as a share of the full scale, along straight lines that differ from it by at most
 /// `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are lost.
-/// Magnitudes beyond the full scale are clipped, and NaN becomes 0.
+/// Magnitudes beyond the full scale are clipped, and NaN becomes 0. The description says which
+/// force an intensity of 1 stands for, if the samples have been multiplied by `gain`.
 ///
 /// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
 /// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.
-std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance = 0.02);
+std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance = kAhapTolerance,
+                       double gain = 1);
 
 }  // namespace spidar

@@ -45,7 +45,16 @@ struct Options {
   std::vector<std::string> properties;
 };
 
-/// What follows "--" are properties, not options. Throws CLI::ParseError.
+/// Throws std::invalid_argument when `word`, which comes before "--", looks like a property.
+void expect_no_property(const std::string& word) {
+  const bool is_property = word[0] != '-' && word.find('=') != std::string::npos &&
+                           word.find("://") == std::string::npos && !fs::exists(word);
+  if (!is_property) return;
+  throw std::invalid_argument(
+      word + ": there is no such video; properties follow --: play VIDEO -- " + word);
+}
+
+/// What follows "--" are properties, not options. Throws CLI::ParseError and std::invalid_argument.
 Options parse(CLI::App& app, int argc, char** argv) {
   Options options;
   app.name("play");
@@ -63,7 +72,11 @@ Options parse(CLI::App& app, int argc, char** argv) {
   app.footer("After -- come properties of spidarmotion, NAME=VALUE: gst-inspect-1.0 spidarmotion");
   char** const end =
       std::find_if(argv, argv + argc, [](const char* word) { return std::string(word) == "--"; });
+  app.allow_extras();
   app.parse(static_cast<int>(end - argv), argv);
+  for (const std::string& word : app.remaining()) expect_no_property(word);
+  if (!app.remaining().empty()) throw CLI::ExtrasError(app.remaining());
+  if (!options.video.empty()) expect_no_property(options.video);
   if (end != argv + argc) options.properties.assign(end + 1, argv + argc);
   if (options.video.empty() == (ball->count() == 0)) {
     throw CLI::RequiredError("one of VIDEO and --ball");

@@ -15,7 +15,7 @@ std::string range(const char* kind, Number least, Number most) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(kDigits);
-  text << " is not a " << kind << " from " << least << " to " << most;
+  text << kind << " from " << least << " to " << most;
   return text.str();
 }
 
@@ -23,22 +23,23 @@ std::string one_of(GEnumClass* known) {
   std::string names;
   for (guint i = 0; i < known->n_values; ++i)
     names += (i == 0 ? "" : ", ") + std::string(known->values[i].value_nick);
-  return " is not one of " + names;
+  return "one of " + names;
 }
 
-/// Continues the sentence that begins with the value.
-std::string why_wrong(GParamSpec* property) {
+/// What its values are.
+std::string values_of(GParamSpec* property) {
   if (G_IS_PARAM_SPEC_DOUBLE(property)) {
     const GParamSpecDouble* spec = G_PARAM_SPEC_DOUBLE(property);
-    return range("number", spec->minimum, spec->maximum);
+    return range("a number", spec->minimum, spec->maximum);
   }
   if (G_IS_PARAM_SPEC_INT64(property)) {
     const GParamSpecInt64* spec = G_PARAM_SPEC_INT64(property);
-    return range("whole number", spec->minimum, spec->maximum);
+    return range("a whole number", spec->minimum, spec->maximum);
   }
   if (G_IS_PARAM_SPEC_ENUM(property)) return one_of(G_PARAM_SPEC_ENUM(property)->enum_class);
-  if (G_IS_PARAM_SPEC_BOOLEAN(property)) return " is neither true nor false";
-  return " is not among its values; gst-inspect-1.0 spidarmotion lists them";
+  if (G_IS_PARAM_SPEC_BOOLEAN(property)) return "true or false";
+  if (G_IS_PARAM_SPEC_STRING(property)) return "a text";
+  return "one of those that gst-inspect-1.0 spidarmotion lists";
 }
 
 /// Numbers have their unit in the description.
@@ -54,19 +55,26 @@ std::string unit(GParamSpec* property) {
 TypedProperty::TypedProperty(GObject* element, const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (equals == std::string::npos) throw PropertyError(text + ": is no PROPERTY=VALUE");
-  const std::string value = text.substr(equals + 1);
   property_ = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
-  if (!property_ || !(property_->flags & G_PARAM_WRITABLE))
+  const bool is_property = property_ && (property_->flags & G_PARAM_WRITABLE);
+  if (!is_property && equals == std::string::npos)
+    throw PropertyError(text + ": is not PROPERTY=VALUE, such as max-force=2");
+  if (!is_property)
     throw PropertyError("spidarmotion has no property \"" + name +
                         "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
+  if (equals == std::string::npos) {
+    throw PropertyError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
+                        values_of(property_) + unit(property_));
+  }
+  const std::string value = text.substr(equals + 1);
   if (value.find('\n') != std::string::npos) throw PropertyError(name + ": a value is one line");
   g_value_init(&value_, property_->value_type);
   const bool understood = gst_value_deserialize_with_pspec(&value_, value.c_str(), property_);
   // Clamps values that are out of range.
   if (understood && !g_param_value_validate(property_, &value_)) return;
   g_value_unset(&value_);
-  throw PropertyError(name + ": \"" + value + "\"" + why_wrong(property_) + unit(property_));
+  throw PropertyError(name + ": \"" + value + "\" is not " + values_of(property_) +
+                      unit(property_));
 }
 
 std::string TypedProperty::canonical_value() const {

@@ -68,6 +68,15 @@ std::string lost_in(const std::string& path, const TrackSummary& summary,
   return "";
 }
 
+/// The channel in which most happens, as a share of its full scale.
+size_t liveliest_channel(const TrackSummary& summary) {
+  size_t most = kUsualAxis;
+  for (size_t i = 0; i < kTrackChannels; ++i) {
+    if (summary.channels[i].rms > summary.channels[most].rms) most = i;
+  }
+  return most;
+}
+
 size_t channel_of(const std::string& axis) {
   for (size_t i = 0; i < kTrackChannels; ++i) {
     if (axis == channel_name(i)) return i;
@@ -126,6 +135,11 @@ int convert_track(const ConvertOptions& options) {
   expect_own_track(condition);
   save.notes = condition.notes;
   const TrackSummary summary = summarise(samples);
+  if (ends_with(to, ".funscript") && options.axis.empty()) {
+    save.axis = liveliest_channel(summary);
+    std::cout << "axis " << channel_name(save.axis)
+              << ", which has the most motion; --axis chooses another\n";
+  }
   if (has_own_range(to)) {
     save.gain = options.gain.value_or(filling_gain(to, summary, save.axis));
     std::cout << "gain " << rounded(save.gain)

@@ -134,7 +134,11 @@ std::vector<TrackSample> load_track(const std::string& path, TrackCondition* con
     found.faults = track.faults;
     found.missing = track.missing();
     found.notes = track.notes;
-    if (found.track != path) found.other = match_film(film, track.duration_ns, track.notes).problem;
+    if (found.track != path) {
+      const FilmMatch match = match_film(film, track.duration_ns, track.notes);
+      found.other = match.problem;
+      found.later_ns = match.later_ns;
+    }
     samples = samples_of(track);
   }
   if (condition) *condition = found;
@@ -159,7 +163,7 @@ void save_track(const std::string& path, const std::vector<TrackSample>& samples
   } else if (is_hjif) {
     part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
   } else if (is_ahap) {
-    part.write(options.tolerance ? write_ahap(samples, *options.tolerance) : write_ahap(samples));
+    part.write(write_ahap(samples, options.tolerance.value_or(kAhapTolerance), options.gain));
   } else {
     part.write(
         write_funscript(samples, options.axis, options.tolerance.value_or(kFunscriptTolerance)));

@@ -20,9 +20,10 @@ namespace spidar {
 
 /// What is known of a track besides its samples.
 struct TrackCondition {
-  std::string track;  ///< the file that has the samples
-  std::string film;   ///< the film that was given in its place; empty: none
-  std::string other;  ///< why the track is that of another film; empty when it is not
+  std::string track;     ///< the file that has the samples
+  std::string film;      ///< the film that was given in its place; empty: none
+  std::string other;     ///< why the track is that of another film; empty when it is not
+  int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
   TrackFaults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
   TrackNotes notes;

@@ -30,6 +30,17 @@ def check_output(play, folder):
         assert "playing" not in done.stdout, done.stdout
 
 
+def check_properties(play):
+    """Names without values, and properties without dashes."""
+    for words, said in ((["--ball", "--", "motion", "camera"], "motion=VALUE, where VALUE is one of mean, object, objects, camera"),
+                        (["--ball", "--", "alpha"], "alpha=VALUE, where VALUE is a number from 1e-06 to 10"),
+                        (["--ball", "--", "camera"], "camera: is not PROPERTY=VALUE"),
+                        (["--ball", "motion=camera"], "properties follow --: play VIDEO -- motion=camera"),
+                        (["film.mp4", "motion=camera"], "properties follow --: play VIDEO -- motion=camera")):
+        done = subprocess.run([play, "--headless", *words], text=True, capture_output=True, timeout=60)
+        assert done.returncode == 2 and said in done.stderr, done
+
+
 def check_track(play, folder):
     """Frames whose force is that of a track are played."""
     track = os.path.join(folder, "ball.wav")
@@ -69,6 +80,7 @@ def main():
                                  ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*does its host answer")]:
                 check(command, name, reason)
             if os.path.basename(program) == "play":
+                check_properties(program)
                 check_output(program, folder)
                 check_track(program, folder)
                 check_window_png(program, folder)

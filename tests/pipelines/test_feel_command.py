@@ -31,7 +31,7 @@ class Command(track_case.TrackCase):
                 ("ts-offset=late -- true", 2, '"late" is not a whole number from -10000000000 to 10000000000'),
                 ("ts-offset=late -- true", 2, "in nanoseconds"),
                 ("controller=wild -- true", 2, 'controller: "wild" is not one of linear, nonlinear, adaptive\n'),
-                ("mute=perhaps -- true", 2, 'mute: "perhaps" is neither true nor false'),
+                ("mute=perhaps -- true", 2, 'mute: "perhaps" is not true or false'),
                 ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/: Permission denied"),
                 ("controller=linear max-force=2 -- true", 0, ""), ("--help", 0, "usage: spidar-feel"),
                 ("--version", 0, "spidar-feel ")):

@@ -28,7 +28,10 @@ class Batch(track_case.TrackCase):
             self.spidartrack(command, status=2)
         for arguments, said in ((["frobnicate"], "frobnicate is not a command; commands are record, info, check"),
                                 (["record", "x.mp4", "--format", "ogg"], "flac"),
-                                (["record", "x.mp4", "--", "motion"], "is no PROPERTY=VALUE"),
+                                (["record", "x.mp4", "--", "motion", "camera"],
+                                 "motion: has no value; type motion=VALUE, where VALUE is one of mean, object,"),
+                                (["record", "x.mp4", "--", "max-force"], "where VALUE is a number from 0 to 20."),
+                                (["record", "x.mp4", "--", "camera"], "camera: is not PROPERTY=VALUE, such as max"),
                                 (["record", "x.mp4", "motion=camera"], "spidartrack record FILM -- motion=camera"),
                                 (["record", "-j0", "x.mp4"], '"0" is not a number from 1 to 1024'),
                                 (["check", "x.wav", "--max-force", "nan"], '"nan" is not a number from 0 to 20 N'),

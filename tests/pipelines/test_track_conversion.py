@@ -58,9 +58,19 @@ class Conversion(track_case.TrackCase):
         self.assertEqual(len(read), 101)
         self.assertEqual((read[50], read[100]), ((.5, 0, 0, 0, 0, 0), (1, 0, 0, 0, 0, 0)))
 
+    def test_a_funscript_has_the_axis_with_the_most_motion(self):
+        self.make_track(sample=lambda ms: (.02 * math.sin(.05 * ms), 0, .3 * (ms == 500), 0, 0, .01))
+        self.assertIn("axis fx, which has the most motion; --axis chooses another\ngain 50:",
+                      self.spidartrack("convert", "a.wav", "a.funscript"))
+        positions = [action["pos"] for action in json.loads(self.path("a.funscript").read_text())["actions"]]
+        self.assertEqual((min(positions), max(positions)), (0, 100))
+        self.assertNotIn("axis", self.spidartrack("convert", "a.wav", "a.ahap"))
+        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav"), "")
+        self.assertEqual(max(abs(sample[0]) for sample in self.samples("b.wav")), 0)
+
     def test_what_a_format_cannot_hold_is_said(self):
         self.make_track(sample=lambda ms: (ms / 100, 0, 0, 0, 0, 0), count=101)
-        self.assertEqual(self.spidartrack("convert", "a.wav", "c.funscript", "--gain", "1"),
+        self.assertEqual(self.spidartrack("convert", "a.wav", "c.funscript", "--gain", "1", "--axis", "fy"),
                          "gain 1\nlost: fx up to 10 N, steps of fy below 0.2 N\n")
         self.assertEqual(self.spidartrack("convert", "a.wav", "c.ahap", "--gain", "1"),
                          "gain 1\nlost: the direction of the force\n")
@@ -68,11 +78,13 @@ class Conversion(track_case.TrackCase):
     def test_the_range_of_the_target_is_filled(self):
         self.make_track(sample=lambda ms: (.03, .1 * math.sin(.05 * ms), .04, 0, 0, 0))
         said = self.spidartrack("convert", "a.wav", "a.funscript")
-        self.assertEqual(said, "gain 10: the largest value fills the range; --gain 1 keeps it as it is\n"
+        self.assertEqual(said, "axis fy, which has the most motion; --axis chooses another\n"
+                         "gain 10: the largest value fills the range; --gain 1 keeps it as it is\n"
                          "lost: fx up to 0.3 N, fz up to 0.4 N, steps of fy below 0.02 N\n")
         positions = [action["pos"] for action in json.loads(self.path("a.funscript").read_text())["actions"]]
         self.assertEqual((min(positions), max(positions)), (0, 100))
         self.assertIn("gain 8.9:", self.spidartrack("convert", "a.wav", "a.ahap"))  # of a force of .1118
+        self.assertIn("Force of a film: 1 is 1.12 N", self.path("a.ahap").read_text())
         values = [point["ParameterValue"]
                   for event in json.loads(self.path("a.ahap").read_text())["Pattern"]
                   for point in event.get("ParameterCurve", {}).get("ParameterCurveControlPoints", [])]
