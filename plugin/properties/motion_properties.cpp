@@ -146,7 +146,9 @@ std::vector<MotionRow> display_rows() {
           "GstSpidarOverlay",
           {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
            {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
-           {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"}},
+           {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"},
+           {OverlayKind::kCurve, "Outlines, the force, and its curve over the last five seconds",
+            "curve"}},
           kPlaying, KEPT_IN(display.overlay)),
       MotionRow::number(
           {"arrow-scale", "Arrow scale",

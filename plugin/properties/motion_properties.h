@@ -40,6 +40,7 @@ enum class OverlayKind {
   kNone,
   kForce,   ///< outlines of objects, the force, finger and contact
   kTracks,  ///< arrows of the motion, too
+  kCurve,   ///< as kForce, and the force of the last seconds
 };
 
 struct DisplayProperties {

@@ -12,6 +12,7 @@
 #include <gst/gst.h>
 
 #include "plugin/gobject/ref.h"
+#include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_pipeline.h"
@@ -21,52 +22,10 @@
 namespace spidar {
 namespace {
 
-/// Nothing comes for so long from a share that is slow.
-constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
-
-/// Reports `percent` of the film as done.
-class Progress {
- public:
-  explicit Progress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
-
-  /// Counts the frames that come out of `motion`.
-  void watch(GstElement* motion) {
-    const Ref<GstPad> frames(gst_element_get_static_pad(motion, "src"));
-    gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
-  }
-
- private:
-  static GstPadProbeReturn passes(GstPad* frames, GstPadProbeInfo* info, gpointer user) {
-    auto& self = *static_cast<Progress*>(user);
-    if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
-    if (self.film_ns_ <= 0) {
-      self.film_ns_ = -1;  // the container does not tell
-      return GST_PAD_PROBE_REMOVE;
-    }
-    const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));
-    if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
-    const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
-    if (percent > self.told_ && percent < 100) {
-      self.told_ = percent;
-      self.tell_(self.told_);
-    }
-    return GST_PAD_PROBE_OK;
-  }
-
-  const std::function<void(int percent)> tell_;
-  gint64 film_ns_ = 0;
-  int told_ = 0;
-};
-
 /// Which file it is, and how it was left.
 bool is_same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
          a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
-}
-
-void set_properties(GstElement* motion, const RecordProperties& properties) {
-  for (const auto& [name, value] : properties.values)
-    gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
 }
 
 GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
@@ -108,7 +67,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   struct stat at_first {
   }, at_last{};
   stat(film.c_str(), &at_first);
-  Progress progress(tell);
+  FilmProgress progress(tell);
   FilmFingerprint fingerprint;
   std::string unread;
   try {
@@ -146,9 +105,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   }
   const std::string problem = watch.problem(error);
   if (!problem.empty()) throw std::runtime_error(problem);
-  if (film_end(film) == FilmEnd::kCutOff) {
-    throw std::runtime_error("its end is missing: it is damaged or cut off");
-  }
+  if (film_end(film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   stored.check(track);
   return {watch.felt(), watch.remark()};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Records, inspects, checks, converts and plots haptic tracks.
+// Records, inspects, checks, converts, plots and shows haptic tracks.
 
 #include <algorithm>
 #include <iostream>
@@ -45,6 +45,8 @@ class CommandLine {
     add_check();
     add_convert();
     add_plot();
+    add_show();
+    add_export();
   }
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
@@ -53,7 +55,8 @@ class CommandLine {
   int run(int argc, char** argv) {
     char** const end = argv + argc;
     // What follows "--" are properties, not options.
-    char** const dashes = argc > 1 && std::string(argv[1]) == "record"
+    const std::string command = argc > 1 ? argv[1] : "";
+    char** const dashes = command == "record" || command == "show"
                               ? std::find(argv + 1, end, std::string("--"))
                               : end;
     properties_.assign(std::min(dashes + 1, end), end);
@@ -164,8 +167,10 @@ in any case. Also prints how much of the track is felt.)");
 An existing TO is replaced when the new file is complete. Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
     app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
-    app->add_option("--axis", convert_.axis,
-                    "the channel of a funscript: fx, fy (default), fz, tx, ty or tz")
+    app->add_option(
+           "--axis", convert_.axis,
+           "the channel of a funscript: fx, fy, fz, tx, ty or tz; default: that with the most "
+           "motion, and fy when a funscript is read")
         ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}))
         ->type_name("CHANNEL");
     app->add_option("--gain", convert_.gain,
@@ -189,14 +194,53 @@ An existing TO is replaced when the new file is complete. Prints what TO cannot 
   }
   int plot() { return plot_track(plot_); }
 
+  void add_show() {
+    CLI::App* const app =
+        add("show", "make a film with its force drawn into it", &CommandLine::show);
+    app->footer(
+        R"(Analyses FILM, and writes a film of its pictures and sound into which are drawn the outlines
+of objects, the force as an arrow with its newtons, and the curve of the force over the last
+five seconds. Of several sounds, the first is kept.
+
+Properties of spidarmotion that change the force come last, after two dashes:
+  spidartrack show FILM.mp4 SHOWN.mp4 -- motion=camera)");
+    app->add_option("FILM", show_.film, "a film")->required()->type_name("");
+    app->add_option("TO", show_.to, "the film to write; its name ends in .mp4 or .mkv")
+        ->required()
+        ->type_name("");
+  }
+  int show() {
+    show_.properties = with_rules(parse_record_properties(properties_, 1), show_.film);
+    return show_film(show_);
+  }
+
+  void add_export() {
+    CLI::App* const app = add("export", "make a web page that plays a film with its force",
+                              &CommandLine::export_page);
+    app->footer(
+        R"(The page plays FILM from where it is, with an arrow of the force, and vibrates a gamepad, or a
+telephone. It is one file of less than 100 KB, and needs no network. The force is that of the
+track inside the film or beside it. Browsers do not play all films; most play H.264 in MP4.)");
+    app->add_option("FILM", export_.film, "a film with a track inside it or beside it")
+        ->required()
+        ->type_name("");
+    app->add_option("TO", export_.to, "the page to write; its name ends in .html")
+        ->required()
+        ->type_name("");
+  }
+  int export_page() { return export_film(export_); }
+
   const rlim_t descriptors_;
-  CLI::App app_{"Records, inspects, checks, converts and plots haptic tracks.", "spidartrack"};
+  CLI::App app_{"Records, inspects, checks, converts, plots and shows haptic tracks.",
+                "spidartrack"};
   RecordOptions record_;
   std::vector<std::string> films_, properties_;
   InfoOptions info_;
   CheckOptions check_;
   ConvertOptions convert_;
   PlotOptions plot_;
+  ShowOptions show_;
+  ExportOptions export_;
   int status_ = kDone;
 };
 

@@ -34,10 +34,21 @@ struct PlotOptions {
   std::string track, png;
 };
 
+struct ShowOptions {
+  std::string film, to;
+  RecordProperties properties;
+};
+
+struct ExportOptions {
+  std::string film, to;
+};
+
 int record_films(const RecordOptions& options);
 int print_info(const InfoOptions& options);
 int check_track(const CheckOptions& options);
 int convert_track(const ConvertOptions& options);
 int plot_track(const PlotOptions& options);
+int show_film(const ShowOptions& options);
+int export_film(const ExportOptions& options);
 
 }  // namespace spidar

@@ -39,6 +39,7 @@ TRACKS = {  # of these films, and what writes them
 }
 OPTIONAL = {"ffmpeg": "ffmpeg", "mkvmerge": "mkvtoolnix"}  # programs that lines need, and who has them
 ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
+ENCODERS = ("x264enc", "openh264enc")  # one of which spidartrack show needs
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
@@ -116,6 +117,9 @@ def missing_program(command):
     for element in ELEMENTS:
         if f" {element} " in command and subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode:
             return f"skipped: the element {element} is not installed (package gstreamer1.0-plugins-bad)"
+    if "spidartrack show" in command and all(
+            subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode for element in ENCODERS):
+        return f"skipped: none of {', '.join(ENCODERS)} is installed"
     for program, owner in OPTIONAL.items():
         if re.search(rf"(^|[|;&] *){program} ", command) and not shutil.which(program):
             return f"skipped: {owner} is not installed"

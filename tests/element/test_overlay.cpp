@@ -172,6 +172,45 @@ TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
   EXPECT_FALSE(canvas.is_drawn(320, 240)) << "nothing in the middle of the picture";
 }
 
+TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
+  constexpr int kSide = 480;
+  constexpr int64_t kSecond_ns = 1'000'000'000;
+  ForceCurve curve;
+  curve.add(0, 1.2);  // gone by the end: 7 s before it
+  for (int i = 0; i <= 100; ++i) curve.add(2 * kSecond_ns + i * kSecond_ns / 20, i < 50 ? 0 : 1);
+  EXPECT_EQ(curve.axis().high, 2) << "for 1.2 N, which the stream has had";
+  EXPECT_EQ(curve.places().size(), 101u);
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    SCOPED_TRACE(quarters);
+    FrameReport report;
+    report.turn = PictureTurn(quarters);
+    Canvas canvas("RGB", kSide, kSide);
+    canvas.draw(report, 1, false, &curve);
+    const auto shown = [&](double x, double y) {
+      const Eigen::Vector2d place = report.turn.place_coded(Eigen::Vector2d(x, y));
+      return canvas.at(static_cast<int>(kSide * place.x()), static_cast<int>(kSide * place.y()));
+    };
+    // 0 N is 2 % of the height above the lower edge, and 2 N 12 % more; the end is at 98.5 %.
+    EXPECT_EQ(shown(0.985, 0.92), kOrange) << "1 N";
+    EXPECT_EQ(shown(0.7, 0.92), kOrange);
+    EXPECT_EQ(shown(0.25, 0.98), kOrange) << "0 N";
+    EXPECT_NEAR(shown(0.25, 0.92)[0], 77 / 2, 2) << "between, half of the grey";
+    EXPECT_EQ(shown(0.25, 0.8), (Pixel{77, 77, 77})) << "above the strip";
+    EXPECT_TRUE(canvas.guards_hold());
+  }
+}
+
+TEST(Overlay, ACurveBeginsAnewWithItsStreamAndHasARoundAxis) {
+  ForceCurve curve;
+  EXPECT_TRUE(curve.places().empty());
+  EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
+  curve.add(5'000'000, 2.1);
+  EXPECT_EQ(curve.axis().high, 5);
+  curve.add(4'000'000, 0.1);
+  EXPECT_EQ(curve.places().size(), 1u);
+  EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
+}
+
 /// The pixels of the newtons beyond the tip of an arrow to the right, in a picture of 481 x 481, as
 /// they are shown: places from the upper left one on, and colours.
 std::vector<std::tuple<int, int, Pixel>> newtons(const PictureTurn& turn) {

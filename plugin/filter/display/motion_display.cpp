@@ -27,6 +27,8 @@ void MotionDisplay::show(FrameReport& report, const DisplayProperties& propertie
     return;
   }
   owners_.find(report);
+  const bool draws_curve = properties.overlay == OverlayKind::kCurve;
+  if (draws_curve) curve_.add(report.frame.running_ns, report.frame.wrench.force_N.norm());
   if (shown_in) {
     follow_film(report);
     report.film = film_;
@@ -42,11 +44,13 @@ void MotionDisplay::show(FrameReport& report, const DisplayProperties& propertie
   }
   const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
-    draw_overlay(report, properties.overlay == OverlayKind::kTracks, properties.arrow_scale, frame);
+    draw_overlay(report, properties.overlay == OverlayKind::kTracks, properties.arrow_scale, frame,
+                 draws_curve ? &curve_ : nullptr);
   }
 }
 
 void MotionDisplay::begin_stream(const std::string& film) {
+  curve_ = {};
   film_ = {};
   film_.path = std::make_shared<const std::string>(film);
 }

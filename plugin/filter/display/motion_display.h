@@ -14,6 +14,7 @@
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/filter/engine/motion_engine.h"
 #include "plugin/filter/frame/track_owners.h"
+#include "plugin/filter/overlay/force_curve.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 
@@ -62,7 +63,8 @@ class MotionDisplay {
   SinkHand hand_;
   // Streaming thread.
   TrackOwners owners_;
-  FilmMoment film_;  // for the window
+  ForceCurve curve_;  // for the overlay
+  FilmMoment film_;   // for the window
 
   mutable std::mutex mutex_;  // never held while a window opens or closes
   std::shared_ptr<Window> window_;

@@ -15,9 +15,15 @@
 namespace spidar {
 namespace {
 
-constexpr Rgb kProxy{255, 160, 30};
+constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130};
 /// Height of a number, of the picture's.
 constexpr double kNumberShare = 0.035;
+/// The strip with the curve at the lower edge, as shares of the height of the picture: all of it,
+/// and from 0 N to the upper end of the axis. The curve ends so far from the right edge.
+constexpr double kStripShare = 0.17, kBelowShare = 0.02, kCurveShare = 0.12;
+constexpr double kCurveEnd = 0.985;
+/// So much of the picture is seen through the strip.
+constexpr double kStripOpacity = 0.5;
 
 cv::Scalar bgra(Rgb color) {
   return {static_cast<double>(color.b), static_cast<double>(color.g), static_cast<double>(color.r),
@@ -100,6 +106,12 @@ class Sheet {
       cv::polylines(pixels_, corners, true, bgra(color), thickness(outline_px), cv::LINE_AA,
                     kShift);
     }
+  }
+  /// Darkens what is behind, between two corners.
+  void shade(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double opacity) {
+    if (!is_near(from_px) || !is_near(to_px)) return;
+    cv::rectangle(pixels_, fixed(from_px), fixed(to_px), {0, 0, 0, 255 * opacity}, cv::FILLED,
+                  cv::LINE_8, kShift);
   }
   void box(const Eigen::Vector2d& low_px, const Eigen::Vector2d& high_px, double width_px,
            Rgb color) {
@@ -240,9 +252,37 @@ void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& v
   sheet.box(low_px, high_px, 2 * thin_px, kProxy);
 }
 
+/// Along the lower edge of the picture as it is shown.
+void draw_curve(const ForceCurve& curve, const PictureTurn& turn, Sheet& sheet) {
+  const Eigen::Vector2d size_px = sheet.size_px();
+  const double height_px = turn.is_sideways() ? size_px.x() : size_px.y();
+  const double thin_px = height_px / kReferenceHeight_px;
+  const auto at_px = [&](double x, double y) -> Eigen::Vector2d {
+    return turn.place_coded(Eigen::Vector2d(x, y)).cwiseProduct(size_px).array() - 0.5;
+  };
+  const auto level_px = [&](double x, double share) {
+    return at_px(x, 1 - kBelowShare - kCurveShare * share);
+  };
+  sheet.shade(at_px(0, 1 - kStripShare), at_px(1, 1), kStripOpacity);
+  for (const double share : {0.0, 1.0}) {
+    sheet.line(level_px(0, share), level_px(1, share), thin_px, kGrid);
+  }
+  std::optional<Eigen::Vector2d> before_px;
+  for (const Eigen::Vector2d& place : curve.places()) {
+    const Eigen::Vector2d now_px = level_px(kCurveEnd * place.x(), place.y());
+    if (before_px) sheet.line(*before_px, now_px, 3 * thin_px, kProxy);
+    before_px = now_px;
+  }
+  if (before_px) sheet.circle(*before_px, 5 * thin_px, 0, kProxy);
+  const PlotAxis axis = curve.axis();
+  sheet.text(axis.label(axis.high) + " N", level_px(0, 1), turn.to_coded(Eigen::Vector2d(1, 0)),
+             turn);
+}
+
 }  // namespace
 
-void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame) {
+void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame,
+                  const ForceCurve* curve) {
   const VisiblePart& visible = report.visible;
   const std::vector<uint32_t>& felt = report.felt;
   Sheet sheet(frame, visible);
@@ -252,6 +292,7 @@ void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstV
   style.turn = report.turn;
   style.height_px = visible.height;
   style.centre_px = sheet.at_px(force_origin_px(report));
+  if (curve) draw_curve(*curve, report.turn, sheet);
   if (has_tracks) {
     const auto at_px = [&](const ImagePoint& at) { return sheet.at_px({at.x_px, at.y_px}); };
     for (const Arrow& arrow : track_arrows(report.tracks, style, at_px)) {

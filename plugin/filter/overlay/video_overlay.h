@@ -6,6 +6,7 @@
 #include <gst/video/video.h>
 
 #include "plugin/filter/frame/frame_report.h"
+#include "plugin/filter/overlay/force_curve.h"
 
 namespace spidar {
 
@@ -13,7 +14,9 @@ namespace spidar {
 /// arrow with a black border, which begins on the object (see force_origin_px()). While the picture
 /// is touched, also draws the finger as a ring, the touched point as a disc that grows with the
 /// force, and the contact force from that point. With `has_tracks`, also draws one arrow per track
-/// and a cross at each lost point. `frame` must be mapped for writing.
-void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame);
+/// and a cross at each lost point; with a `curve`, that along the lower edge. `frame` must be
+/// mapped for writing.
+void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame,
+                  const ForceCurve* curve = nullptr);
 
 }  // namespace spidar

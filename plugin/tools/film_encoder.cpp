@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_encoder.h"
+
+#include <stdexcept>
+
+#include "plugin/gobject/ref.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tracks/file_pipeline.h"
+
+namespace spidar {
+namespace {
+
+struct Encoder {
+  const char* element;
+  const char* line;  ///< of elements, for gst_parse_launch()
+};
+
+/// Of constant quality, with which pictures of any size look alike: H.264 of a quantizer between 20
+/// and 26 hardly differs from its source. The fastest settings that still do.
+constexpr Encoder kVideo[] = {
+    {"x264enc", "x264enc speed-preset=veryfast pass=qual quantizer=22"},
+    {"openh264enc", "openh264enc rate-control=off complexity=low ! h264parse"},
+};
+constexpr const char* kNoVideo =
+    "GStreamer has no encoder of H.264: install gstreamer1.0-plugins-ugly (x264enc)";
+constexpr Encoder kSound[] = {
+    {"avenc_aac", "audioconvert ! audioresample ! avenc_aac"},
+    {"voaacenc", "audioconvert ! audioresample ! voaacenc"},
+};
+constexpr const char* kNoSound =
+    "its sound is left out: GStreamer has no encoder of AAC; install gstreamer1.0-libav "
+    "(avenc_aac)";
+
+/// Sound that containers take as it is in the film.
+constexpr const char* kCopied =
+    "audio/mpeg,mpegversion=(int)4,stream-format=(string)raw,framed=(boolean)true; "
+    "audio/mpeg,mpegversion=(int)1,layer=(int)3,parsed=(boolean)true";
+
+/// The first one that is installed; null when none is.
+template <size_t kCount>
+const char* first_installed(const Encoder (&encoders)[kCount]) {
+  for (const Encoder& encoder : encoders) {
+    const Ref<GstElementFactory> factory(gst_element_factory_find(encoder.element));
+    if (factory) return encoder.line;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string film_encoder(const PartFile& part) {
+  const char* const encoder = first_installed(kVideo);
+  if (!encoder) throw std::runtime_error(kNoVideo);
+  // H.264 of 4:2:0 has even sizes.
+  return "videoconvert ! videoscale ! video/x-raw,format=I420,width=(int)[2,16384,2],"
+         "height=(int)[2,16384,2] ! " +
+         std::string(encoder) + " ! " +
+         (ends_with(part.target(), ".mkv") ? "matroskamux" : "mp4mux") +
+         " name=mux ! fdsink sync=false fd=" + std::to_string(part.descriptor());
+}
+
+void KeptSound::begin(GstElement* pipeline) {
+  pipeline_ = pipeline;
+  const Ref<GstElement> decoder(gst_bin_get_by_name(GST_BIN(pipeline), "decode"));
+  GstCaps* caps = nullptr;
+  g_object_get(decoder.get(), "caps", &caps, nullptr);
+  caps = gst_caps_make_writable(caps);
+  gst_caps_append(caps, gst_caps_from_string(kCopied));
+  g_object_set(decoder.get(), "caps", caps, nullptr);
+  gst_caps_unref(caps);
+  g_signal_connect(decoder.get(), "unknown-type", G_CALLBACK(hear_unknown), this);
+  g_signal_connect(decoder.get(), "no-more-pads", G_CALLBACK(choose), this);
+}
+
+void KeptSound::hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
+  auto& self = *static_cast<KeptSound*>(user);
+  if (kind_of(caps) != StreamKind::kSound) return;
+  self.missing_ = "its sound is left out: GStreamer has no decoder of " +
+                  std::string(gst_structure_get_name(gst_caps_get_structure(caps, 0)));
+}
+
+/// All streams are known, and none of them flows yet.
+void KeptSound::choose(GstElement* decoder, gpointer user) {
+  auto& self = *static_cast<KeptSound*>(user);
+  for (GList* i = decoder->srcpads; i && !self.is_kept_; i = i->next) {
+    auto* const pad = static_cast<GstPad*>(i->data);
+    if (kind_of(pad) == StreamKind::kSound) self.keep(pad);
+  }
+  if (self.is_kept_) self.missing_.clear();
+}
+
+void KeptSound::keep(GstPad* sound) {
+  const Ref<GstCaps> caps(caps_of(sound));
+  const bool is_raw =
+      gst_structure_has_name(gst_caps_get_structure(caps.get(), 0), "audio/x-raw") != FALSE;
+  const char* const encoder = is_raw ? first_installed(kSound) : "identity";
+  if (!encoder) {
+    missing_ = kNoSound;
+    return;
+  }
+  // Holds what is heard while the encoder of the pictures looks ahead.
+  const std::string line =
+      std::string("queue max-size-time=0 max-size-buffers=0 ! ") + encoder + " ! identity";
+  GstElement* const branch = gst_parse_bin_from_description(line.c_str(), TRUE, nullptr);
+  if (!branch) return;
+  gst_bin_add(GST_BIN(pipeline_), branch);
+  const Ref<GstElement> mux(gst_bin_get_by_name(GST_BIN(pipeline_), "mux"));
+  const Ref<GstPad> into(gst_element_request_pad_simple(mux.get(), "audio_%u"));
+  const Ref<GstPad> from(gst_element_get_static_pad(branch, "src"));
+  const Ref<GstPad> first(gst_element_get_static_pad(branch, "sink"));
+  gst_pad_link(from.get(), into.get());
+  gst_element_sync_state_with_parent(branch);
+  is_kept_ = gst_pad_link(sound, first.get()) == GST_PAD_LINK_OK;
+}
+
+}  // namespace spidar

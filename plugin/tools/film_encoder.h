@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The part of a pipeline that writes a film: H.264, and the sound of another film.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+#include "plugin/tracks/part_file.h"
+
+namespace spidar {
+
+/// Elements from raw pictures to the file of `part`, whose name will end in .mp4 or .mkv, with a
+/// muxer "mux". Throws std::runtime_error, which names the package to install, when GStreamer has
+/// no encoder of H.264.
+std::string film_encoder(const PartFile& part);
+
+/// Keeps the sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
+/// Outlives the pipeline.
+class KeptSound {
+ public:
+  KeptSound() = default;
+  KeptSound(const KeptSound&) = delete;
+  KeptSound& operator=(const KeptSound&) = delete;
+
+  /// `pipeline` has a decodebin "decode" and a muxer "mux", and has not started.
+  void begin(GstElement* pipeline);
+
+  /// After the end: why the sound of the film is missing, as a sentence; empty if it is not.
+  const std::string& missing() const { return missing_; }
+
+ private:
+  static void choose(GstElement* decoder, gpointer self);
+  static void hear_unknown(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
+  void keep(GstPad* sound);
+
+  GstElement* pipeline_ = nullptr;
+  bool is_kept_ = false;
+  std::string missing_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include <glib.h>
+
+#include "core/force/motion_rendering.h"
+#include "core/track/keyframes.h"
+#include "plugin/tools/film_page_html.h"
+
+namespace spidar {
+namespace {
+
+constexpr int kZero = 128, kSteps = 127;  // of a byte that is a force
+
+/// See curveOf() of the page.
+std::string curve_text(const std::vector<double>& force_N, double tolerance_N, double most_N) {
+  std::string bytes;
+  size_t before = 0;
+  for (const size_t i : choose_keyframes(force_N, tolerance_N)) {
+    constexpr int kBits = 7;
+    constexpr size_t kMore = size_t{1} << kBits;
+    const size_t distance = i - before;
+    int shift = 0;
+    while (distance >> shift >= kMore) shift += kBits;
+    for (; shift >= 0; shift -= kBits) {
+      const size_t bits = (distance >> shift) % kMore;
+      bytes += static_cast<char>(shift > 0 ? bits + kMore : bits);
+    }
+    bytes += static_cast<char>(kZero + std::lround(kSteps * force_N[i] / most_N));
+    before = i;
+  }
+  gchar* const text = g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
+  std::string result = text;
+  g_free(text);
+  return result;
+}
+
+/// As the content of a script element, which only "<" could end.
+std::string script_json(const nlohmann::ordered_json& value) {
+  std::string text;
+  for (const char c : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+    text += c == '<' ? "\\u003c" : std::string(1, c);
+  return text;
+}
+
+}  // namespace
+
+void FilmPage::add(const TrackSample& sample) {
+  const Eigen::Vector3d force_N = to_wrench(sample).force_N;
+  for (size_t axis = 0; axis < kAxes; ++axis) {
+    const double now_N = force_N[static_cast<Eigen::Index>(axis)];
+    if (std::isfinite(now_N)) sum_N_[axis] += now_N;
+  }
+  if (++count_ < kStep_samples) return;
+  Eigen::Vector3d mean_N;
+  for (size_t axis = 0; axis < kAxes; ++axis) {
+    mean_N[static_cast<Eigen::Index>(axis)] = sum_N_[axis] / kStep_samples;
+    force_N_[axis].push_back(sum_N_[axis] / kStep_samples);
+  }
+  largest_N_ = std::max(largest_N_, mean_N.norm());
+  sum_N_ = {};
+  count_ = 0;
+}
+
+FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
+                              double later_s) const {
+  constexpr double kCoarser = 1.25;
+  const std::string page = kFilmPage, place = "@TRACK@";
+  const size_t at = page.find(place);
+  const double most_N = std::max(largest_N_, kFeltForce_N);
+  nlohmann::ordered_json track = {{"film", name},
+                                  {"url", url},
+                                  {"later_s", later_s},
+                                  {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
+                                  {"most_N", most_N}};
+  Html html;
+  // As exact as a hand can feel, or as there is room for in a long film.
+  for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
+    track["force"] = nlohmann::ordered_json::array();
+    for (const std::vector<double>& force_N : force_N_)
+      track["force"].push_back(curve_text(force_N, lines_N, most_N));
+    html.text = page;
+    html.text.replace(at, place.size(), script_json(track));
+    html.tolerance_N = lines_N + most_N / kSteps / 2;
+    if (html.text.size() < kMost_bytes || lines_N > 2 * most_N) return html;
+  }
+}
+
+}  // namespace spidar

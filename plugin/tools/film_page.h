@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A page for browsers that plays a film with its force.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/track/track_format.h"
+
+namespace spidar {
+
+class FilmPage {
+ public:
+  /// The page is smaller. 100 KB pass where mail and chat cut off.
+  static constexpr size_t kMost_bytes = 100'000;
+
+  /// The next millisecond of the track. Samples that are not numbers count as none.
+  void add(const TrackSample& sample);
+
+  struct Html {
+    std::string text;
+    double tolerance_N;  ///< the force that is shown differs by so much at most, along each axis
+  };
+  /// `url` is of the film, relative to the page, and `name` for people. The film shows its pictures
+  /// `later_s` seconds later than the track says.
+  Html html(const std::string& url, const std::string& name, double later_s) const;
+
+ private:
+  /// Forces are shown at the rate of a screen.
+  static constexpr size_t kStep_samples = 10;
+  static constexpr size_t kAxes = 3;
+
+  std::array<double, kAxes> sum_N_{};  // of the samples of a step
+  size_t count_ = 0;
+  std::array<std::vector<double>, kAxes> force_N_;  // means of steps
+  double largest_N_ = 0;
+};
+
+}  // namespace spidar

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+
+#include "plugin/tools/film_encoder.h"
+#include "plugin/tools/film_progress.h"
+#include "plugin/tools/film_watch.h"
+#include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tools/track_samples.h"
+#include "plugin/tracks/file_pipeline.h"
+#include "plugin/tracks/part_file.h"
+#include "spidar/tools/command_line.h"
+
+namespace spidar {
+namespace {
+
+/// Upright, because the arrow and the curve are drawn into pictures as they are shown.
+constexpr const char* kAnalysis =
+    "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
+    "videoflip video-direction=auto ! spidarmotion name=motion device=none overlay=curve ! ";
+
+/// On a terminal, in one line that is gone at the end.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const std::string& film) : film_(film), shown_(isatty(STDOUT_FILENO)) {}
+  ~ProgressLine() {
+    if (shown_) std::printf("\r\033[K");
+    std::fflush(stdout);
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void tell(int percent) const {
+    if (!shown_) return;
+    std::printf("\r%s: %d %%", film_.c_str(), percent);
+    std::fflush(stdout);
+  }
+
+ private:
+  const std::string& film_;
+  const bool shown_;
+};
+
+/// Returns what is to be said of it. Throws std::runtime_error, without the name of the film.
+std::string show(const ShowOptions& options, const PartFile& part) {
+  const ProgressLine line(options.film);
+  FilmProgress progress([&line](int percent) { line.tell(percent); });
+  FilmWatch watch;
+  KeptSound sound;
+  const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowShare);
+  GstElement* const motion = file.find("motion");
+  set_properties(motion, options.properties);
+  watch.begin(file.pipeline());
+  sound.begin(file.pipeline());
+  progress.watch(motion);
+  std::string error;
+  try {
+    file.play_until(GST_MESSAGE_EOS);
+  } catch (const std::runtime_error& ended) {
+    error = ended.what();
+  }
+  file.stop();
+  const std::string problem = watch.problem(error);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  if (film_end(options.film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
+  std::string said = watch.felt();
+  for (const std::string& more : {sound.missing(), watch.remark()}) {
+    if (!more.empty()) said += "; " + more;
+  }
+  return said;
+}
+
+}  // namespace
+
+int show_film(const ShowOptions& options) {
+  const std::string &film = options.film, &to = options.to;
+  if (!ends_with(to, ".mp4") && !ends_with(to, ".mkv")) {
+    throw UsageError(to + ": is to end in .mp4 or .mkv");
+  }
+  std::error_code none;
+  if (std::filesystem::equivalent(film, to, none)) {
+    throw UsageError(to + ": is to be another file than " + film);
+  }
+  PartFile part(to);
+  std::string said;
+  try {
+    said = show(options, part);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(film + ": " + error.what());
+  }
+  part.publish();
+  std::cout << film << ": " << to << "; " << said << '\n';
+  return kDone;
+}
+
+}  // namespace spidar

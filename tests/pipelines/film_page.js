@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Runs the scripts of a page that spidartrack export has made on what a browser would give them:
+// node film_page.js PAGE TIME... . Prints as JSON what is shown and felt at each time, in seconds,
+// of a film that is 800 x 480 pixels large, and after a pause.
+"use strict";
+const fs = require("fs");
+const vm = require("vm");
+
+const [data, script] = [...fs.readFileSync(process.argv[2], "utf8")
+  .matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map((found) => found[1]);
+
+let places = [], tip = null, pulses = [], vibrated_ms = [], every = null, next = null;
+const pen = {
+  beginPath() { places = []; },
+  moveTo(x, y) { places.push([x, y]); },
+  lineTo(x, y) { places.push([x, y]); },
+  clearRect() { tip = null; },
+  // The second corner of the head.
+  fill() { if (pen.fillStyle === "white") tip = [places[1][0] - 400, 240 - places[1][1]]; },
+  closePath() {}, stroke() {},
+};
+const part = (more) => ({ addEventListener() {}, ...more });
+const film = part({ clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0 });
+const parts = {
+  track: { textContent: data }, film, said: part(), wide: part(), rumble: part({ checked: true }),
+  arrow: { getContext: () => pen },
+};
+const actuator = { playEffect(kind, effect) { pulses.push(effect.strongMagnitude); return Promise.resolve(); } };
+const page = {
+  document: { getElementById: (id) => parts[id] },
+  navigator: { getGamepads: () => [null, { vibrationActuator: actuator }], vibrate(ms) { vibrated_ms.push(ms); } },
+  atob, Uint8Array, Math, Array, JSON,
+  requestAnimationFrame(call) { next = call; },
+  setInterval(call) { every = call; },
+};
+vm.runInNewContext(script, page);
+
+const moments = process.argv.slice(3).map((time) => {
+  film.currentTime = Number(time);
+  pulses = [];
+  vibrated_ms = [];
+  next();
+  every();
+  return { tip, said: parts.said.textContent, pulses, vibrated_ms };
+});
+film.paused = true;
+pulses = [];
+vibrated_ms = [];
+for (let i = 0; i < 3; ++i) every();
+console.log(JSON.stringify({
+  moments, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
+  most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));

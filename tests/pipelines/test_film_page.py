@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""spidartrack export: test_film_page.py FILM_PAGE_JS. The scripts of the page run in node, and in Chromium with a
+film, as far as these are installed."""
+import json
+import math
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import threading
+import unittest
+
+import track_case
+from track_case import FULL_SCALE
+
+FILM_PAGE_JS = pathlib.Path(sys.argv.pop(1)).resolve()
+MOST_BYTES = 100_000
+STEP_MS = 10
+HEIGHT_PX = 480  # of the picture that film_page.js shows
+
+# Beside the page's own: plays the film without a click, and tells at its end when a gamepad was vibrated, how strongly.
+CHROMIUM_PROBE = """<script>
+"use strict";
+const pulses = [];
+navigator.getGamepads = () => [{ vibrationActuator: { playEffect(kind, effect) {
+  pulses.push([film.currentTime, effect.strongMagnitude]); return Promise.resolve(); } } }];
+film.muted = true;
+film.play();
+film.addEventListener("error", () => console.log("probe: " + film.error.message));
+film.addEventListener("ended", () => console.log("probe: " + JSON.stringify(pulses)));
+</script>
+"""
+LONGEST_S = 60
+
+
+def mean_force(samples, step):
+    """In newtons, of the samples of a step of the page."""
+    of_step = samples[STEP_MS * step:STEP_MS * (step + 1)]
+    return [FULL_SCALE[axis] * sum(sample[axis] for sample in of_step) / STEP_MS for axis in range(3)]
+
+
+class FilmPage(track_case.TrackCase):
+    def export(self, film, page="page.html"):
+        """The tolerance in newtons that the command prints."""
+        said = self.spidartrack("export", film, page)
+        found = re.search(r"; (\d+) KB, exact to (\S+) N$", said, re.MULTILINE)
+        self.assertTrue(found, said)
+        self.assertLess(self.path(page).stat().st_size, MOST_BYTES)
+        return float(found.group(2)) + .005  # as it is rounded
+
+    def run_page(self, *times_s, page="page.html"):
+        """What film_page.js prints."""
+        return json.loads(self.run_in_folder(["node", str(FILM_PAGE_JS), str(self.path(page)), *map(str, times_s)]))
+
+    def assert_shows(self, samples, tolerance_N):
+        steps = range(0, len(samples) // STEP_MS, 7)
+        shown = self.run_page(*(step * STEP_MS / 1000 for step in steps))
+        most_N = shown["most_N"]
+        px_N = HEIGHT_PX / 5 / most_N
+        # Along each of three axes, and "1.5 N" is rounded.
+        size_N = math.sqrt(3) * tolerance_N
+        for step, moment in zip(steps, shown["moments"]):
+            force_N = mean_force(samples, step)
+            if moment["tip"]:
+                for axis in range(2):
+                    self.assertAlmostEqual(moment["tip"][axis] / px_N, force_N[axis], delta=tolerance_N)
+            else:  # shorter than it is wide
+                self.assertLess(math.hypot(*force_N[:2]), HEIGHT_PX / 80 / px_N + size_N)
+            self.assertAlmostEqual(float(moment["said"].split()[0]), math.hypot(*force_N), delta=size_N + .05)
+            for strength in moment["pulses"]:
+                self.assertAlmostEqual(strength * most_N, math.hypot(*force_N), delta=size_N)
+            for on_ms in moment["vibrated_ms"]:
+                self.assertAlmostEqual(on_ms / 50 * most_N, math.hypot(*force_N), delta=size_N + most_N / 100)
+        return shown
+
+    @track_case.needs("node")
+    def test_the_page_shows_and_renders_the_force_of_the_track(self):
+        self.make_film("a film.avi", frames=50)
+        self.make_track("a film.avi.haptic.wav", count=2000)
+        tolerance_N = self.export("a film.avi")
+        self.assertLess(tolerance_N, .04)  # what a hand can feel
+        shown = self.assert_shows(self.samples("a film.avi.haptic.wav"), tolerance_N)
+        self.assertEqual((shown["url"], shown["title"]), ("a%20film.avi", "a film.avi"))
+        self.assertGreater(max(map(len, (moment["pulses"] for moment in shown["moments"]))), 0)
+
+    @track_case.needs("node")
+    def test_a_pause_ends_the_vibration_once(self):
+        self.make_film()
+        self.make_track("film.avi.haptic.wav")
+        self.export("film.avi")
+        self.assertEqual(self.run_page(.15)["paused"], {"pulses": [0], "vibrated_ms": [0]})
+        self.assertEqual(self.run_page(.15, 7)["paused"], {"pulses": [], "vibrated_ms": []})
+
+    @track_case.needs("node", "ffmpeg")
+    def test_a_film_whose_times_are_others_than_those_of_its_track_is_followed(self):
+        """In a transport stream the pictures begin later."""
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=160x120:rate=25:duration=4 "
+                           "-bf 2 film.mp4 && ffmpeg -nostdin -v error -i film.mp4 -c copy copy.ts")
+        self.spidartrack("record", "film.mp4")
+        self.path("copy.ts.haptic.flac").write_bytes(self.path("film.mp4.haptic.flac").read_bytes())
+        self.export("film.mp4", "film.html")
+        self.export("copy.ts", "copy.html")
+        later_s = self.run_page(0, page="copy.html")["later_s"]
+        self.assertGreater(later_s, .02)
+        times_s = [.1 * i for i in range(1, 30)]
+        said = [[moment["said"] for moment in self.run_page(*(time_s + shift_s for time_s in times_s), page=page)["moments"]]
+                for page, shift_s in (("film.html", 0), ("copy.html", later_s))]
+        self.assertEqual(*said)
+        self.assertGreater(len(set(said[0])), 1)
+
+    @track_case.needs("node")
+    def test_names_of_films_are_not_read_as_html(self):
+        for name in ("<!--<script>.avi", "a&b #1 100%.avi", "färbt'ihn\".avi"):
+            folder = f"sub {len(name)}"
+            self.make_film(name)
+            self.make_track(name + ".haptic.wav")
+            self.path(folder).mkdir()
+            self.export(name, f"{folder}/page.html")
+            shown = self.run_page(0, page=f"{folder}/page.html")
+            self.assertEqual(shown["title"], name)
+            self.assertEqual(shown["url"], "../" + "".join(
+                chr(byte) if chr(byte).isalnum() and byte < 128 or chr(byte) in "-._~/" else f"%{byte:02X}"
+                for byte in name.encode()))
+
+    def test_the_page_needs_no_network(self):
+        self.make_film()
+        self.make_track("film.avi.haptic.wav")
+        self.export("film.avi")
+        text = self.path("page.html").read_text(encoding="utf-8")
+        self.assertIn("default-src 'none'; media-src 'self' file:", text)
+        self.assertEqual(re.findall(r"https?:|//\w|\bsrc *=|\bhref|@import|url\(", text.replace("film.src = ", "")), [])
+
+    @track_case.needs("node")
+    def test_a_long_track_fits_by_being_less_exact(self):
+        """Ten minutes of a force that no straight lines follow."""
+        rng = random.Random(5)
+        ends = [[rng.uniform(-.3, .3) for _ in range(6)] for _ in range(600 * 20 + 1)]
+        self.make_film("film.avi")
+        self.gst("videotestsrc num-buffers=600 ! video/x-raw,width=64,height=48,framerate=1/1 ! jpegenc ! avimux",
+                 "! filesink location=film.avi")
+        self.make_track("film.avi.haptic.wav", count=600_000,
+                        sample=lambda ms: [a + (b - a) * (ms % 50) / 50
+                                           for a, b in zip(ends[ms // 50], ends[ms // 50 + 1])])
+        tolerance_N = self.export("film.avi")
+        self.assertGreater(tolerance_N, .04)
+        self.assert_shows(self.samples("film.avi.haptic.wav")[:10_000], tolerance_N)
+
+    def test_what_is_wrong_is_said(self):
+        self.make_film()
+        self.assert_said("a film without a haptic track, inside it or beside it", "export", "film.avi", "a.html")
+        self.make_track()
+        self.assert_said("a.wav: is a track; give the film that it is for", "export", "a.wav", "a.html", status=2)
+        self.make_track("film.avi.haptic.wav")
+        self.assert_said("a.htm: is to end in .html", "export", "film.avi", "a.htm", status=2)
+        self.make_track("film.avi.haptic.wav", count=1500)
+        self.assert_said("is that of another film", "export", "film.avi", "a.html")
+        self.assertEqual(self.files(), {"film.avi", "film.avi.haptic.wav", "a.wav"})
+
+    def probe(self, page):
+        """What CHROMIUM_PROBE tells."""
+        with subprocess.Popen(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                               "--autoplay-policy=no-user-gesture-required", "--enable-logging=stderr",
+                               f"--user-data-dir={self.path('profile')}", page.as_uri()],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as browser:
+            watchdog = threading.Timer(LONGEST_S, browser.kill)
+            watchdog.start()
+            try:
+                text = ""
+                for line in browser.stderr:
+                    text += line
+                    if found := re.search(r'"probe: (.*)", source: ', line):
+                        return json.loads(found.group(1))
+                self.fail(text)
+            finally:
+                watchdog.cancel()
+                browser.terminate()
+
+    @track_case.needs("chromium")
+    def test_a_browser_plays_the_film_in_time_with_the_force(self):
+        self.gst("videotestsrc num-buffers=50 pattern=ball ! video/x-raw,width=160,height=120,framerate=25/1",
+                 "! vp8enc deadline=1 ! webmmux ! filesink location=film.webm")
+        self.make_track("film.webm.haptic.wav", count=2000)
+        tolerance_N = self.export("film.webm")
+        page = self.path("page.html")
+        page.write_text(page.read_text(encoding="utf-8") + CHROMIUM_PROBE, encoding="utf-8")
+        pulses = self.probe(page)
+        self.assertGreater(len(pulses), 2)
+        samples = self.samples("film.webm.haptic.wav")
+        most_N = max(math.hypot(*mean_force(samples, step)) for step in range(200))
+        for time_s, strength in pulses[:-1]:  # the last one ends it
+            # Of the step before, while the force of track_case.wave() changes by less than 20 N/s.
+            force_N = math.hypot(*mean_force(samples, min(int(100 * time_s), 199)))
+            self.assertAlmostEqual(strength * most_N, force_N, delta=math.sqrt(3) * tolerance_N + .01 * 20)
+
+
+if __name__ == "__main__":
+    unittest.main()
