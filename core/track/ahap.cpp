@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
@@ -50,42 +51,65 @@ OrderedJson event(double time_s, double duration_s) {
               {{"ParameterID", "HapticSharpness"}, {"ParameterValue", kSharpness}}}}}}};
 }
 
-/// From points[begin] to points[end].
-OrderedJson curve(const std::vector<double>& values, const std::vector<size_t>& points,
-                  size_t begin, size_t end) {
-  const double begin_s = seconds(points[begin]);
-  OrderedJson controls = OrderedJson::array();
-  for (size_t k = begin; k <= end; ++k) {
-    controls.push_back(
-        {{"Time", rounded(seconds(points[k]) - begin_s)}, {"ParameterValue", values[points[k]]}});
+/// Writes curves of some points each; the last point of one is the first of the next.
+class CurveWriter {
+ public:
+  CurveWriter(const WriteText& write, bool is_first) : write_(write), is_first_(is_first) {}
+
+  void add(size_t index, double value) {
+    points_.push_back({index, value});
+    if (points_.size() == kMostPoints) put();
   }
-  return {{"ParameterCurve",
-           {{"ParameterID", "HapticIntensityControl"},
-            {"Time", begin_s},
-            {"ParameterCurveControlPoints", controls}}}};
-}
+  void finish() {
+    if (points_.size() > 1) put();
+  }
+
+ private:
+  void put() {
+    const double begin_s = seconds(points_.front().index);
+    OrderedJson controls = OrderedJson::array();
+    for (const Point& point : points_) {
+      controls.push_back(
+          {{"Time", rounded(seconds(point.index) - begin_s)}, {"ParameterValue", point.value}});
+    }
+    const OrderedJson curve = {{"ParameterCurve",
+                                {{"ParameterID", "HapticIntensityControl"},
+                                 {"Time", begin_s},
+                                 {"ParameterCurveControlPoints", controls}}}};
+    write_((is_first_ ? "" : ",") + curve.dump());
+    is_first_ = false;
+    points_.erase(points_.begin(), points_.end() - 1);
+  }
+
+  struct Point {
+    size_t index;
+    double value;
+  };
+  const WriteText& write_;
+  bool is_first_;
+  std::vector<Point> points_;
+};
 
 }  // namespace
 
-std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance, double gain) {
-  std::vector<double> values;
-  values.reserve(samples.size());
-  for (const TrackSample& sample : samples) values.push_back(intensity(sample));
-  OrderedJson pattern = OrderedJson::array();
-  const double length_s = seconds(samples.size());
+void write_ahap(const SampleSource& samples, const WriteText& write, double tolerance,
+                double gain) {
+  write(R"({"Version":1.0,"Metadata":{"Description":)" + OrderedJson(description(gain)).dump() +
+        R"(},"Pattern":[)");
+  const double length_s = seconds(samples.count);
+  bool is_first = true;
   for (double time_s = 0; time_s < length_s; time_s += kLongestEvent_s) {
-    pattern.push_back(event(time_s, std::min(kLongestEvent_s, length_s - time_s)));
+    write((is_first ? "" : ",") +
+          event(time_s, std::min(kLongestEvent_s, length_s - time_s)).dump());
+    is_first = false;
   }
-  const std::vector<size_t> points = choose_keyframes(values, tolerance);
-  for (size_t begin = 0; begin + 1 < points.size(); begin += kMostPoints - 1) {
-    const size_t end = std::min(begin + kMostPoints - 1, points.size() - 1);
-    pattern.push_back(curve(values, points, begin, end));
-  }
-  return OrderedJson{{"Version", 1.0},
-                     {"Metadata", {{"Description", description(gain)}}},
-                     {"Pattern", pattern}}
-             .dump() +
-         "\n";
+  CurveWriter curves(write, is_first);
+  KeyframeChooser points(tolerance,
+                         [&curves](size_t index, double value) { curves.add(index, value); });
+  samples.each([&points](const TrackSample& sample) { points.add(intensity(sample)); });
+  points.finish();
+  curves.finish();
+  write("]}\n");
 }
 
 }  // namespace spidar

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,11 +14,24 @@
 
 namespace spidar {
 
+/// A track of 1000 samples a second that need not be in memory.
+struct SampleSource {
+  using Take = std::function<void(const TrackSample&)>;
+  size_t count = 0;
+  /// Gives all samples in their order, each time that it is called.
+  std::function<void(const Take&)> each;
+};
+/// Takes the next piece of a file that is written.
+using WriteText = std::function<void(const std::string&)>;
+
 /// Says what was wrong with a file, and where.
 class HjifError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Of the full scale.
+constexpr double kHjifTolerance = 4e-4;
 
 /// HJIF of a track of 1000 samples a second: one perception of modality Force with six channels, fx
 /// fy fz tx ty tz, 1.0 of which is the full scale. HJIF has no modality for torque, so the
@@ -25,7 +39,8 @@ class HjifError : public std::runtime_error {
 /// keyframes are samples. The curve differs from the other samples by at most `tolerance` of the
 /// full scale, and from the keyframes by half of 1e-5. Amplitudes beyond the full scale are
 /// clipped, as the format requires; NaN becomes 0.
-std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance = 4e-4);
+void write_hjif(const SampleSource& samples, const WriteText& write,
+                double tolerance = kHjifTolerance);
 
 /// The longest track that read_hjif() takes: 12 h.
 constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
@@ -49,8 +64,8 @@ constexpr double kFunscriptTolerance = 0.01;
 /// lines between them, and move at the speed that these ask for; they differ from the curve by at
 /// most `tolerance`, a share of the full scale, and the rounding of a position, 0.01. Amplitudes
 /// beyond the full scale are clipped, and NaN becomes 0.
-std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel,
-                            double tolerance = kFunscriptTolerance);
+void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
+                     double tolerance = kFunscriptTolerance);
 
 /// The longest funscript that is read: 12 h.
 constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;
@@ -75,7 +90,7 @@ constexpr double kAhapTolerance = 0.02;
 ///
 /// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
 /// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.
-std::string write_ahap(const std::vector<TrackSample>& samples, double tolerance = kAhapTolerance,
-                       double gain = 1);
+void write_ahap(const SampleSource& samples, const WriteText& write,
+                double tolerance = kAhapTolerance, double gain = 1);
 
 }  // namespace spidar

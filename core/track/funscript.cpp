@@ -61,22 +61,19 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
 
 }  // namespace
 
-std::string write_funscript(const std::vector<TrackSample>& samples, size_t channel,
-                            double tolerance) {
-  std::vector<double> shares;
-  shares.reserve(samples.size());
-  for (const TrackSample& sample : samples) {
+void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
+                     double tolerance) {
+  write(R"({"version":"1.0","inverted":false,"range":100,"actions":[)");
+  KeyframeChooser keyframes(tolerance, [&write](size_t index, double share) {
+    write((index == 0 ? R"({"at":)" : R"(,{"at":)") + std::to_string(index) + R"(,"pos":)" +
+          std::to_string(std::lround(kMiddle + kMiddle * share)) + "}");
+  });
+  samples.each([&](const TrackSample& sample) {
     const double share = sample[channel];
-    shares.push_back(std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0);
-  }
-  nlohmann::ordered_json actions = nlohmann::ordered_json::array();
-  for (const size_t i : choose_keyframes(shares, tolerance)) {
-    actions.push_back({{"at", i}, {"pos", std::lround(kMiddle + kMiddle * shares[i])}});
-  }
-  return nlohmann::ordered_json{
-             {"version", "1.0"}, {"inverted", false}, {"range", 100}, {"actions", actions}}
-             .dump() +
-         "\n";
+    keyframes.add(std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0);
+  });
+  keyframes.finish();
+  write("]}\n");
 }
 
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,

@@ -34,45 +34,79 @@ void append(std::string& text, Number number) {
               std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
-double amplitude_of(float sample) {
-  if (!std::isfinite(sample)) return 0;
+double to_steps(double value) {
   constexpr double kSteps = 1e5;
-  return std::round(std::clamp(static_cast<double>(sample), -1.0, 1.0) * kSteps) / kSteps;
+  return std::round(value * kSteps) / kSteps;
 }
 
-void append_channel(std::string& text, const std::vector<TrackSample>& samples, size_t channel,
-                    double tolerance) {
-  std::vector<double> values;
-  values.reserve(samples.size());
-  for (const TrackSample& sample : samples) values.push_back(amplitude_of(sample[channel]));
-  text += R"({"id":)";
+double amplitude_of(float sample) {
+  if (!std::isfinite(sample)) return 0;
+  return to_steps(std::clamp(static_cast<double>(sample), -1.0, 1.0));
+}
+
+void write_keyframe(const WriteText& write, size_t index, double value) {
+  std::string text = index == 0 ? R"({"relative_position":)" : R"(,{"relative_position":)";
+  append(text, index);
+  text += R"(,"amplitude_modulation":)";
+  append(text, value + 0.0);  // of −0 and 0 only the second
+  write(text + '}');
+}
+
+/// The keyframes of a curve, except that the Synthesizer of MPEG's reference software makes silence
+/// of a curve with two of them.
+class CurveWriter {
+ public:
+  explicit CurveWriter(const WriteText& write) : write_(write) {}
+
+  void add(size_t index, double value) {
+    if (count_ > 1) flush();
+    last_index_ = index;
+    last_value_ = value;
+    if (count_++ == 0) {
+      flush();
+      first_value_ = value;
+    }
+  }
+  void finish() {
+    if (count_ == 2 && last_index_ > 1) {
+      const size_t middle = last_index_ / 2;
+      const double share = static_cast<double>(middle) / static_cast<double>(last_index_);
+      write_keyframe(write_, middle, to_steps(first_value_ + share * (last_value_ - first_value_)));
+    }
+    if (count_ > 1) flush();
+  }
+
+ private:
+  void flush() { write_keyframe(write_, last_index_, last_value_); }
+
+  const WriteText& write_;
+  size_t count_ = 0, last_index_ = 0;
+  double first_value_ = 0, last_value_ = 0;
+};
+
+void write_channel(const SampleSource& samples, const WriteText& write, size_t channel,
+                   double tolerance) {
+  std::string text = R"({"id":)";
   append(text, channel);
   text += R"(,"description":")";
   text += kChannelNames[channel];
   text += R"(","gain":1.0,"mixing_coefficient":1.0,"body_part_mask":0,"frequency_sampling":)";
   append(text, kTrackRate_Hz);
   text += R"(,"sample_count":)";
-  append(text, samples.size());
+  append(text, samples.count);
   text += R"(,"bands":[{"band_type":"Curve","curve_type":"Linear","lower_frequency_limit":0,)"
           R"("upper_frequency_limit":)";
   append(text, kUpperLimit_Hz);
   text += R"(,"effects":[{"effect_type":"Basis","position":0,"phase":0.0,"base_signal":"Sine",)"
           R"("keyframes":[)";
-  std::vector<size_t> keyframes = choose_keyframes(values, tolerance);
-  // The Synthesizer of MPEG's reference software makes silence of a curve with two keyframes.
-  if (keyframes.size() == 2 && keyframes[1] > 1) {
-    keyframes.insert(keyframes.begin() + 1, keyframes[1] / 2);
-  }
-  bool first = true;
-  for (const size_t i : keyframes) {
-    text += first ? R"({"relative_position":)" : R"(,{"relative_position":)";
-    first = false;
-    append(text, i);
-    text += R"(,"amplitude_modulation":)";
-    append(text, values[i] + 0.0);  // of −0 and 0 only the second
-    text += '}';
-  }
-  text += "]}]}]}";
+  write(text);
+  CurveWriter curve(write);
+  KeyframeChooser keyframes(tolerance,
+                            [&curve](size_t index, double value) { curve.add(index, value); });
+  samples.each([&](const TrackSample& sample) { keyframes.add(amplitude_of(sample[channel])); });
+  keyframes.finish();
+  curve.finish();
+  write("]}]}]}");
 }
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
@@ -213,7 +247,7 @@ int64_t timescale_of(const Json& root) {
 
 }  // namespace
 
-std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance) {
+void write_hjif(const SampleSource& samples, const WriteText& write, double tolerance) {
   std::string text =
       R"({"version":"2023","profile":"Main","level":1,"date":"2023-01-01","description":)"
       R"("Wanted wrench on a grip","timescale":)";
@@ -221,11 +255,13 @@ std::string write_hjif(const std::vector<TrackSample>& samples, double tolerance
   text += R"(,"avatars":[],"perceptions":[{"id":0,"avatar_id":0,"description":)"
           R"("Force and torque on the grip","perception_modality":"Force","effect_library":[],)"
           R"("reference_devices":[],"channels":[)";
+  write(text);
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
-    if (channel > 0) text += ',';
-    append_channel(text, samples, channel, tolerance);
+    if (channel > 0) write(",");
+    write_channel(samples, write, channel, tolerance);
   }
-  return text + R"(]}],"syncs":[]})" + "\n";
+  write(R"(]}],"syncs":[]})"
+        "\n");
 }
 
 std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples) {

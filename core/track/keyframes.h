@@ -5,36 +5,79 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
+#include <functional>
 #include <limits>
-#include <vector>
+#include <utility>
 
 namespace spidar {
 
-/// Ascending indices of `values`, including the first and the last one, so that straight lines
-/// between the values there pass all others within `tolerance`. Each line is as long as possible:
-/// the slopes that pass all values so far form a cone, and the last value inside the cone ends the
-/// line. Empty for no values.
-inline std::vector<size_t> choose_keyframes(const std::vector<double>& values, double tolerance) {
-  std::vector<size_t> chosen;
-  if (values.empty()) return chosen;
-  chosen.push_back(0);
-  size_t begin = 0;
-  while (begin + 1 < values.size()) {
-    double lowest = -std::numeric_limits<double>::infinity();
-    double highest = std::numeric_limits<double>::infinity();
-    size_t end = begin + 1;
-    for (size_t i = begin + 1; i < values.size() && lowest <= highest; ++i) {
-      const double distance = static_cast<double>(i - begin);
-      const double rise = values[i] - values[begin];
-      const double slope = rise / distance;
-      if (slope >= lowest && slope <= highest) end = i;
-      lowest = std::max(lowest, (rise - tolerance) / distance);
-      highest = std::min(highest, (rise + tolerance) / distance);
+/// Chooses values of a curve, including the first and the last one, so that straight lines between
+/// them pass all others within a tolerance. Each line is as long as possible: the slopes that pass
+/// all values so far form a cone, and the last value inside the cone ends the line. Keeps only the
+/// values behind that one.
+class KeyframeChooser {
+ public:
+  using Take = std::function<void(size_t index, double value)>;
+
+  KeyframeChooser(double tolerance, Take take) : tolerance_(tolerance), take_(std::move(take)) {}
+
+  void add(double value) {
+    if (count_++ == 0) {
+      begin(0, value);
+      return;
     }
-    chosen.push_back(end);
-    begin = end;
+    behind_.push_back(value);
+    follow();
   }
-  return chosen;
-}
+
+  /// There are no more values.
+  void finish() {
+    while (count_ > 0 && end_ != begin_) {
+      end_line();
+      follow();
+    }
+  }
+
+ private:
+  void begin(size_t index, double value) {
+    take_(index, value);
+    begin_ = end_ = seen_ = index;
+    begin_value_ = value;
+    lowest_ = -std::numeric_limits<double>::infinity();
+    highest_ = std::numeric_limits<double>::infinity();
+  }
+
+  /// The line ends at its last value inside the cone, and the next one begins there.
+  void end_line() { begin(end_, end_value_); }
+
+  /// Looks at the values that have not been seen since the line began.
+  void follow() {
+    while (seen_ - end_ < behind_.size()) {
+      const double value = behind_[seen_ - end_];
+      ++seen_;
+      const double distance = static_cast<double>(seen_ - begin_);
+      const double rise = value - begin_value_;
+      const double slope = rise / distance;
+      if (slope >= lowest_ && slope <= highest_) {
+        behind_.erase(behind_.begin(), behind_.begin() + static_cast<std::ptrdiff_t>(seen_ - end_));
+        end_ = seen_;
+        end_value_ = value;
+      }
+      lowest_ = std::max(lowest_, (rise - tolerance_) / distance);
+      highest_ = std::min(highest_, (rise + tolerance_) / distance);
+      if (lowest_ > highest_) end_line();
+    }
+  }
+
+  const double tolerance_;
+  const Take take_;
+  size_t count_ = 0;
+  // Of the line: its first value, its last one so far, and the last one that was looked at.
+  size_t begin_ = 0, end_ = 0, seen_ = 0;
+  double begin_value_ = 0, end_value_ = 0;
+  double lowest_ = 0, highest_ = 0;  // slopes
+  std::deque<double> behind_;        // the values behind end_
+};
 
 }  // namespace spidar

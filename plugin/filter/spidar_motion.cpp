@@ -243,6 +243,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
   delete self->steps;
   delete self->display;
   delete self->loader;
+  delete self->felt;
   delete self->engine;
   delete self->properties;
   g_mutex_clear(&self->setting);
@@ -254,6 +255,7 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   self->properties = new MotionProperties;
   self->engine = new MotionEngine(GST_ELEMENT(self));
   self->loader = new spidar::TrackLoader;
+  self->felt = new spidar::FeltTrack(GST_ELEMENT(self));
   self->steps = new spidar::StepWatch(
       GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
   self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));

@@ -24,6 +24,7 @@ struct _GstSpidarMotion {
   spidar::MotionEngine* engine;
   spidar::MotionDisplay* display;
   spidar::TrackLoader* loader;
+  spidar::FeltTrack* felt;
   gint unread_messages;  // atomic: that an application has not read
   gint window_changes;   // atomic: how many the window has still to follow
   spidar::StepWatch* steps;

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Frames and events that pass through the element.
 #include <chrono>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,13 +31,14 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
 }
 
-/// How long a stream waits for its track; frames that come before the track are analysed.
+/// How long a stream waits for its track to be opened; frames that come before are analysed.
 static constexpr std::chrono::seconds kLongestWait{3};
 static void begin_to_load_track(GstSpidarMotion* self) {
   GST_OBJECT_LOCK(self);
   const std::string track = self->properties->track;
   GST_OBJECT_UNLOCK(self);
-  self->engine->set_track(std::nullopt);
+  self->engine->set_track(nullptr);
+  self->felt->forget();
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
   self->choice->begin_stream(film);
   self->display->begin_stream(film);
@@ -43,14 +46,13 @@ static void begin_to_load_track(GstSpidarMotion* self) {
 }
 
 static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
-  std::optional<spidar::LoadedTrack> loaded = self->loader->take();
-  if (!loaded) return;
-  const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
-  std::optional<spidar::TrackFile> track =
-      spidar::judge_track(GST_ELEMENT(self), std::move(*loaded), frame_ns);
-  if (!track) return;
-  // The wrenches of frames that came before it stay: some of them may be the end of another film.
-  self->engine->set_track(std::move(track));
+  if (const std::optional<spidar::LoadedTrack> loaded = self->loader->take()) {
+    const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
+    std::shared_ptr<spidar::ReadAhead> blocks = self->felt->judge(*loaded, frame_ns);
+    // The wrenches of frames that came before it stay: some of them may be the end of another film.
+    if (blocks) self->engine->set_track(std::move(blocks));
+  }
+  if (!self->felt->check()) self->engine->set_track(nullptr);
 }
 
 /// With pointer and choice of this moment, for `frame` before it is turned.

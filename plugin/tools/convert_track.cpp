@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
+#include "plugin/tools/sample_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
+#include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -96,13 +99,6 @@ double filling_gain(const std::string& to, const TrackSummary& summary, size_t a
   return peak > 0 ? 1 / peak : 1;
 }
 
-std::vector<TrackSample> amplified(std::vector<TrackSample> samples, double gain) {
-  for (TrackSample& sample : samples) {
-    for (float& value : sample) value = static_cast<float>(gain * value);
-  }
-  return samples;
-}
-
 /// Throws UsageError when an option changes nothing.
 void check_use(const ConvertOptions& options) {
   const std::string& to = options.to;
@@ -130,11 +126,21 @@ int convert_track(const ConvertOptions& options) {
   check_use(options);
   SaveOptions save = options.save;
   save.axis = channel_of(options.axis);
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(options.from, &condition, save.axis);
+  check_format(to);
+  PartFile part(to);
+  SampleFile samples(to);
+  Summariser summariser;
+  const TrackCondition condition = read_track(
+      options.from,
+      [&](const TrackSample& sample) {
+        samples.add(sample);
+        summariser.add(sample);
+      },
+      save.axis);
+  samples.flush();
   expect_own_track(condition);
   save.notes = condition.notes;
-  const TrackSummary summary = summarise(samples);
+  const TrackSummary summary = summariser.summary();
   if (ends_with(to, ".funscript") && options.axis.empty()) {
     save.axis = liveliest_channel(summary);
     std::cout << "axis " << channel_name(save.axis)
@@ -147,7 +153,8 @@ int convert_track(const ConvertOptions& options) {
                                : ": the largest value fills the range; --gain 1 keeps it as it is")
               << '\n';
   }
-  save_track(to, amplified(samples, save.gain), save);
+  save_track(part, samples, save);
+  part.publish();
   std::cout << lost_in(to, summary, save);
   return kDone;
 }

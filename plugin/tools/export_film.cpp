@@ -33,14 +33,13 @@ std::string relative_url(const fs::path& film, const fs::path& page) {
 int export_film(const ExportOptions& options) {
   const std::string &film = options.film, &to = options.to;
   if (!ends_with(to, ".html")) throw UsageError(to + ": is to end in .html");
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(film, &condition);
+  FilmPage page;
+  const TrackCondition condition =
+      read_track(film, [&page](const TrackSample& sample) { page.add(sample); });
   if (condition.film.empty()) {
     throw UsageError(film + ": is a track; give the film that it is for");
   }
   expect_own_track(condition);
-  FilmPage page;
-  for (const TrackSample& sample : samples) page.add(sample);
   const FilmPage::Html html = page.html(relative_url(film, to), fs::path(film).filename(),
                                         1e-9 * static_cast<double>(condition.later_ns));
   PartFile part(to);

@@ -22,7 +22,7 @@ constexpr int kZero = 128, kSteps = 127;  // of a byte that is a force
 std::string curve_text(const std::vector<double>& force_N, double tolerance_N, double most_N) {
   std::string bytes;
   size_t before = 0;
-  for (const size_t i : choose_keyframes(force_N, tolerance_N)) {
+  KeyframeChooser points(tolerance_N, [&](size_t i, double value_N) {
     constexpr int kBits = 7;
     constexpr size_t kMore = size_t{1} << kBits;
     const size_t distance = i - before;
@@ -32,9 +32,11 @@ std::string curve_text(const std::vector<double>& force_N, double tolerance_N, d
       const size_t bits = (distance >> shift) % kMore;
       bytes += static_cast<char>(shift > 0 ? bits + kMore : bits);
     }
-    bytes += static_cast<char>(kZero + std::lround(kSteps * force_N[i] / most_N));
+    bytes += static_cast<char>(kZero + std::lround(kSteps * value_N / most_N));
     before = i;
-  }
+  });
+  for (const double value_N : force_N) points.add(value_N);
+  points.finish();
   gchar* const text = g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
   std::string result = text;
   g_free(text);

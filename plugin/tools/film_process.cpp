@@ -22,8 +22,8 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -186,11 +186,12 @@ class Answering {
 /// What the track says of itself: duration_s, felt (the share of the time with a force that can be
 /// felt), largest_force_N, fingerprint and settings.
 std::string summary_of(const std::string& track) {
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(track, &condition);
-  const TrackSummary summary = summarise(samples);
+  Summariser summariser;
+  const TrackCondition condition =
+      read_track(track, [&summariser](const TrackSample& sample) { summariser.add(sample); });
+  const TrackSummary summary = summariser.summary();
   const nlohmann::ordered_json line = {
-      {"duration_s", static_cast<double>(samples.size()) / kTrackRate_Hz},
+      {"duration_s", static_cast<double>(summary.samples) / kTrackRate_Hz},
       {"felt", summary.felt},
       {"largest_force_N", summary.largest_force_N},
       {"fingerprint", to_text(condition.notes.film)},

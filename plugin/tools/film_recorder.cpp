@@ -15,6 +15,7 @@
 #include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/track_file.h"
@@ -85,7 +86,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
           " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
       film, nullptr, unread.empty() ? kSlowShare : FilePipeline::kLongestSilence);
   set_properties(file.find("motion"), properties);
-  watch.begin(file.pipeline());
+  watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
   progress.watch(file.find("motion"));
   stored.watch(file.find("stored"));
   tag(file.find("extract"), {fingerprint, properties.settings});

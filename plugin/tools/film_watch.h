@@ -6,21 +6,12 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include <gst/gst.h>
 
 namespace spidar {
-
-enum class FilmEnd {
-  kWhole,
-  kCutOff,   ///< within a chunk, a segment, a box or a page, or before the last page
-  kUnknown,  ///< the file does not say
-};
-
-/// By what AVI, Matroska, WebM, MP4, QuickTime and Ogg say of their length. The demuxers of
-/// GStreamer take such a film that is cut off for a shorter one that is whole.
-FilmEnd film_end(const std::string& path);
 
 /// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
 /// application to judge. Outlives the pipeline.
@@ -31,7 +22,8 @@ class FilmWatch {
   FilmWatch& operator=(const FilmWatch&) = delete;
 
   /// `pipeline` has a decodebin "decode", whose video goes to the element "convert".
-  void begin(GstElement* pipeline);
+  /// Of a film with something behind it, demuxers warn that they cannot take that apart.
+  void begin(GstElement* pipeline, bool has_appended);
 
   /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
   /// says what is wrong with the film, or nothing. A film of fewer than two frames is wrong, too.
@@ -44,15 +36,19 @@ class FilmWatch {
  private:
   static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn decoded(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+  static gboolean look(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
   static void choose(GstElement* decoder, gpointer self);
 
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;    // with an error; warnings after it follow from it
-  std::string warning_;    // the first one
-  std::string remark_;     // the first warning of spidarmotion
-  std::string missing_;    // the decoder of the video that is not installed
-  bool has_video_ = true;  // unknown until chosen
+  bool failed_ = false;             // with an error; warnings after it follow from it
+  std::string warning_;             // the first one
+  std::string remark_;              // the first warning of spidarmotion
+  bool has_appended_ = false;
+  bool unmeasured_ = false;         // frames in a row; the remark says why
+  std::set<std::string> pictures_;  // streams of pictures that are files, by their ids
+  std::string missing_;             // the decoder of the video that is not installed
+  bool has_video_ = true;           // unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
   std::map<std::string, int> reasons_;  // of measured frames, by sentence; empty: felt

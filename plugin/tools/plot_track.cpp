@@ -6,7 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "plugin/tools/gnuplot.h"
 #include "plugin/tools/spidartrack_commands.h"
@@ -36,28 +35,36 @@ constexpr size_t kBins = 4000;
 
 /// The lowest and the highest value of each bin, as two rows: time, force, torque. A short peak is
 /// seen however long the track is.
-void write_samples(std::ostream& script, const std::vector<TrackSample>& samples) {
-  constexpr size_t kAxes = 6;
-  const size_t step = samples.size() / kBins + 1;
-  script << "$samples << END\n";
-  for (size_t begin = 0; begin < samples.size(); begin += step) {
-    std::array<double, kAxes> low, high;
-    for (size_t i = begin; i < std::min(begin + step, samples.size()); ++i) {
-      const Eigen::Matrix<double, 6, 1> value = to_wrench(samples[i]).stacked();
-      for (size_t axis = 0; axis < kAxes; ++axis) {
-        const double now = value[static_cast<Eigen::Index>(axis)];
-        low[axis] = i == begin ? now : std::min(low[axis], now);
-        high[axis] = i == begin ? now : std::max(high[axis], now);
-      }
+class BinWriter {
+ public:
+  BinWriter(std::ostream& script, size_t samples)
+      : script_(script), step_(samples / kBins + 1), samples_(samples) {}
+
+  void add(const TrackSample& sample) {
+    const Eigen::Matrix<double, 6, 1> value = to_wrench(sample).stacked();
+    for (size_t axis = 0; axis < kTrackChannels; ++axis) {
+      const double now = value[static_cast<Eigen::Index>(axis)];
+      low_[axis] = count_ % step_ == 0 ? now : std::min(low_[axis], now);
+      high_[axis] = count_ % step_ == 0 ? now : std::max(high_[axis], now);
     }
-    for (const auto& row : {low, high}) {
-      script << static_cast<double>(begin) / kTrackRate_Hz;
-      for (const double value : row) script << ' ' << value;
-      script << '\n';
+    if (++count_ % step_ == 0 || count_ == samples_) put();
+  }
+
+ private:
+  void put() {
+    const size_t begin = (count_ - 1) / step_ * step_;
+    for (const auto& row : {low_, high_}) {
+      script_ << static_cast<double>(begin) / kTrackRate_Hz;
+      for (const double value : row) script_ << ' ' << value;
+      script_ << '\n';
     }
   }
-  script << "END\n";
-}
+
+  std::ostream& script_;
+  const size_t step_, samples_;
+  size_t count_ = 0;
+  std::array<double, kTrackChannels> low_{}, high_{};
+};
 
 /// Puts a plot between two heights of the picture, in pixels from its top.
 void place(std::ostream& script, int top, int bottom) {
@@ -72,15 +79,16 @@ int plot_track(const PlotOptions& options) {
   if (has_ending && !ends_with(options.png, ".png")) {
     throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
   }
-  TrackCondition condition;
-  const std::vector<TrackSample> samples = load_track(options.track, &condition);
-  expect_own_track(condition);
-  if (samples.empty()) throw std::runtime_error(options.track + ": has no samples to draw");
+  size_t count = 0;
+  expect_own_track(read_track(options.track, [&count](const TrackSample&) { ++count; }));
+  if (count == 0) throw std::runtime_error(options.track + ": has no samples to draw");
   std::ostringstream script;
   script << "set terminal pngcairo size " << kWidth << ',' << kHeight << " font 'sans,12'\n"
-         << kStyle << "set xrange [0:" << static_cast<double>(samples.size()) / kTrackRate_Hz
-         << "]\n";
-  write_samples(script, samples);
+         << kStyle << "set xrange [0:" << static_cast<double>(count) / kTrackRate_Hz << "]\n";
+  script << "$samples << END\n";
+  BinWriter bins(script, count);
+  read_track(options.track, [&bins](const TrackSample& sample) { bins.add(sample); });
+  script << "END\n";
   script << "set multiplot\n";
   place(script, kGap, kHeight / 2 - 2 * kGap);
   // A range that is not empty if nothing is felt.

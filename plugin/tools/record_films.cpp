@@ -100,6 +100,7 @@ class FilmBatch {
   /// Returns whether no film failed.
   bool run() {
     claim_names();
+    if (!options_.left_out.empty()) report_.tell("left out: " + options_.left_out);
     std::vector<std::thread> workers;
     try {
       for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i)

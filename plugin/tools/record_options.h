@@ -34,11 +34,17 @@ struct ListedFilm {
   std::filesystem::path subfolder;
 };
 
+struct FilmList {
+  std::vector<ListedFilm> films;
+  std::string left_out;  ///< what the folders have besides films, in one line; empty: nothing
+};
+
 /// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
 /// end as those of films do (".mkv" in small or capital letters), without hidden ones: the largest
 /// first, so that a long film does not come last and alone. Links to folders are not followed.
-/// Throws std::runtime_error if a folder has no film or cannot be read.
-std::vector<ListedFilm> list_films(const std::vector<std::string>& names);
+/// Throws std::runtime_error if a folder has no film or cannot be read; one below it that cannot is
+/// left out.
+FilmList list_films(const std::vector<std::string>& names);
 
 struct RecordOptions {
   bool force = false;
@@ -48,6 +54,7 @@ struct RecordOptions {
   RecordProperties properties;
   std::string manifest;  ///< a file; empty: none
   std::vector<ListedFilm> films;
+  std::string left_out;  ///< FilmList::left_out
 
   /// The file of a film's track.
   std::filesystem::path file_of(const ListedFilm& film) const;

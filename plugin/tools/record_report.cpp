@@ -75,6 +75,13 @@ void RecordReport::note(size_t film, const std::string& text) {
   print(std::cout, film, text);
 }
 
+void RecordReport::tell(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  erase();
+  std::cout << one_line(text) << std::endl;
+  draw();
+}
+
 bool RecordReport::finish() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (films_.size() > 1) {

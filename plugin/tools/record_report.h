@@ -29,6 +29,9 @@ class RecordReport {
   /// Something else about a film that is not done.
   void note(size_t film, const std::string& text);
 
+  /// Something about all of them.
+  void tell(const std::string& text);
+
   /// Prints the summary, unless it was for one film. Returns whether no film failed.
   bool finish();
 

@@ -12,6 +12,7 @@
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
@@ -55,7 +56,8 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, options.properties);
-  watch.begin(file.pipeline());
+  const FilmEnd end = film_end(options.film);
+  watch.begin(file.pipeline(), end == FilmEnd::kAppended);
   sound.begin(file.pipeline());
   progress.watch(motion);
   std::string error;
@@ -67,7 +69,7 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   file.stop();
   const std::string problem = watch.problem(error);
   if (!problem.empty()) throw std::runtime_error(problem);
-  if (film_end(options.film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
+  if (end == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   std::string said = watch.felt();
   for (const std::string& more : {sound.missing(), watch.remark()}) {
     if (!more.empty()) said += "; " + more;

@@ -4,6 +4,8 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "core/force/motion_rendering.h"
 #include "plugin/tools/spidartrack_commands.h"
@@ -14,14 +16,21 @@
 namespace spidar {
 namespace {
 
+std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
+  Summariser summariser;
+  TrackCondition found =
+      read_track(path, [&summariser](const TrackSample& sample) { summariser.add(sample); });
+  return {std::move(found), summariser.summary()};
+}
+
 constexpr double kMaxSlew_N_s = 300;
 constexpr double kMostFast = 0.1;
 
-void print_json(const TrackCondition& found, size_t count, const TrackSummary& summary) {
+void print_json(const TrackCondition& found, const TrackSummary& summary) {
   nlohmann::ordered_json info;
   if (!found.film.empty()) info = {{"film", found.film}, {"belongs", found.other.empty()}};
   info["track"] = found.track;
-  info["samples"] = count;
+  info["samples"] = summary.samples;
   info["rate_Hz"] = kTrackRate_Hz;
   info["felt"] = summary.felt;
   info["largest_force_N"] = summary.largest_force_N;
@@ -41,11 +50,9 @@ void print_json(const TrackCondition& found, size_t count, const TrackSummary& s
 }  // namespace
 
 int print_info(const InfoOptions& options) {
-  TrackCondition found;
-  const std::vector<TrackSample> samples = load_track(options.path, &found);
-  const TrackSummary summary = summarise(samples);
+  const auto [found, summary] = summarise(options.path);
   if (options.json) {
-    print_json(found, samples.size(), summary);
+    print_json(found, summary);
     return kDone;
   }
   if (!found.film.empty()) {
@@ -54,8 +61,8 @@ int print_info(const InfoOptions& options) {
               << (found.other.empty() ? "" : ", but is that of another film: " + found.other)
               << '\n';
   }
-  std::cout << found.track << ": " << samples.size() << " samples, "
-            << static_cast<double>(samples.size()) / kTrackRate_Hz << " s\n"
+  std::cout << found.track << ": " << summary.samples << " samples, "
+            << static_cast<double>(summary.samples) / kTrackRate_Hz << " s\n"
             << (found.missing.empty() ? "" : found.missing + "\n") << "largest force "
             << summary.largest_force_N << " N, torque " << summary.largest_torque_Nm
             << " N m, steepest " << summary.steepest_N_s << " N/s\n"
@@ -71,11 +78,9 @@ int print_info(const InfoOptions& options) {
 }
 
 int check_track(const CheckOptions& options) {
-  TrackCondition found;
-  const std::vector<TrackSample> samples = load_track(options.track, &found);
+  const auto [found, summary] = summarise(options.track);
   const std::string& path = found.track;
   const TrackFaults& faults = found.faults;
-  const TrackSummary summary = summarise(samples);
   int problems = 0;
   const auto problem = [&problems, &path]() -> std::ostream& {
     ++problems;
@@ -104,12 +109,13 @@ int check_track(const CheckOptions& options) {
                 << " is above 30 Hz: is it sound for ears?\n";
     }
   }
-  const bool is_silent = summary.felt == 0 && summary.largest_torque_Nm == 0;
+  const bool is_silent = summary.felt == 0;
   if (problems == 0 && !is_silent) std::cout << path << ": ok\n";
-  const std::string least = shown(kFeltForce_N) + " N";
+  const std::string least =
+      shown(kFeltForce_N) + " N and " + shown(kFeltForce_N * kTorqueArm_m) + " N m";
   std::cout << path << ": " << std::lround(100 * summary.felt) << " % of it is felt"
-            << (is_silent          ? ": the force is below " + least + ", and there is no torque"
-                : summary.felt < 1 ? "; in the rest the force is below " + least
+            << (is_silent          ? ": force and torque are below " + least
+                : summary.felt < 1 ? "; in the rest force and torque are below " + least
                                    : "")
             << '\n';
   return problems == 0 && !is_silent ? kDone : kFailed;

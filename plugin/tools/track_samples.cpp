@@ -2,9 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/track_samples.h"
 
-#include <cmath>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include <gst/gst.h>
 
@@ -13,6 +15,7 @@
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
+#include "plugin/tracks/open_track.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_file.h"
@@ -32,28 +35,56 @@ std::string read_text(const std::string& path) {
   }
 }
 
-std::vector<TrackSample> samples_of(const TrackFile& track) {
-  std::vector<TrackSample> samples(
-      static_cast<size_t>((track.duration_ns + kTrackPeriod_ns / 2) / kTrackPeriod_ns));
+/// The sample of `block` at `time_ns`, if it lies at a whole millisecond there: those are copied
+/// bit by bit.
+std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns) {
+  const bool is_whole =
+      block.begin_ns % kTrackPeriod_ns == 0 && block.period_ns() == kTrackPeriod_ns;
+  if (!is_whole || time_ns < block.begin_ns || time_ns >= end_of(block)) return std::nullopt;
+  return block.samples[static_cast<size_t>((time_ns - block.begin_ns) / kTrackPeriod_ns)];
+}
+
+/// Gives 1000 samples a second, and returns the end of the track.
+int64_t give_samples(OpenTrack& track, const SampleSource::Take& take) {
   TrackReader reader;
-  size_t next = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const auto time_ns = static_cast<int64_t>(i) * kTrackPeriod_ns;
-    while (next < track.blocks.size() && reader.read(track.blocks[next], time_ns)) ++next;
-    const TimelineResult result =
-        reader.at(time_ns, next < track.blocks.size() ? &track.blocks[next] : nullptr);
-    const bool has = result.found == Found::kExact || result.found == Found::kInterpolated;
-    if (has) samples[i] = to_track_sample(result.wrench);
-  }
-  // Samples at whole milliseconds are copied bit by bit.
-  for (const TrackBlock& block : track.blocks) {
-    if (block.begin_ns % kTrackPeriod_ns != 0 || block.period_ns() != kTrackPeriod_ns) continue;
-    for (size_t i = 0; i < block.count; ++i) {
-      const auto index = static_cast<size_t>(block.time_ns(i) / kTrackPeriod_ns);
-      if (index < samples.size()) samples[index] = block.samples[i];
+  TrackBlock block;
+  int64_t end_ns = 0;
+  bool is_block = track.next(block);
+  for (int64_t time_ns = 0; is_block || time_ns + kTrackPeriod_ns / 2 <= end_ns;
+       time_ns += kTrackPeriod_ns) {
+    std::optional<TrackSample> exact;
+    while (is_block) {
+      end_ns = end_of(block);
+      if (const auto sample = exact_sample(block, time_ns)) exact = sample;
+      if (!reader.read(block, time_ns)) break;
+      is_block = track.next(block);
     }
+    if (time_ns + kTrackPeriod_ns / 2 > end_ns) break;
+    const TimelineResult result = reader.at(time_ns, is_block ? &block : nullptr);
+    const bool has = result.found == Found::kExact || result.found == Found::kInterpolated;
+    take(exact ? *exact : has ? to_track_sample(result.wrench) : TrackSample{});
   }
-  return samples;
+  return end_ns;
+}
+
+/// Of a film, or of its track itself.
+void read_sound(const std::string& path, const Film& film, const SampleSource::Take& take,
+                TrackCondition& found) {
+  const std::unique_ptr<OpenTrack> track = open_track(found.track);
+  int64_t end_ns = 0;
+  try {
+    end_ns = give_samples(*track, take);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(found.track + ": " + error.what());
+  }
+  found.faults = track->blocks()->faults();
+  found.missing = track->missing(end_ns);
+  found.notes = track->notes();
+  if (found.track != path) {
+    const FilmMatch match = match_film(film, end_ns, found.notes);
+    found.other = match.problem;
+    found.later_ns = match.later_ns;
+  }
 }
 
 /// Which file has the track, and what is known of the film when `path` is one. Throws
@@ -79,18 +110,16 @@ TrackCondition find_track(const std::string& path, Film& film) {
   return found;
 }
 
-/// Sound that `encoder` makes of samples in memory.
-void write_sound(const PartFile& part, const std::string& encoder,
-                 const std::vector<TrackSample>& samples, const TrackNotes& notes) {
-  const PartFile raw(part.target() + ".raw");
-  raw.write({reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(TrackSample)});
+/// Sound that `encoder` makes.
+void write_sound(const PartFile& part, const std::string& encoder, const SampleFile& samples,
+                 const TrackNotes& notes) {
   StoredSound stored;
   const FilePipeline file(
       "filesrc name=source ! "
       "rawaudioparse format=pcm pcm-format=f32le sample-rate=1000 num-channels=6 ! "
       "capssetter name=samples caps=\"audio/x-raw,channel-mask=(bitmask)0x3f\" ! " +
           encoder + " ! fdsink sync=false fd=" + std::to_string(part.descriptor()),
-      raw.path());
+      samples.path());
   stored.watch(file.find("stored"));
   const Ref<GstPad> pad(gst_element_get_static_pad(file.find("samples"), "src"));
   tag_track(pad.get(), notes);
@@ -116,33 +145,25 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition,
-                                    size_t funscript_axis) {
+TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
+                          size_t funscript_axis) {
   Film film;
   TrackCondition found = find_track(path, film);
-  std::vector<TrackSample> samples;
+  const auto give = [&take](const std::vector<TrackSample>& samples) {
+    for (const TrackSample& sample : samples) take(sample);
+  };
   if (ends_with(path, ".funscript")) {
-    samples = read_funscript(read_text(path), funscript_axis);
+    give(read_funscript(read_text(path), funscript_axis));
   } else if (ends_with(path, ".ahap")) {
     throw std::runtime_error(path +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
   } else if (ends_with(path, ".hjif")) {
-    samples = read_hjif(read_text(path));
+    give(read_hjif(read_text(path)));
   } else {
-    const TrackFile track = read_track_file(found.track);
-    found.faults = track.faults;
-    found.missing = track.missing();
-    found.notes = track.notes;
-    if (found.track != path) {
-      const FilmMatch match = match_film(film, track.duration_ns, track.notes);
-      found.other = match.problem;
-      found.later_ns = match.later_ns;
-    }
-    samples = samples_of(track);
+    read_sound(path, film, take, found);
   }
-  if (condition) *condition = found;
-  return samples;
+  return found;
 }
 
 void expect_own_track(const TrackCondition& condition) {
@@ -150,25 +171,37 @@ void expect_own_track(const TrackCondition& condition) {
   throw std::runtime_error(condition.track + ": is that of another film: " + condition.other);
 }
 
-void save_track(const std::string& path, const std::vector<TrackSample>& samples,
-                const SaveOptions& options) {
+void check_format(const std::string& path) {
+  if (!encoder_of(path).empty()) return;
+  for (const char* const end : {".hjif", ".ahap", ".funscript"}) {
+    if (ends_with(path, end)) return;
+  }
+  throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
+}
+
+void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& options) {
+  const std::string& path = part.target();
   const std::string encoder = encoder_of(path);
-  const bool is_hjif = ends_with(path, ".hjif"), is_ahap = ends_with(path, ".ahap");
-  if (encoder.empty() && !is_hjif && !is_ahap && !ends_with(path, ".funscript")) {
-    throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
-  }
-  PartFile part(path);
-  if (!encoder.empty()) {
-    write_sound(part, encoder, samples, options.notes);
-  } else if (is_hjif) {
-    part.write(options.tolerance ? write_hjif(samples, *options.tolerance) : write_hjif(samples));
-  } else if (is_ahap) {
-    part.write(write_ahap(samples, options.tolerance.value_or(kAhapTolerance), options.gain));
+  if (!encoder.empty()) return write_sound(part, encoder, samples, options.notes);
+  std::string waiting;
+  constexpr size_t kAtOnce = size_t{1} << 16U;
+  const auto write = [&](const std::string& text) {
+    waiting += text;
+    if (waiting.size() < kAtOnce) return;
+    part.write(waiting);
+    waiting.clear();
+  };
+  const SampleSource source = samples.samples(options.gain);
+  if (ends_with(path, ".hjif")) {
+    write_hjif(source, write, options.tolerance.value_or(kHjifTolerance));
+  } else if (ends_with(path, ".ahap")) {
+    write_ahap(source, write, options.tolerance.value_or(kAhapTolerance),
+               options.gain);
   } else {
-    part.write(
-        write_funscript(samples, options.axis, options.tolerance.value_or(kFunscriptTolerance)));
+    write_funscript(source, options.axis, write, options.tolerance.value_or(kFunscriptTolerance));
   }
-  part.publish();
+  part.write(waiting);
+  part.check_written();
 }
 
 void StoredSound::watch(GstElement* element) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads and writes whole tracks of 1000 samples a second, in all file formats.
+/// Reads and writes tracks of 1000 samples a second, in all file formats.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <gst/gst.h>
 
+#include "core/track/exchange_formats.h"
 #include "core/track/track_format.h"
+#include "plugin/tools/sample_file.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/track_file.h"
 #include "plugin/tracks/track_input.h"
@@ -32,12 +33,12 @@ struct TrackCondition {
 /// The force upwards: the channel of formats that have only one.
 constexpr size_t kUsualAxis = 1;
 
-/// Of a track, or of a film with a track inside it or beside it. The format follows from the end of
-/// the name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
-/// accepts. Gaps become silence, and so do samples that are not numbers, which `condition` counts.
-/// Throws std::runtime_error.
-std::vector<TrackSample> load_track(const std::string& path, TrackCondition* condition = nullptr,
-                                    size_t funscript_axis = kUsualAxis);
+/// Gives the samples of a track, or of a film with a track inside it or beside it, in their order.
+/// The format follows from the end of the name: HJIF (`.hjif`), one channel (`.funscript`), else
+/// sound of any rate that spidarsink accepts, which is given as it is read. Gaps become silence,
+/// and so do samples that are not numbers, which are counted. Throws std::runtime_error.
+TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
+                          size_t funscript_axis = kUsualAxis);
 
 /// Throws std::runtime_error when the track is that of another film than the one that was given.
 void expect_own_track(const TrackCondition& condition);
@@ -46,15 +47,16 @@ struct SaveOptions {
   std::optional<double>
       tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
   size_t axis = kUsualAxis;  ///< the channel of a funscript
-  double gain = 1;           ///< that the samples have been multiplied by
+  double gain = 1;           ///< for the samples of AHAP and funscript
   TrackNotes notes;          ///< for sound
 };
 
-/// The format follows from the end of the name: `.flac`, `.wav`, `.mka` (both F32), `.hjif`,
-/// `.ahap` or `.funscript`. An existing file is replaced when the new one is complete. Throws
-/// std::runtime_error.
-void save_track(const std::string& path, const std::vector<TrackSample>& samples,
-                const SaveOptions& options = {});
+/// Throws std::runtime_error when no file whose name ends like this can be written.
+void check_format(const std::string& path);
+
+/// Fills `part`, whose format follows from the end of the name that it will have: `.flac`, `.wav`,
+/// `.mka` (both F32), `.hjif`, `.ahap` or `.funscript`. Throws std::runtime_error.
+void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& options = {});
 
 /// The elements with which GStreamer makes such a file from samples: "flacenc blocksize=40", …;
 /// empty when it cannot.

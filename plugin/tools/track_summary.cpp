@@ -12,30 +12,6 @@ namespace {
 
 constexpr double kCorner_Hz = 30;
 
-/// Second-order Butterworth high-pass filter, by the bilinear transform.
-class HighPass {
- public:
-  HighPass() {
-    const double k = std::tan(M_PI * kCorner_Hz / kTrackRate_Hz);
-    const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
-    b_ = scale;
-    a1_ = 2 * (k * k - 1) * scale;
-    a2_ = (1 - std::sqrt(2.0) * k + k * k) * scale;
-  }
-  double next(double x) {
-    const double y = b_ * (x - 2 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
-    x2_ = x1_;
-    x1_ = x;
-    y2_ = y1_;
-    y1_ = y;
-    return y;
-  }
-
- private:
-  double b_, a1_, a2_;
-  double x1_ = 0, x2_ = 0, y1_ = 0, y2_ = 0;
-};
-
 }  // namespace
 
 const char* channel_name(size_t channel) {
@@ -51,39 +27,53 @@ double full_scale(size_t channel) {
   return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
 }
 
-TrackSummary summarise(const std::vector<TrackSample>& samples) {
-  TrackSummary summary;
-  std::array<HighPass, kTrackChannels> filters;
-  std::array<double, kTrackChannels> energy{}, fast{};
-  Wrench before;
-  size_t felt = 0;
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const TrackSample& sample = samples[i];
-    for (size_t channel = 0; channel < kTrackChannels; ++channel) {
-      const double value = sample[channel];
-      summary.channels[channel].peak = std::max(summary.channels[channel].peak, std::fabs(value));
-      energy[channel] += value * value;
-      const double high = filters[channel].next(value);
-      fast[channel] += high * high;
-    }
-    const Wrench wrench = to_wrench(sample);
-    summary.largest_force_N = std::max(summary.largest_force_N, wrench.force_N.norm());
-    summary.largest_torque_Nm = std::max(summary.largest_torque_Nm, wrench.torque_Nm.norm());
-    if (i > 0) {
-      const double change_N_s = (wrench.force_N - before.force_N).norm() * kTrackRate_Hz;
-      summary.steepest_N_s = std::max(summary.steepest_N_s, change_N_s);
-    }
-    felt += wrench.force_N.norm() >= kFeltForce_N ? 1 : 0;
-    before = wrench;
-  }
-  if (!samples.empty()) {
-    summary.felt = static_cast<double>(felt) / static_cast<double>(samples.size());
-  }
+Summariser::HighPass::HighPass() {
+  const double k = std::tan(M_PI * kCorner_Hz / kTrackRate_Hz);
+  const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
+  b_ = scale;
+  a1_ = 2 * (k * k - 1) * scale;
+  a2_ = (1 - std::sqrt(2.0) * k + k * k) * scale;
+}
+
+double Summariser::HighPass::next(double x) {
+  const double y = b_ * (x - 2 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
+  x2_ = x1_;
+  x1_ = x;
+  y2_ = y1_;
+  y1_ = y;
+  return y;
+}
+
+void Summariser::add(const TrackSample& sample) {
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
-    if (energy[channel] <= 0) continue;
-    summary.channels[channel].rms =
-        std::sqrt(energy[channel] / static_cast<double>(samples.size()));
-    summary.channels[channel].above_30_Hz = fast[channel] / energy[channel];
+    const double value = sample[channel];
+    double& peak = so_far_.channels[channel].peak;
+    peak = std::max(peak, std::fabs(value));
+    energy_[channel] += value * value;
+    const double high = filters_[channel].next(value);
+    fast_[channel] += high * high;
+  }
+  const Wrench wrench = to_wrench(sample);
+  so_far_.largest_force_N = std::max(so_far_.largest_force_N, wrench.force_N.norm());
+  so_far_.largest_torque_Nm = std::max(so_far_.largest_torque_Nm, wrench.torque_Nm.norm());
+  if (so_far_.samples > 0) {
+    const double change_N_s = (wrench.force_N - before_.force_N).norm() * kTrackRate_Hz;
+    so_far_.steepest_N_s = std::max(so_far_.steepest_N_s, change_N_s);
+  }
+  felt_ += size_N(wrench) >= kFeltForce_N ? 1 : 0;
+  before_ = wrench;
+  ++so_far_.samples;
+}
+
+TrackSummary Summariser::summary() const {
+  TrackSummary summary = so_far_;
+  if (summary.samples == 0) return summary;
+  const auto samples = static_cast<double>(summary.samples);
+  summary.felt = static_cast<double>(felt_) / samples;
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    if (energy_[channel] <= 0) continue;
+    summary.channels[channel].rms = std::sqrt(energy_[channel] / samples);
+    summary.channels[channel].above_30_Hz = fast_[channel] / energy_[channel];
   }
   return summary;
 }

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "core/track/track_format.h"
 
@@ -19,14 +19,40 @@ struct ChannelSummary {
 };
 
 struct TrackSummary {
+  size_t samples = 0;
   std::array<ChannelSummary, kTrackChannels> channels;
   double largest_force_N = 0;
   double largest_torque_Nm = 0;
   double steepest_N_s = 0;  ///< largest rate of change of the force
-  double felt = 0;          ///< share of the time with at least kFeltForce_N
+  /// Share of the time with at least kFeltForce_N, where torque counts as the force at the radius
+  /// of the grip (size_N()).
+  double felt = 0;
 };
 
-TrackSummary summarise(const std::vector<TrackSample>& samples);
+/// Summarises samples, 1000 a second, that come one after the other.
+class Summariser {
+ public:
+  void add(const TrackSample& sample);
+  TrackSummary summary() const;
+
+ private:
+  /// Second-order Butterworth high-pass filter, by the bilinear transform.
+  class HighPass {
+   public:
+    HighPass();
+    double next(double x);
+
+   private:
+    double b_, a1_, a2_;
+    double x1_ = 0, x2_ = 0, y1_ = 0, y2_ = 0;
+  };
+
+  TrackSummary so_far_;
+  std::array<HighPass, kTrackChannels> filters_;
+  std::array<double, kTrackChannels> energy_{}, fast_{};
+  Wrench before_;
+  size_t felt_ = 0;
+};
 
 /// "fx", …, "tz".
 const char* channel_name(size_t channel);

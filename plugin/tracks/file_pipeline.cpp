@@ -13,18 +13,28 @@
 namespace spidar {
 namespace {
 
-/// How often a thread that reads looks whether it is to stop.
-constexpr GstClockTime kLook = 20 * GST_MSECOND;
-
 void stop_and_unref(GstElement* pipeline) {
   gst_element_set_state(pipeline, GST_STATE_NULL);
   gst_object_unref(pipeline);
 }
 
-std::string text_of(GstMessage* message) {
+/// Adds what a demuxer or decoder has reported as missing: "H.264 (High Profile) decoder".
+void note_missing(GstMessage* message, std::string& missing) {
+  const GstStructure* const about = gst_message_get_structure(message);
+  if (!about || !gst_structure_has_name(about, "missing-plugin")) return;
+  const char* const name = gst_structure_get_string(about, "name");
+  if (name) missing += (missing.empty() ? "" : ", ") + std::string(name);
+}
+
+/// Of an error; `missing` is the plug-in that GStreamer does not name in it.
+std::string text_of(GstMessage* message, const std::string& missing = "") {
   GError* error = nullptr;
   gst_message_parse_error(message, &error, nullptr);
-  const std::string text = error->message;
+  std::string text = error->message;
+  const bool is_missing =
+      g_error_matches(error, GST_CORE_ERROR, GST_CORE_ERROR_MISSING_PLUGIN) ||
+      g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_CODEC_NOT_FOUND);
+  if (is_missing && !missing.empty()) text = "a plug-in of GStreamer is missing: " + missing;
   g_error_free(error);
   return text;
 }
@@ -101,29 +111,46 @@ void FilePipeline::pause() const {
   gst_bus_set_flushing(messages.get(), FALSE);
 }
 
+void FilePipeline::hear_errors(std::function<void(const std::string&)> take) {
+  take_error_ = std::move(take);
+  gst_bus_set_sync_handler(bus().get(), hears, this, nullptr);
+}
+
+GstBusSyncReply FilePipeline::hears(GstBus*, GstMessage* message, gpointer user) {
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
+    static_cast<FilePipeline*>(user)->take_error_(text_of(message));
+  return GST_BUS_PASS;
+}
+
+void FilePipeline::check(Progress& progress) const {
+  progress.silent = progress.read == read_ ? progress.silent + kLook : 0;
+  progress.read = read_;
+  if (progress.silent >= longest_silence_) {
+    throw std::runtime_error("there is nothing more to read, but no end: it may be damaged");
+  }
+  if (stopped_ && *stopped_) throw std::runtime_error("reading was stopped");
+}
+
 GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime limit) const {
-  const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_EOS | GST_MESSAGE_ERROR);
+  const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_EOS | GST_MESSAGE_ERROR |
+                                                 GST_MESSAGE_ELEMENT);
+  std::string missing;  // plug-in
   const Bus messages = bus();
   bool failed =
       gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE;
-  uint64_t read = read_;
-  GstClockTime silent = 0;
+  Progress progress{read_, 0};
   for (GstClockTime waited = 0; waited < limit; waited += kLook) {
     GstMessage* message = gst_bus_timed_pop_filtered(messages.get(), kLook, types);
     if (message) {
       const GstMessageType type = GST_MESSAGE_TYPE(message);
-      const std::string reason = type == GST_MESSAGE_ERROR ? text_of(message) : std::string();
+      const std::string reason = type == GST_MESSAGE_ERROR ? text_of(message, missing) : "";
+      if (type == GST_MESSAGE_ELEMENT) note_missing(message, missing);
       gst_message_unref(message);
       if (type == GST_MESSAGE_ERROR) throw std::runtime_error(reason);
-      return type;
+      if (type != GST_MESSAGE_ELEMENT) return type;
     }
     if (failed) throw std::runtime_error("GStreamer cannot read it, and does not say why");
-    silent = read == read_ ? silent + kLook : 0;
-    read = read_;
-    if (silent >= longest_silence_) {
-      throw std::runtime_error("there is nothing more to read, but no end: it may be damaged");
-    }
-    if (stopped_ && *stopped_) throw std::runtime_error("reading was stopped");
+    check(progress);
   }
   return GST_MESSAGE_UNKNOWN;
 }
@@ -148,6 +175,11 @@ StreamKind kind_of(GstPad* pad) {
   const Ref<GstCaps> caps(caps_of(pad));
   const StreamKind kind = kind_of(caps.get());
   return kind == StreamKind::kSound && is_marked(pad) ? StreamKind::kHapticTrack : kind;
+}
+
+bool is_picture(const GstCaps* caps) {
+  if (!caps || gst_caps_is_empty(caps) || gst_caps_is_any(caps)) return false;
+  return g_str_has_prefix(gst_structure_get_name(gst_caps_get_structure(caps, 0)), "image/");
 }
 
 std::string why_missing(GstElement* bin) {

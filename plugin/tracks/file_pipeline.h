@@ -41,6 +41,18 @@ class FilePipeline {
   /// read for `longest_silence`, because some demuxers stop at damage without an error, or when
   /// `*stopped` has become true.
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
+  /// Calls `take` with the text of each error, in the thread of what reports it. Before
+  /// play_until().
+  void hear_errors(std::function<void(const std::string&)> take);
+  /// How a thread that waits for what is read remembers what it has seen.
+  struct Progress {
+    uint64_t read = 0;
+    GstClockTime silent = 0;
+  };
+  /// How often such a thread looks whether it is to stop.
+  static constexpr GstClockTime kLook = 20 * GST_MSECOND;
+  /// To be called once in kLook. Throws std::runtime_error as play_until() does when nothing comes.
+  void check(Progress& progress) const;
   /// Holds the streams where they are, until play_until(), and forgets messages that have come: an
   /// EOS that follows a seek is then that of the seek.
   void pause() const;
@@ -51,12 +63,14 @@ class FilePipeline {
   using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
   Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
 
+  static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn link(GstPad* pad, GstPadProbeInfo* info, gpointer self);
 
   const std::atomic<bool>* const stopped_;
   const GstClockTime longest_silence_;
   std::atomic<uint64_t> read_{0};
   Take take_;
+  std::function<void(const std::string&)> take_error_;
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
 
@@ -74,6 +88,9 @@ enum class StreamKind {
 StreamKind kind_of(const GstCaps* caps);
 /// Of the stream at a pad, by its caps and by the tags that have come to it.
 StreamKind kind_of(GstPad* pad);
+
+/// Whether a stream is of pictures that are files otherwise, as a cover is: image/jpeg, image/png.
+bool is_picture(const GstCaps* caps);
 
 /// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
 /// unless there is a known reason.

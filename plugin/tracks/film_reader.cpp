@@ -217,23 +217,29 @@ class FilmReader {
 
   GstElement* take_stream(GstPad* pad) {
     if (kind_of_stream(pad) != StreamKind::kVideo) return nullptr;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (sink_) return nullptr;
-    sink_ = file_.add_fakesink();
     const Ref<GstCaps> caps(caps_of(pad));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    // A cover may come before the film.
+    if (sink_ && (!is_cover_ || is_picture(caps.get()))) return nullptr;
+    is_cover_ = is_picture(caps.get());
+    film_.packets.clear();
+    times_ns_.clear();
+    last_ns_ = last_length_ns_ = 0;
+    bytes_ = 0;
+    sink_ = file_.add_fakesink();
     framing_ = framing_of(caps.get());
     g_object_set(sink_, "signal-handoffs", TRUE, nullptr);
     g_signal_connect(sink_, "handoff", G_CALLBACK(take_packet), this);
     return sink_;
   }
 
-  static void take_packet(GstElement*, GstBuffer* packet, GstPad* pad, gpointer user) {
-    static_cast<FilmReader*>(user)->take(packet, pad);
+  static void take_packet(GstElement* sink, GstBuffer* packet, GstPad* pad, gpointer user) {
+    static_cast<FilmReader*>(user)->take(sink, packet, pad);
   }
 
-  void take(GstBuffer* packet, GstPad* pad) {
+  void take(GstElement* sink, GstBuffer* packet, GstPad* pad) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (part_ == Part::kNone) return;
+    if (part_ == Part::kNone || sink != sink_) return;
     const GstClockTime time = stream_time_of(pad, packet);
     if (GST_CLOCK_TIME_IS_VALID(time)) take_time(static_cast<int64_t>(time), packet);
     bytes_ += gst_buffer_get_size(packet);
@@ -266,6 +272,7 @@ class FilmReader {
   FilePipeline file_;
   GstElement* const parser_;
   GstElement* sink_ = nullptr;  // of the pictures
+  bool is_cover_ = false;       // they may be a single one, beside those of the film
   PacketFraming framing_;
   std::mutex mutex_;
   Part part_ = Part::kStart;

@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <glib.h>
 
@@ -159,20 +160,33 @@ void PartFile::check_in_place() const {
   throw std::runtime_error(target_ + ": another program has replaced " + path_);
 }
 
-void PartFile::write(const std::string& content) const {
+void PartFile::write(const std::string& content) {
   for (size_t at = 0; at < content.size();) {
     const ssize_t written =
-        pwrite(descriptor_, content.data() + at, content.size() - at, static_cast<off_t>(at));
+        pwrite(descriptor_, content.data() + at, content.size() - at, static_cast<off_t>(written_));
     if (written < 0 && errno != EINTR) throw failure(target_, errno);
-    if (written > 0) at += static_cast<size_t>(written);
+    if (written <= 0) continue;
+    at += static_cast<size_t>(written);
+    written_ += static_cast<uint64_t>(written);
   }
-  std::string read(content.size() + 1, '\0');  // one more, to see whether something follows
-  size_t size = 0;
-  for (ssize_t got = 1; got > 0 && size < read.size(); size += static_cast<size_t>(got)) {
-    got = pread(descriptor_, read.data() + size, read.size() - size, static_cast<off_t>(size));
+  g_checksum_update(sum_.get(), reinterpret_cast<const guchar*>(content.data()),
+                    static_cast<gssize>(content.size()));
+}
+
+void PartFile::check_written() const {
+  const std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum(g_checksum_new(G_CHECKSUM_SHA1),
+                                                             g_checksum_free);
+  std::vector<guchar> bytes(size_t{1} << 16U);
+  uint64_t read = 0;
+  for (ssize_t got = 1; got > 0; read += static_cast<uint64_t>(got)) {
+    got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(read));
     if (got < 0) throw failure(target_, errno);
+    g_checksum_update(sum.get(), bytes.data(), got);
   }
-  if (size != content.size() || read.compare(0, size, content) != 0) {
+  const std::unique_ptr<GChecksum, void (*)(GChecksum*)> written(g_checksum_copy(sum_.get()),
+                                                                 g_checksum_free);
+  if (read != written_ ||
+      !g_str_equal(g_checksum_get_string(sum.get()), g_checksum_get_string(written.get()))) {
     throw std::runtime_error(target_ + ": what is read back is not what was written");
   }
 }

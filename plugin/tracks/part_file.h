@@ -3,9 +3,12 @@
 /// Output files that appear under their names only when they are complete.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+
+#include <glib.h>
 
 namespace spidar {
 
@@ -34,9 +37,10 @@ class PartFile {
   /// Open for reading and writing.
   int descriptor() const { return descriptor_; }
 
-  /// Writes all that the file is to contain, and reads it back. Throws std::runtime_error when that
-  /// is not the same.
-  void write(const std::string& content) const;
+  /// Appends to what has been written in this way. Throws std::runtime_error when that fails.
+  void write(const std::string& content);
+  /// Reads what write() has written. Throws std::runtime_error when that is not the same.
+  void check_written() const;
 
   /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
   void check_in_place() const;
@@ -52,6 +56,9 @@ class PartFile {
 
   std::string path_, target_;
   int descriptor_ = -1;
+  uint64_t written_ = 0;  // bytes
+  std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
+                                                        g_checksum_free};
 };
 
 /// From now on, SIGINT, SIGTERM and SIGHUP remove all part files before they end the program, and

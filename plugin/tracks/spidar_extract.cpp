@@ -114,12 +114,13 @@ static void warn_of_data(GstSpidarExtract* self) {
   if (spidar::is_upstream(self->sink, is_silent_motion)) {
     why = "spidarmotion has attach-meta=false";
   } else if (spidar::is_upstream(self->sink, is_motion)) {
-    why = "what is between spidarmotion and spidarextract takes it away";
+    why =
+        "spidarmotion does not measure them, and says why, or what is between takes the data away";
   } else if (!spidar::find_path_downstream(self->src, is_motion).empty()) {
     why = "spidarmotion is behind spidarextract, and belongs in front of it";
   }
   GST_ELEMENT_WARNING(
-      self, STREAM, FORMAT,
+      self, RESOURCE, SETTINGS,
       ("Frames come without the data of spidarmotion, and the haptic track is silent where they "
        "do: %s. Right is: … ! spidarmotion attach-meta=true ! spidarextract name=x x.src ! queue ! "
        "VIDEOSINK x.wrench ! …",

@@ -34,37 +34,33 @@ std::optional<Film> read_if_possible(const std::string& film, const std::atomic<
   }
 }
 
-void move(TrackFile& track, int64_t later_ns) {
-  for (TrackBlock& block : track.blocks) block.begin_ns += later_ns;
-}
-
 /// A sentence without its full stop, for the end of another one.
 std::string clause(std::string sentence) {
   if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
   return sentence;
 }
 
-LoadedTrack load_track(const std::string& wanted, const std::string& film,
-                       const std::atomic<bool>* stopped) {
-  LoadedTrack loaded;
+/// Opens the track, and compares it with the film. Null when there is none, or `loaded` has a
+/// problem.
+std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::string& film,
+                                      const std::atomic<bool>* stopped, LoadedTrack& loaded) {
   loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
   const std::optional<Film> read = read_if_possible(film, stopped);
   if (loaded.path.empty() && read && read->has_track) loaded.path = film;
-  if (loaded.path.empty()) return loaded;
-  try {
-    loaded.track = read_track_file(loaded.path, stopped);
-    loaded.problem = loaded.track->missing();
-    // A track inside the film is the film's own.
-    const bool is_inside = loaded.path == film;
-    loaded.is_compared = is_inside || read;
-    if (is_inside || !read) return loaded;
-    const FilmMatch match = match_film(*read, loaded.track->duration_ns, loaded.track->notes);
-    if (loaded.problem.empty()) loaded.problem = match.problem;
-    move(*loaded.track, match.later_ns);
-  } catch (const std::runtime_error& error) {
-    loaded.problem = clause(error.what());
-  }
-  return loaded;
+  if (loaded.path.empty()) return nullptr;
+  std::unique_ptr<OpenTrack> track = open_track(loaded.path, stopped);
+  // A track inside the film is the film's own.
+  const bool is_inside = loaded.path == film;
+  loaded.is_compared = is_inside || read;
+  loaded.blocks = track->blocks();
+  loaded.problem = track->missing(track->duration_ns().value_or(INT64_MAX));
+  if (is_inside || !loaded.problem.empty()) return track;
+  loaded.duration_ns = track->duration_ns() ? *track->duration_ns() : find_end(*track);
+  if (!read) return track;
+  const FilmMatch match = match_film(*read, loaded.duration_ns, track->notes());
+  loaded.problem = match.problem;
+  loaded.blocks->set_later(match.later_ns);
+  return track;
 }
 
 /// Names what is set and changes nothing while a track is played.
@@ -83,10 +79,27 @@ void name_unused(GstElement* element, const std::string& path) {
 }  // namespace
 
 struct TrackLoader::Reading {
+  void set_opened(const LoadedTrack& what) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    loaded = what;
+    opened = true;
+    if (stopped && loaded.blocks) loaded.blocks->stop();
+    if (interrupted && loaded.blocks) loaded.blocks->interrupt();
+    changed.notify_all();
+  }
+  void set_done() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    done = true;
+    changed.notify_all();
+  }
+
   std::atomic<bool> stopped{false};
   std::mutex mutex;  // of what follows
   std::condition_variable changed;
-  bool interrupted = false, done = false;
+  bool interrupted = false;
+  bool opened = false;  // or it is known why not
+  bool taken = false;
+  bool done = false;  // the thread
   LoadedTrack loaded;
 };
 
@@ -101,23 +114,29 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
   const auto reading = std::make_shared<Reading>();
   auto read = [reading, wanted, film] {
     LoadedTrack loaded;
+    std::unique_ptr<OpenTrack> track;
     try {
-      loaded = load_track(wanted, film, &reading->stopped);
+      track = load_track(wanted, film, &reading->stopped, loaded);
     } catch (const std::exception& error) {
-      loaded.path = wanted;
+      if (loaded.path.empty()) loaded.path = wanted;
       loaded.problem = clause(error.what());
     }
-    const std::lock_guard<std::mutex> lock(reading->mutex);
-    reading->loaded = std::move(loaded);
-    reading->done = true;
-    reading->changed.notify_all();
+    const bool is_played = track && loaded.problem.empty();
+    reading->set_opened(loaded);
+    while (is_played) {
+      const std::optional<int64_t> place_ns = loaded.blocks->await_seek();
+      if (!place_ns) break;
+      track->seek(*place_ns);
+    }
+    track = nullptr;
+    reading->set_done();
   };
   try {
     thread_ = start_thread("spidar-track", std::move(read));
   } catch (const std::system_error& error) {
     reading->loaded.path = wanted == "auto" ? film : wanted;
     reading->loaded.problem = std::string("the system gives no thread to read it: ") + error.what();
-    reading->done = true;
+    reading->opened = reading->done = true;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   reading_ = reading;
@@ -127,18 +146,15 @@ void TrackLoader::await(std::chrono::milliseconds limit) {
   const auto reading = this->reading();
   if (!reading) return;
   std::unique_lock<std::mutex> lock(reading->mutex);
-  reading->changed.wait_for(lock, limit, [&] { return reading->done || reading->interrupted; });
+  reading->changed.wait_for(lock, limit, [&] { return reading->opened || reading->interrupted; });
 }
 
 std::optional<LoadedTrack> TrackLoader::take() {
   const auto reading = this->reading();
   if (!reading) return std::nullopt;
-  std::unique_lock<std::mutex> lock(reading->mutex);
-  if (!reading->done) return std::nullopt;
-  std::optional<LoadedTrack> loaded = std::move(reading->loaded);
-  lock.unlock();
-  stop();
-  return loaded;
+  const std::lock_guard<std::mutex> lock(reading->mutex);
+  if (!reading->opened || std::exchange(reading->taken, true)) return std::nullopt;
+  return reading->loaded;
 }
 
 void TrackLoader::interrupt() {
@@ -146,6 +162,7 @@ void TrackLoader::interrupt() {
   if (!reading) return;
   const std::lock_guard<std::mutex> lock(reading->mutex);
   reading->interrupted = true;
+  if (reading->loaded.blocks) reading->loaded.blocks->interrupt();
   reading->changed.notify_all();
 }
 
@@ -154,6 +171,7 @@ void TrackLoader::resume() {
   if (!reading) return;
   const std::lock_guard<std::mutex> lock(reading->mutex);
   reading->interrupted = false;
+  if (reading->loaded.blocks) reading->loaded.blocks->resume();
 }
 
 void TrackLoader::stop() {
@@ -161,6 +179,7 @@ void TrackLoader::stop() {
   if (!reading) return;
   reading->stopped = true;
   std::unique_lock<std::mutex> lock(reading->mutex);
+  if (reading->loaded.blocks) reading->loaded.blocks->stop();
   const bool done = reading->changed.wait_for(lock, kLongestStop, [&] { return reading->done; });
   lock.unlock();
   if (done) {
@@ -172,23 +191,48 @@ void TrackLoader::stop() {
   reading_ = nullptr;
 }
 
-std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns) {
-  if (loaded.path.empty()) return std::nullopt;
-  if (loaded.problem.empty() && !loaded.is_compared) {
+std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns) {
+  if (loaded.path.empty()) return nullptr;
+  GstElement* const element = element_;
+  std::string problem = loaded.problem;
+  if (problem.empty() && !loaded.is_compared) {
     GstPad* pad = gst_element_get_static_pad(element, "sink");
-    loaded.problem = other_film(pad, loaded.track->duration_ns, frame_ns);
+    problem = other_film(pad, loaded.duration_ns, frame_ns);
     gst_object_unref(pad);
   }
-  if (loaded.problem.empty()) {
-    TrackWarnings(element).check(loaded.track->faults, true, loaded.path);
+  if (problem.empty()) {
     name_unused(element, loaded.path);
-    return std::move(loaded.track);
+    path_ = loaded.path;
+    blocks_ = loaded.blocks;
+    told_late_ = false;
+    warnings_.start();
+    return blocks_;
   }
   GST_ELEMENT_WARNING(
       element, RESOURCE, SETTINGS,
-      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), loaded.problem.c_str()),
+      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), problem.c_str()),
       ("The video is analysed in its place."));
-  return std::nullopt;
+  return nullptr;
+}
+
+bool FeltTrack::check() {
+  if (!blocks_) return true;
+  GstElement* const element = element_;
+  warnings_.check(blocks_->faults(), true, path_);
+  if (blocks_->was_late() && !std::exchange(told_late_, true)) {
+    GST_ELEMENT_WARNING(element, RESOURCE, READ,
+                        ("The haptic track %s is read too slowly: what comes too late of it is not "
+                         "felt.",
+                         path_.c_str()),
+                        ("Its disk or network is slow."));
+  }
+  if (!blocks_->has_failed()) return true;
+  GST_ELEMENT_WARNING(element, RESOURCE, READ,
+                      ("The haptic track %s is not felt any further: %s.", path_.c_str(),
+                       clause(blocks_->problem()).c_str()),
+                      ("The video is analysed in its place."));
+  forget();
+  return false;
 }
 
 }  // namespace spidar

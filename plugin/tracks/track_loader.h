@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads the track for a film in a thread of its own, and says whether it is felt.
+/// Reads the track for a film in a thread of its own while it is played, and says whether it is
+/// felt.
 #pragma once
 
 #include <chrono>
@@ -13,15 +14,18 @@
 
 #include <gst/gst.h>
 
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/open_track.h"
+#include "plugin/tracks/read_ahead.h"
+#include "plugin/tracks/track_input.h"
 
 namespace spidar {
 
 /// What is played in place of analysing frames.
 struct LoadedTrack {
-  std::string path;  ///< empty: there is none
-  std::optional<TrackFile> track;
-  std::string problem;       ///< why `track` cannot be used; empty when it can
+  std::string path;                   ///< empty: there is none
+  std::shared_ptr<ReadAhead> blocks;  ///< null when the file cannot be read
+  int64_t duration_ns = 0;
+  std::string problem;       ///< why it cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
 };
 
@@ -35,17 +39,17 @@ class TrackLoader {
 
   // --- streaming thread
 
-  /// Begins to read `wanted`: a file, or with "auto" the one beside the file `film`, else the track
+  /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track
   /// inside it. Nothing when `wanted` is empty. What was being read is forgotten.
   void begin(const std::string& wanted, const std::string& film);
-  /// Returns when all has been read, when `limit` has passed, or at interrupt().
+  /// Returns when it is known whether it can be used, when `limit` has passed, or at interrupt().
   void await(std::chrono::milliseconds limit);
-  /// What was read, once; nothing before.
+  /// What was opened, once; nothing before. It is read further until stop().
   std::optional<LoadedTrack> take();
 
   // --- any thread
 
-  /// Until begin() or resume(), await() returns at once.
+  /// Until begin() or resume(), neither await() nor what takes blocks waits.
   void interrupt();
   void resume();
 
@@ -65,8 +69,25 @@ class TrackLoader {
   std::thread thread_;
 };
 
-/// The track to be felt for the film that comes to the sink pad of `element`. Nothing when there is
-/// none; a warning on the bus when it cannot be used, or is that of another film.
-std::optional<TrackFile> judge_track(GstElement* element, LoadedTrack loaded, int64_t frame_ns);
+/// What is to be said of a track while it is felt. Streaming thread.
+class FeltTrack {
+ public:
+  explicit FeltTrack(GstElement* element) : element_(element), warnings_(element) {}
+
+  /// The blocks to be felt for the film that comes to the sink pad of the element. Null when there
+  /// are none; a warning on the bus when the track cannot be used, or is that of another film.
+  std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns);
+  /// Posts each warning once. False when the track cannot be read further.
+  bool check();
+  /// Nothing is felt of a track.
+  void forget() { blocks_ = nullptr; }
+
+ private:
+  GstElement* element_;
+  TrackWarnings warnings_;
+  std::string path_;
+  std::shared_ptr<ReadAhead> blocks_;
+  bool told_late_ = false;
+};
 
 }  // namespace spidar

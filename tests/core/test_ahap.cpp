@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/track/exchange_formats.h"
+#include "tests/support/written_tracks.h"
 
 namespace spidar::test::ahap_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/track/exchange_formats.h"
-#include "core/track/keyframes.h"
+#include "tests/support/written_tracks.h"
 
 namespace spidar::test::hjif_test {
 namespace {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/track/exchange_formats.h"
+#include "tests/support/written_tracks.h"
 
 using namespace spidar;
 

@@ -66,6 +66,22 @@ double difference(const std::vector<TrackSample>& a, const std::vector<TrackSamp
   return largest_difference(a, b);
 }
 
+std::vector<TrackSample> load(const std::string& path) {
+  std::vector<TrackSample> samples;
+  read_track(path, [&samples](const TrackSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
+void save(const std::string& path, const std::vector<TrackSample>& samples,
+          const SaveOptions& options = {}) {
+  PartFile part(path);
+  SampleFile file(path);
+  for (const TrackSample& sample : samples) file.add(sample);
+  file.flush();
+  save_track(part, file, options);
+  part.publish();
+}
+
 /// Half a step of the 16 bits that the Synthesizer writes, and half a step of our 1e-5.
 constexpr double kRounding = 1.0 / 65536 + 0.5e-5;
 /// Of what save_track() does without being told otherwise.
@@ -95,7 +111,7 @@ class Mpeg : public testing::Test {
     EXPECT_EQ(
         complaints("Synthesizer", "-fs 1000 -f " + quoted(hjif) + " -o " + quoted(path("out.wav"))),
         "");
-    return load_track(path("out.wav"));
+    return load(path("out.wav"));
   }
 
   /// Ten seconds of a film, as it is recorded.
@@ -109,7 +125,7 @@ class Mpeg : public testing::Test {
                 quoted(path("film.wav")))
                    .c_str()),
         0);
-    return load_track(path("film.wav"));
+    return load(path("film.wav"));
   }
   /// Up to the full scale, on six channels at different rates.
   static std::vector<TrackSample> waves() {
@@ -135,11 +151,11 @@ TEST_F(Mpeg, EncoderAndSynthesizerReadOurTracks) {
   for (const auto& [name, track] : tracks) {
     SCOPED_TRACE(name);
     ASSERT_GT(largest_difference(track, std::vector<TrackSample>(track.size())), 0.1);
-    save_track(path("in.hjif"), track);
+    save(path("in.hjif"), track);
     EXPECT_EQ(complaints("Encoder",
                          "-f " + quoted(path("in.hjif")) + " -o " + quoted(path("encoded.hjif"))),
               "");
-    const double of_encoder = difference(load_track(path("encoded.hjif")), track);
+    const double of_encoder = difference(load(path("encoded.hjif")), track);
     const double of_synthesizer = difference(synthesized(path("in.hjif")), track);
     std::printf(
         "%s: differs by %.5f of the full scale after the Encoder, %.5f after the "
@@ -153,7 +169,7 @@ TEST_F(Mpeg, EncoderAndSynthesizerReadOurTracks) {
 TEST_F(Mpeg, WithoutToleranceOnlyRoundingIsLeft) {
   SaveOptions exact;
   exact.tolerance = 0;
-  save_track(path("in.hjif"), waves(), exact);
+  save(path("in.hjif"), waves(), exact);
   std::vector<TrackSample> read = synthesized(path("in.hjif")), written = waves();
   ASSERT_EQ(read.size(), written.size());
   // Where the last two keyframes are neighbours, as here, the Synthesizer reads the last sample
@@ -165,7 +181,7 @@ TEST_F(Mpeg, WithoutToleranceOnlyRoundingIsLeft) {
 }
 
 TEST_F(Mpeg, AFileThatIsWrongIsNoticed) {
-  save_track(path("in.hjif"), constants());
+  save(path("in.hjif"), constants());
   std::string text = read(path("in.hjif"));
   const std::string profile = "\"profile\":\"Main\"";
   ASSERT_NE(text.find(profile), std::string::npos);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """spidartrack record of films that are damaged, or have no motion."""
+import os
 import unittest
 
 import track_case
@@ -43,6 +44,60 @@ class FilmRecorder(track_case.TrackCase):
         # Only the header, of a film with sound.
         self.path("header.flv").write_bytes(b"FLV\1\5\0\0\0\t\0\0\0\0")
         self.expect_refused("header.flv", "it cannot be read to its end")
+
+    def test_what_is_appended_to_a_film_is_no_part_of_it(self):
+        """By cameras, taggers and editors."""
+        whole = {"a.mov": "jpegenc ! qtmux", "b.mov": "jpegenc ! qtmux faststart=true",
+                 "c.mov": "jpegenc ! qtmux fragment-duration=200", "d.3gp": "avenc_mpeg4 ! mp4mux",
+                 "e.avi": "jpegenc ! avimux", "f.mkv": "jpegenc ! matroskamux", "g.ogg": "theoraenc ! oggmux"}
+        for name, encoding in whole.items():
+            self.gst(BALL, encoding, "! filesink location=" + name)
+            content = self.path(name).read_bytes()
+            for appended in (b"\n", b"TAG" + bytes(125), bytes(range(256)) * 3):
+                with self.subTest(name=name, appended=appended[:8]):
+                    self.path(name).write_bytes(content + appended)
+                    if name[0] == "c" and len(appended) < 8:
+                        continue  # it may as well be the beginning of another fragment
+                    self.spidartrack("record", "--force", name)
+        # A box of the film that is cut off is none of these.
+        for box in (b"mdat", b"moof", b"moov"):
+            self.gst(BALL, "jpegenc ! qtmux ! filesink location=h.mov")
+            self.path("h.mov").write_bytes(self.path("h.mov").read_bytes() + b"\0\1\0\0" + box + bytes(100))
+            self.expect_refused("h.mov", "its end is missing")
+
+    def test_frames_that_are_not_measured_are_named_by_their_cause(self):
+        for name, line, cause in (
+                ("small.mkv", "videotestsrc num-buffers=25 ! video/x-raw,width=12,height=12,framerate=25/1 ! jpegenc ! "
+                 "matroskamux", "Frames with a side below 16"),
+                ("no_times.mjpeg", BALL + "jpegenc", "Frames without a timestamp")):
+            self.gst(line, "! filesink location=" + name)
+            said = self.spidartrack("record", "--folder", "out", name, status=1)
+            self.assertIn("failed: its frames are not measured: " + cause, said)
+            self.assertNotIn("attach-meta", said)
+
+    def test_a_plug_in_that_is_missing_is_named(self):
+        self.gst(BALL, "theoraenc ! matroskamux ! filesink location=film.mkv")
+        self.make_track("a.wav")
+        self.spidartrack("convert", "a.wav", "a.flac")
+        for missing, command, said in (
+                ("theoradec:0,avdec_theora:0", ["record", "film.mkv"], "Theora decoder"),
+                ("matroskademux:0,avdemux_matroska:0", ["record", "film.mkv"], "Matroska demuxer"),
+                ("flacdec:0,avdec_flac:0", ["info", "a.flac"], "(FLAC) decoder"),
+                ("flacparse:0,avdemux_flac:0", ["info", "a.flac"], "cannot take audio/x-flac apart")):
+            self.assert_said(said, *command, env=dict(os.environ, GST_PLUGIN_FEATURE_RANK=missing))
+
+    @track_case.needs("ffmpeg")
+    def test_a_cover_is_not_the_film(self):
+        self.gst("videotestsrc num-buffers=1 ! video/x-raw,width=600,height=600 ! jpegenc ! filesink location=cover.jpg")
+        self.gst(BALL, "theoraenc ! matroskamux ! filesink location=film.mkv")
+        for disposition in ("0", "attached_pic"):
+            self.run_in_folder("ffmpeg -nostdin -v error -y -i cover.jpg -i film.mkv -map 0 -map 1 -c copy "
+                               f"-disposition:v:0 {disposition} both.mkv")
+            self.spidartrack("record", "--force", "both.mkv")
+            self.assertEqual(len(self.samples("both.mkv.haptic.flac")), 2000)
+            # The picture that the track knows its film by is one of the film.
+            self.path("both.mkv.haptic.flac").rename(self.path("film.mkv.haptic.flac"))
+            self.assertIn("is there", self.spidartrack("record", "film.mkv"))
 
     def test_sound_may_go_on_after_the_pictures_of_an_ogg(self):
         self.gst("oggmux name=mux ! filesink location=long.ogg", BALL, "theoraenc ! mux.",

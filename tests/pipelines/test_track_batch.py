@@ -5,6 +5,7 @@ import fcntl
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import time
@@ -114,6 +115,36 @@ class Batch(track_case.TrackCase):
         self.spidartrack("record", "in", "--folder", "away", status=1)
         self.assertFalse(self.path("away").exists())
 
+    def test_what_a_folder_has_besides_films_is_said_once(self):
+        for name in ("in/a.avi", "in/b.DIVX", "in/c.f4v", "in/d.3g2", "in/e.m2v"):
+            self.make_film(name, 5)
+        for name in ("in/a.srt", "in/b.srt", "in/cover.jpg", "in/README", "in/.hidden.srt", "in/x.avi.haptic.wav"):
+            self.path(name).write_text("")
+        self.path("elsewhere").mkdir()
+        self.path("in/link").symlink_to("../elsewhere")
+        said = self.spidartrack("record", "in", "--folder", "elsewhere")
+        self.assertEqual(said.count("left out: 1 link to folders; 4 files that are no film by the name (2 .srt, "
+                                    "1 without an ending, 1 .jpg)\n"), 1, said)
+        self.assertIn("5 recorded, 0 there, 0 failed", said)
+
+    def test_a_folder_that_may_not_be_read_costs_no_other(self):
+        """As lost+found at the root of a disk."""
+        self.make_film("in/sub/a.avi", 5)
+        self.path("in/lost+found").mkdir(mode=0)
+        command = [PROGRAM, "record", "in"]
+        if os.getuid() == 0:
+            if not shutil.which("setpriv"):
+                self.skipTest("needs setpriv")
+            for path in (self.folder, *self.folder.rglob("*")):
+                os.chmod(path, 0o755 if path.name != "lost+found" and path.is_dir() else os.stat(path).st_mode & 0o777)
+                if path.name != "lost+found":
+                    os.chown(path, 65534, 65534)
+            command = ["setpriv", "--reuid=65534", "--clear-groups", *command]
+        env = dict(os.environ, HOME=str(self.folder), GST_REGISTRY=str(self.path("registry")))
+        said = self.run_in_folder(command, env=env)
+        self.assertIn("left out: in/lost+found, which cannot be read (Permission denied)\n", said)
+        self.assertTrue(self.path("in/sub/a.avi.haptic.flac").exists())
+
     @track_case.needs("ffmpeg")
     def test_how_much_is_felt_and_why_the_rest_is_not_is_said(self):
         self.make_film("ball.avi", 50)
@@ -125,8 +156,8 @@ class Batch(track_case.TrackCase):
                            "gblur=2,trim=end_frame=1,loop=-1:1,setpts=N/25/TB,crop=320:240:2*n:0\" -t 2 pan.avi")
         said = self.spidartrack("record", "pan.avi")
         self.assertRegex(said, r"pan.avi.haptic.flac; \d % of its frames are felt; 9\d %: .*camera")
-        self.assertEqual(self.spidartrack("check", "pan.avi", status=1), "pan.avi.haptic.flac: 0 % of it is felt: the "
-                         "force is below 0.04 N, and there is no torque\n")
+        self.assertEqual(self.spidartrack("check", "pan.avi", status=1), "pan.avi.haptic.flac: 0 % of it is felt: "
+                         "force and torque are below 0.04 N and 0.0009 N m\n")
 
     def test_a_manifest_that_cannot_be_written_is_an_error(self):
         self.make_film("x.avi")

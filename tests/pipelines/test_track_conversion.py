@@ -3,6 +3,7 @@
 """spidartrack convert, info, check and plot."""
 import csv
 import json
+import struct
 import math
 import re
 import unittest
@@ -139,6 +140,26 @@ class Conversion(track_case.TrackCase):
         self.spidartrack("convert", "a.wav", "a.ahap")
         self.assert_said("written, but not read", "info", "a.ahap")
 
+    def test_a_size_that_its_writer_could_not_know_is_judged_by_what_is_there(self):
+        """sox writes 0x7ffff000 less a remainder into a pipe, others the largest number or its first bit."""
+        self.make_track(count=2000)
+        whole = self.path("a.wav").read_bytes()
+        for size in (0, 0x7fffeff0, 0x7fffffff, 0x80000000, 0xffffff00, 0xffffffff):
+            self.path("piped.wav").write_bytes(whole[:40] + struct.pack("<I", size) + whole[44:])
+            self.assertIn("ok\n", self.spidartrack("check", "piped.wav"), hex(size))
+        # Real ones are not taken for these.
+        for size in (len(whole) - 44 + 24000, 0x7ffe0000, 0x80000001, 0xf0000000):
+            self.path("cut.wav").write_bytes(whole[:40] + struct.pack("<I", size) + whole[44:])
+            self.assert_said("it is cut off: 2.000 s of", "check", "cut.wav")
+        # The head of FLAC has 36 bits for the number of samples, from the 172nd on.
+        self.spidartrack("convert", "a.wav", "a.flac")
+        flac = bytearray(self.path("a.flac").read_bytes())
+        self.assertEqual(int.from_bytes(flac[18:26], "big") & (1 << 36) - 1, 2000)
+        flac[21] &= 0xf0
+        flac[22:26] = bytes(4)
+        self.path("piped.flac").write_bytes(flac)
+        self.assertIn("ok\n", self.spidartrack("check", "piped.flac"))
+
     @track_case.needs("ffmpeg")
     def test_a_file_that_gstreamer_cannot_take_apart_is_refused(self):
         """The decoder of Wave64 would give other values, and samples that are not in the file."""
@@ -181,13 +202,17 @@ class Conversion(track_case.TrackCase):
         self.assertEqual(self.path("E.FUNSCRIPT").read_bytes()[:1], b"{")
 
     def test_a_track_in_which_nothing_is_felt_is_not_ok(self):
-        for sample, said in (((0,) * 6, ": the force is below 0.04 N, and there is no torque"),
-                             ((0, .003, 0, 0, 0, 0), ": the force is below 0.04 N, and there is no torque"),
-                             ((0, 0, 0, .01, 0, 0), "; in the rest the force is below 0.04 N")):
+        # 0.04 N at the radius of the grip, 22.5 mm, are 0.9 mN m.
+        least = "force and torque are below 0.04 N and 0.0009 N m"
+        for sample, felt in (((0,) * 6, 0), ((0, .003, 0, 0, 0, 0), 0), ((0, 0, 0, .0008, 0, 0), 0),
+                             ((0, 0, 0, .001, 0, 0), 100), ((.005, 0, 0, 0, 0, 0), 100)):
             self.make_track(sample=lambda _, sample=sample: sample)
-            is_felt = said.startswith(";")
-            self.assertEqual(self.spidartrack("check", "a.wav", status=int(not is_felt)),
-                             "a.wav: ok\n" * is_felt + f"a.wav: 0 % of it is felt{said}\n")
+            self.assertEqual(self.spidartrack("check", "a.wav", status=int(felt == 0)),
+                             "a.wav: ok\n" * (felt > 0) + f"a.wav: {felt} % of it is felt" +
+                             (f": {least}\n" if felt == 0 else "\n"))
+            self.assertEqual(json.loads(self.spidartrack("info", "a.wav", "--json"))["felt"], felt / 100)
+        self.make_track(sample=lambda ms: (0, 0, 0, 0, 0, .05 * (ms < 500)))
+        self.assertIn(f"a.wav: 50 % of it is felt; in the rest {least}\n", self.spidartrack("check", "a.wav", status=None))
 
     @track_case.needs("gnuplot")
     def test_a_plot_is_a_png(self):

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/tracks/track_elements.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/open_track.h"
 #include "spidar/profiles/profile.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/pipelines/stepped_track.h"
@@ -112,7 +112,8 @@ class TrackFidelity : public testing::Test {
 
   static std::vector<TrackSample> samples_of(const std::string& path) {
     std::vector<TrackSample> samples;
-    for (const TrackBlock& block : read_track_file(path).blocks) {
+    const std::unique_ptr<OpenTrack> track = open_track(path);
+    for (TrackBlock block; track->next(block);) {
       samples.insert(samples.end(), block.samples.begin(),
                      block.samples.begin() + static_cast<std::ptrdiff_t>(block.count));
     }

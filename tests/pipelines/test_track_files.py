@@ -2,9 +2,12 @@
 # Copyright 2026 the gst-spidar authors
 """The files that spidartrack writes, whatever their names are and whatever a shell has closed."""
 import os
+import re
 import shutil
 import signal
+import struct
 import subprocess
+import sys
 import time
 import unittest
 
@@ -13,6 +16,41 @@ from track_case import PROGRAM
 
 
 class Files(track_case.TrackCase):
+    def make_long_track(self, name, seconds):
+        """Of rest, which takes no room on the disk."""
+        size = seconds * 24000
+        with open(self.path(name), "wb") as file:
+            file.write(b"RIFF" + struct.pack("<I", 36 + size) + b"WAVEfmt " +
+                       struct.pack("<IHHIIHH", 16, 3, 6, 1000, 24000, 24, 32) + b"data" + struct.pack("<I", size))
+            file.truncate(44 + size)
+
+    def memory_of(self, command):
+        """The most that it has taken, in MB."""
+        script = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, check=False); "
+                  "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024)")
+        return int(self.run_in_folder([sys.executable, "-c", script, *command]).splitlines()[-1])
+
+    def test_memory_does_not_grow_with_the_length_of_a_track(self):
+        """Not by the 24 MB that every 17 minutes take as samples."""
+        self.make_long_track("short.wav", 10)
+        self.make_long_track("long.wav", 3600)
+        for command in (["info"], ["check"], ["convert", "b.flac"], ["convert", "b.hjif"], ["convert", "b.ahap"],
+                        ["convert", "b.funscript"]):
+            short, long = (self.memory_of([PROGRAM, command[0], name, *command[1:]]) for name in ("short.wav", "long.wav"))
+            self.assertLess(long, short + 20, command)
+
+    def test_a_track_is_read_as_it_is_played(self):
+        self.make_long_track("short.wav", 600)
+        self.make_long_track("long.wav", 3 * 3600)
+        read = {}
+        for name in ("short.wav", "long.wav"):
+            said = self.run_in_folder(
+                "gst-launch-1.0 -q videotestsrc num-buffers=25 ! video/x-raw,width=64,height=48,framerate=25/1 ! identity "
+                f"! spidarmotion device=none track={name} ! fakesink; cat /proc/$$/io")
+            read[name] = int(re.search(r"rchar: (\d+)", said).group(1))
+        # As much of each, but for what fits into the queues of GStreamer (2 MB); the whole has 245 MB more.
+        self.assertLess(read["long.wav"], read["short.wav"] + 3_000_000)
+
     def test_what_is_printed_does_not_go_into_a_file(self):
         self.make_film()
         self.spidartrack("record", "film.avi")

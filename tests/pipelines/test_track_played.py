@@ -166,6 +166,36 @@ class BadTracks(TrackPlayedCase):
         # The check of the ticks looks for rest after the last sample.
         self.play(f"filesrc location={track} ! flacparse ! flacdec ! spidarsink")
 
+    def test_where_a_flac_is_cut_off_is_found_without_decoding_it(self):
+        """It is 2 s long; the film does not say how long it is."""
+        self.make_track(count=2000)
+        self.spidartrack("convert", "a.wav", "whole.flac")
+        whole = self.path("whole.flac").read_bytes()
+        track = self.path("b.flac")
+        film = VIDEO.replace(f"num-buffers={FRAMES}", "") + f"identity eos-after={FRAMES} ! "
+        for content, said in ((whole, ""), (whole + b"TAG" + bytes(125), ""), (whole[:-1], "1.960 s of 2.000 s"),
+                              (whole[:len(whole) // 2], " of 2.000 s")):
+            track.write_bytes(content)
+            outcome = self.play(f"{film} spidarmotion track={track} ! fakesink sync=true")
+            if said:
+                self.assertIn(said, outcome.warnings[0])
+            else:
+                self.assertEqual((outcome.warnings, outcome.forces), ([], []))
+
+    def test_a_track_that_cannot_be_read_further_is_felt_until_there(self):
+        """Ten seconds ahead of the first frame, a sample claims to be that of another day."""
+        frames = 550  # of 40 ms
+        self.make_track(count=20000, sample=lambda ms: CONSTANT)
+        self.run_in_folder("ffmpeg -nostdin -v error -i a.wav -af "
+                           "'asetnsamples=100,asetpts=PTS+gte(N\\,19000)*1000000000' -c:a pcm_f32le jump.mka")
+        outcome = self.play(f"videotestsrc pattern=ball ! video/x-raw,width=64,height=48,framerate=25/1 ! identity "
+                            f"eos-after={frames} ! spidarmotion track={self.path('jump.mka')} ! fakesink")
+        self.assertTrue(outcome.eos, outcome.error)
+        self.assertEqual(len(outcome.warnings), 1)
+        self.assertRegex(outcome.warnings[0], "jump.mka is not felt any further: its samples reach to 1000019 s")
+        # Analysed from the frame on that has no samples.
+        self.assertTrue(0 < len(outcome.forces) <= frames - 19000 // 40 + 2, len(outcome.forces))
+
     def test_what_may_never_end_is_not_read(self):
         """Reading would block for ever, and stopping with it."""
         fifo = self.path("film.avi.haptic.flac")

@@ -57,6 +57,7 @@ std::string keep_copy(const std::string& path) {
 void replace_file(const std::string& path, const std::string& text) {
   PartFile part{path};
   part.write(text);
+  part.check_written();
   struct stat before {};
   if (stat(path.c_str(), &before) == 0) fchmod(part.descriptor(), before.st_mode & 0777);
   part.publish();

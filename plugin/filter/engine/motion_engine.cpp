@@ -120,8 +120,8 @@ void MotionEngine::restart_timing() {
   no_force_watch_.forget();
 }
 
-void MotionEngine::set_track(std::optional<TrackFile> track) {
-  track_.set_track(std::move(track).value_or(TrackFile{}));
+void MotionEngine::set_track(std::shared_ptr<ReadAhead> track) {
+  track_.set_track(std::move(track));
   source_ = track_.has_track() ? static_cast<WrenchSource*>(&track_) : &live_;
 }
 

@@ -77,8 +77,8 @@ class MotionEngine {
   void take_tags(const GstTagList* tags);
   /// How frames are turned before they are shown. What is felt is turned like them.
   const PictureTurn& turn() const { return turn_; }
-  /// Frames are not analysed: the samples of this track are felt. Nothing: they are again.
-  void set_track(std::optional<TrackFile> track);
+  /// Frames are not analysed: the samples of this track are felt. Null: they are again.
+  void set_track(std::shared_ptr<ReadAhead> track);
   /// Valid until the next call. What is only shown of a frame is not filled in yet.
   FrameReport& process(const PassingFrame& frame);
   /// The next frame has nothing to do with the one before.

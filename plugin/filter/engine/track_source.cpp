@@ -18,8 +18,20 @@ namespace {
 /// missing.
 constexpr int64_t kJump_ns = 500'000'000;
 
-int64_t end_of(const TrackBlock& block) {
-  return block.begin_ns + block.duration_ns;
+/// Backwards, the track is read in pieces of so much.
+constexpr int64_t kPiece_ns = 4'000'000'000;
+/// What is so far ahead is read up to, and not sought.
+constexpr int64_t kNear_ns = ReadAhead::kAhead_ns;
+/// So much is kept around a frame: for a step back, or a rate that changes.
+constexpr int64_t kKept_ns = 1'000'000'000;
+
+/// Without the samples at or after `time_ns`.
+TrackBlock cut(TrackBlock block, int64_t time_ns) {
+  size_t count = block.count;
+  while (count > 0 && block.time_ns(count - 1) >= time_ns) --count;
+  block.duration_ns = block.time_ns(count) - block.begin_ns;
+  block.count = count;
+  return block;
 }
 
 /// Where the video is with `frame`, of which the sink shows the beginning, or the end when it is
@@ -44,19 +56,8 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
   return place;
 }
 
-}  // namespace
-
-/// The first block that ends after `stream_ns`.
-size_t TrackReplay::block_at(int64_t stream_ns) const {
-  const auto ends_before = [](const TrackBlock& block, int64_t time_ns) {
-    return end_of(block) <= time_ns;
-  };
-  const auto found =
-      std::lower_bound(track_.blocks.begin(), track_.blocks.end(), stream_ns, ends_before);
-  return static_cast<size_t>(found - track_.blocks.begin());
-}
-
-TrackBlock TrackReplay::timed(const TrackBlock& block, const FramePlace& frame) const {
+/// With running times.
+TrackBlock timed(const TrackBlock& block, const FramePlace& frame) {
   TrackBlock shown = block;
   const auto running_at = [&frame](int64_t stream_ns) {
     return frame.running_ns +
@@ -73,28 +74,117 @@ TrackBlock TrackReplay::timed(const TrackBlock& block, const FramePlace& frame) 
   return shown;
 }
 
+}  // namespace
+
+void TrackReplay::set_track(std::shared_ptr<ReadAhead> track) {
+  track_ = std::move(track);
+  window_.clear();
+  begin_ns_ = end_ns_ = 0;
+  continues_ = true;
+  late_ = false;
+  restart();
+}
+
+void TrackReplay::jump(int64_t time_ns) {
+  track_->seek(time_ns);
+  window_.clear();
+  begin_ns_ = end_ns_ = time_ns;
+  continues_ = true;
+  late_ = false;
+}
+
+/// False when there is no other block now.
+bool TrackReplay::append() {
+  const auto now = ReadAhead::Time::clock::now();
+  TrackBlock block;
+  const ReadAhead::Found found = track_->take(block, late_ ? now : now + kLongestWait);
+  late_ = found == ReadAhead::Found::kLate;
+  if (found == ReadAhead::Found::kEnd) end_ns_ = INT64_MAX;
+  if (found != ReadAhead::Found::kBlock) return false;
+  window_.push_back(block);
+  end_ns_ = std::max(end_ns_, block.begin_ns);
+  return true;
+}
+
+void TrackReplay::append_until(int64_t time_ns) {
+  if (end_ns_ >= time_ns) return;
+  if (!continues_) {
+    const int64_t end_ns = window_.empty() ? end_ns_ : end_of(window_.back());
+    track_->seek(end_ns);
+    continues_ = true;
+  }
+  while (end_ns_ < time_ns && append()) {
+  }
+}
+
+/// Reads what is before the window.
+void TrackReplay::prepend(int64_t from_ns) {
+  std::deque<TrackBlock> later = std::move(window_);
+  const int64_t end_ns = end_ns_;
+  const int64_t seam_ns = later.empty() ? begin_ns_ : std::min(begin_ns_, later.front().begin_ns);
+  jump(std::max<int64_t>(from_ns - kPiece_ns, 0));
+  append_until(seam_ns);
+  if (end_ns_ < seam_ns) return;  // it comes too late
+  while (!window_.empty() && window_.back().begin_ns >= seam_ns) window_.pop_back();
+  if (!window_.empty()) window_.back() = cut(window_.back(), seam_ns);
+  window_.insert(window_.end(), later.begin(), later.end());
+  end_ns_ = end_ns;
+  continues_ = false;
+}
+
+/// Fills the window with the blocks between two times.
+void TrackReplay::cover(int64_t from_ns, int64_t to_ns, bool backwards) {
+  from_ns = std::max<int64_t>(from_ns, 0);
+  const bool is_far = from_ns - kNear_ns > end_ns_;
+  if (from_ns < begin_ns_ && backwards && to_ns >= begin_ns_ && !is_far) {
+    prepend(from_ns);
+  } else if (from_ns < begin_ns_ || is_far) {
+    jump(backwards ? std::max<int64_t>(from_ns - kPiece_ns, 0) : from_ns);
+  }
+  append_until(to_ns);
+}
+
+void TrackReplay::forget_beyond(int64_t from_ns, int64_t to_ns) {
+  while (window_.size() > 1 && end_of(window_.front()) < from_ns) {
+    begin_ns_ = end_of(window_.front());
+    window_.pop_front();
+  }
+  while (window_.size() > 1 && window_.back().begin_ns > to_ns) {
+    end_ns_ = window_.back().begin_ns;
+    window_.pop_back();
+    continues_ = false;
+  }
+}
+
 void TrackReplay::play(const FramePlace& frame,
                        const std::function<void(const TrackBlock&)>& give) {
   if (!has_track() || frame.rate == 0 || !std::isfinite(frame.rate)) return;
   const bool jumped = std::llabs(frame.stream_ns - expected_ns_) > kJump_ns;
   const bool backwards = frame.rate < 0;
-  if (!follows_ || jumped || frame.rate != rate_) {
-    const size_t at = block_at(frame.stream_ns);
-    next_ = backwards ? std::min(at + 1, track_.blocks.size()) : at;
-  }
+  if (!follows_ || jumped || frame.rate != rate_) given_ns_ = frame.stream_ns;
   follows_ = true;
   rate_ = frame.rate;
   const auto margin_ns = static_cast<int64_t>(static_cast<double>(kMargin_ns) * frame.rate);
   expected_ns_ = frame.stream_ns + (backwards ? -frame.length_ns : frame.length_ns);
   const int64_t until_ns = expected_ns_ + margin_ns;
   if (backwards) {
-    for (; next_ > 0 && end_of(track_.blocks[next_ - 1]) > until_ns; --next_) {
-      give(timed(track_.blocks[next_ - 1], frame));
+    cover(until_ns, frame.stream_ns, true);
+    for (auto block = window_.rbegin(); block != window_.rend() && end_of(*block) > until_ns;
+         ++block) {
+      if (block->begin_ns >= given_ns_) continue;
+      give(timed(*block, frame));
+      given_ns_ = block->begin_ns;
     }
+    forget_beyond(until_ns - kPiece_ns, frame.stream_ns + kKept_ns);
   } else {
-    for (; next_ < track_.blocks.size() && track_.blocks[next_].begin_ns < until_ns; ++next_) {
-      give(timed(track_.blocks[next_], frame));
+    cover(frame.stream_ns, until_ns, false);
+    for (const TrackBlock& block : window_) {
+      if (block.begin_ns >= until_ns) break;
+      if (end_of(block) <= given_ns_) continue;
+      give(timed(block, frame));
+      given_ns_ = end_of(block);
     }
+    forget_beyond(frame.stream_ns - kKept_ns, INT64_MAX);
   }
 }
 
@@ -103,9 +193,9 @@ Wrench TrackReplay::largest(const FramePlace& frame) const {
   const int64_t begin_ns = std::min(frame.stream_ns, other_ns);
   const int64_t end_ns = std::max({frame.stream_ns, other_ns, begin_ns + 1});
   Wrench largest;
-  for (size_t at = block_at(begin_ns);
-       at < track_.blocks.size() && track_.blocks[at].begin_ns < end_ns; ++at) {
-    const TrackBlock& block = track_.blocks[at];
+  for (const TrackBlock& block : window_) {
+    if (end_of(block) <= begin_ns) continue;
+    if (block.begin_ns >= end_ns) break;
     for (size_t i = 0; i < block.count && block.time_ns(i) < end_ns; ++i) {
       const Wrench wrench = to_wrench(block.samples[i]);
       if (block.time_ns(i + 1) > begin_ns && size_N(wrench) > size_N(largest)) largest = wrench;
@@ -114,7 +204,7 @@ Wrench TrackReplay::largest(const FramePlace& frame) const {
   return largest;
 }
 
-void TrackSource::set_track(TrackFile track) {
+void TrackSource::set_track(std::shared_ptr<ReadAhead> track) {
   replay_.set_track(std::move(track));
   frames_ = 0;
 }

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <atomic>
-#include <cstddef>
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <memory>
 
 #include "core/wrench.h"
 #include "plugin/filter/engine/frame_touch.h"
@@ -15,7 +17,7 @@
 #include "plugin/output/haptic_output.h"
 #include "plugin/timing/loop_queue.h"
 #include "plugin/timing/wrench_backlog.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/read_ahead.h"
 
 namespace spidar {
 
@@ -32,33 +34,43 @@ class TrackReplay {
  public:
   /// So much longer than a frame is shown its samples are given: the next frame may be late.
   static constexpr int64_t kMargin_ns = 60'000'000;
+  /// A frame waits at most so long for its samples, after a seek, or where they are read slowly for
+  /// the first time.
+  static constexpr std::chrono::seconds kLongestWait{1};
 
-  void set_track(TrackFile track) {
-    track_ = std::move(track);
-    restart();
-  }
-  bool has_track() const { return !track_.blocks.empty(); }
+  /// Null: there is none.
+  void set_track(std::shared_ptr<ReadAhead> track);
+  bool has_track() const { return track_ != nullptr; }
 
   /// The next frame has nothing to do with the one before.
-  void restart() { follows_ = false; }
+  void restart() { follows_ = late_ = false; }
 
   /// Gives what is not yet given of the samples that are felt while the frame is shown. After a
   /// jump, or at another rate, it begins with the block that the frame is in.
   void play(const FramePlace& frame, const std::function<void(const TrackBlock&)>& give);
 
-  /// The largest wrench of the track while the frame is shown; rest where it has none.
+  /// The largest wrench of the track while the frame of the last play() is shown; rest where it has
+  /// none.
   Wrench largest(const FramePlace& frame) const;
 
  private:
-  size_t block_at(int64_t stream_ns) const;
-  TrackBlock timed(const TrackBlock& block, const FramePlace& frame) const;
+  void cover(int64_t from_ns, int64_t to_ns, bool backwards);
+  void jump(int64_t time_ns);
+  bool append();
+  void append_until(int64_t time_ns);
+  void prepend(int64_t from_ns);
+  void forget_beyond(int64_t from_ns, int64_t to_ns);
 
-  TrackFile track_;
+  std::shared_ptr<ReadAhead> track_;
+  // All blocks that end after begin_ns_ and begin before end_ns_.
+  std::deque<TrackBlock> window_;
+  int64_t begin_ns_ = 0, end_ns_ = 0;
+  bool continues_ = true;  // the next block of track_ is the one behind the window
+  bool late_ = false;      // no more frames wait until a block has come
   bool follows_ = false;
   double rate_ = 1;
   int64_t expected_ns_ = 0;  // stream time of the next frame
-  // The next block to be given; backwards it is the one before this.
-  size_t next_ = 0;
+  int64_t given_ns_ = 0;     // up to here; backwards, from here on
 };
 
 class TrackSource : public WrenchSource {
@@ -71,7 +83,7 @@ class TrackSource : public WrenchSource {
 
   /// What was given of the track before is felt nevertheless: its frames are on their way to the
   /// screen.
-  void set_track(TrackFile track);
+  void set_track(std::shared_ptr<ReadAhead> track);
   bool has_track() const { return replay_.has_track(); }
   /// Since set_track(). Any thread.
   uint64_t frames() const { return frames_; }

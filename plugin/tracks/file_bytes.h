@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A file as bytes, and numbers in them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace spidar {
+
+inline uint64_t big_endian(const std::string& bytes, size_t at, size_t count) {
+  uint64_t value = 0;
+  for (size_t i = 0; i < count; ++i) value = value << 8 | static_cast<uint8_t>(bytes[at + i]);
+  return value;
+}
+
+inline uint64_t little_endian(std::string bytes, size_t at, size_t count) {
+  std::reverse(bytes.begin() + static_cast<int>(at), bytes.begin() + static_cast<int>(at + count));
+  return big_endian(bytes, at, count);
+}
+
+/// Empty when it cannot be read.
+class FileBytes {
+ public:
+  explicit FileBytes(const std::string& path)
+      : stream_(path, std::ios::binary | std::ios::ate),
+        size_(stream_ ? static_cast<uint64_t>(stream_.tellg()) : 0) {}
+
+  uint64_t size() const { return size_; }
+  /// Fewer bytes at the end of the file.
+  std::string read(uint64_t at, size_t count) {
+    std::string bytes(count, '\0');
+    stream_.clear();
+    stream_.seekg(static_cast<std::streamoff>(at));
+    stream_.read(&bytes[0], static_cast<std::streamsize>(count));
+    bytes.resize(static_cast<size_t>(stream_.gcount()));
+    return bytes;
+  }
+
+ private:
+  std::ifstream stream_;
+  const uint64_t size_;
+};
+
+}  // namespace spidar

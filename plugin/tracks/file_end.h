@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Whether the end of a file is there, and how long its sound is: by its head and its last bytes,
+/// without decoding.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace spidar {
+
+enum class FilmEnd {
+  kWhole,
+  kAppended,  ///< whole, with something behind it that is no part of it
+  kCutOff,    ///< within a chunk, a segment, a box or a page, or before the last page
+  kUnknown,   ///< the file does not say
+};
+
+/// By what AVI, Matroska, WebM, MP4, QuickTime and Ogg say of their length. The demuxers of
+/// GStreamer take such a film that is cut off for a shorter one that is whole. What cameras and
+/// taggers append is no part of the film.
+FilmEnd film_end(const std::string& path);
+
+struct FileLength {
+  std::optional<int64_t> there_ns;  ///< nothing when the file does not tell without decoding
+  int64_t promised_ns = 0;          ///< by its head; 0: it does not say
+  bool by_samples = false;          ///< both are exact: of WAV and FLAC
+  bool is_cut_off = false;          ///< as film_end() says
+};
+
+FileLength file_length(const std::string& path);
+
+}  // namespace spidar

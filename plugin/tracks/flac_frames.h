@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Where the last frame of a FLAC file ends (RFC 9639).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "plugin/tracks/file_bytes.h"
+
+namespace spidar {
+
+/// In samples.
+struct FlacLength {
+  uint64_t rate_Hz = 0;         ///< 0: there is no head
+  uint64_t promised = 0;        ///< by the head; 0: its writer did not know
+  std::optional<uint64_t> end;  ///< of the last whole frame; nothing when none was found
+};
+
+FlacLength flac_length(FileBytes& file);
+
+}  // namespace spidar

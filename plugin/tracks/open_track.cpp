@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/open_track.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include <gst/gst.h>
+
+#include "plugin/gobject/ref.h"
+#include "plugin/tracks/file_end.h"
+#include "plugin/tracks/file_pipeline.h"
+#include "plugin/tracks/track_mark.h"
+
+namespace spidar {
+namespace {
+
+/// Which stream of a file is taken for the track.
+enum class Wanted { kHapticTrack, kFirstSound };
+
+/// So much is read before the track counts as open.
+constexpr int64_t kFirstPart_ns = 1'000'000'000;
+
+/// All tags that have come to `pad`.
+void read_tags(GstPad* pad, TrackNotes& notes) {
+  for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
+    GstTagList* tags = nullptr;
+    gst_event_parse_tag(event, &tags);
+    read_notes(tags, notes);
+    gst_event_unref(event);
+  }
+}
+
+/// The type of a file that nothing has taken apart, so that the stream is the file as it is: that
+/// of Wave64, whose only decoder gives other values. Empty for all others.
+std::string unparsed_type(GstPad* pad) {
+  const Ref<GstPad> inner(gst_ghost_pad_get_target(GST_GHOST_PAD(pad)));
+  const Ref<GstElement> source(inner ? gst_pad_get_parent_element(inner.get()) : nullptr);
+  GstElementFactory* const factory = source ? gst_element_get_factory(source.get()) : nullptr;
+  if (!factory || g_strcmp0(GST_OBJECT_NAME(factory), "typefind") != 0) return {};
+  const Ref<GstCaps> caps(caps_of(pad));
+  return gst_structure_get_name(gst_caps_get_structure(caps.get(), 0));
+}
+
+/// Of sound that could be a track: six channels, at some rate.
+std::string why_unmarked(const GstCaps* caps) {
+  int rate_Hz = 0;
+  gst_structure_get_int(gst_caps_get_structure(caps, 0), "rate", &rate_Hz);
+  return "Nothing says that this sound of " + std::to_string(rate_Hz) +
+         " Hz is a haptic track: a track has " + std::to_string(kTrackRate_Hz) +
+         " samples a second, or the tag HAPTIC_FULL_SCALE. If it is one, mark it: " +
+         how_to_mark() + ".";
+}
+
+class TrackOfFile : public OpenTrack {
+ public:
+  TrackOfFile(const std::string& path, bool only_notes, const std::atomic<bool>* stopped,
+              Wanted wanted)
+      : path_(path),
+        only_notes_(only_notes),
+        wanted_(wanted),
+        file_(
+            "filesrc name=source ! parsebin name=parse decodebin name=decode ! audio/x-raw ! "
+            "fakesink name=out signal-handoffs=true sync=false",
+            path, stopped),
+        parser_(file_.find("parse")) {
+    GstElement* const out = file_.find("out");
+    pad_.reset(gst_element_get_static_pad(out, "sink"));
+    g_signal_connect(out, "handoff", G_CALLBACK(take_buffer), this);
+    gst_pad_add_probe(pad_.get(),
+                      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM |
+                                                   GST_PAD_PROBE_TYPE_EVENT_FLUSH),
+                      follow, this, nullptr);
+    file_.link_streams([this](GstPad* stream) { return take_stream(stream); });
+    g_signal_connect(parser_, "pad-added", G_CALLBACK(add_stream), this);
+    file_.hear_errors([this](const std::string& error) { blocks_->end(error); });
+  }
+  /// Reads the first part. Throws as open_track().
+  void begin() {
+    file_.play_until(GST_MESSAGE_APPLICATION);
+    if (const std::string problem = blocks_->problem(); !problem.empty()) {
+      throw std::runtime_error(problem);
+    }
+    if (is_chosen_ && !only_notes_ && first_ns_ == INT64_MAX)
+      throw std::runtime_error("there are no samples in it.");
+    read_tags(pad_.get(), notes_);
+    length_ = file_length(path_);
+    gint64 length_ns = 0;
+    // For a film this is the duration of its longest stream.
+    if (parser_->numsrcpads != 1) {
+      length_ = {};
+    } else if (!length_.by_samples &&
+               gst_element_query_duration(file_.pipeline(), GST_FORMAT_TIME, &length_ns)) {
+      length_.promised_ns = length_ns;
+      if (!length_.is_cut_off) length_.there_ns = length_ns;
+    }
+  }
+  ~TrackOfFile() override {
+    blocks_->stop();  // before what its streaming threads use
+    file_.stop();
+  }
+  TrackOfFile(const TrackOfFile&) = delete;
+  TrackOfFile& operator=(const TrackOfFile&) = delete;
+
+  bool is_chosen() const { return is_chosen_; }
+  bool has_sound() const { return has_sound_; }
+
+  const TrackNotes& notes() const override { return notes_; }
+  std::optional<int64_t> duration_ns() const override { return length_.there_ns; }
+  std::string missing(int64_t end_ns) const override {
+    // Containers round durations, to milliseconds or samples.
+    if (length_.promised_ns - static_cast<int64_t>(GST_MSECOND) > end_ns) {
+      return "it is cut off: " + seconds_text(end_ns) + " of " + seconds_text(length_.promised_ns) +
+             " are there";
+    }
+    return length_.is_cut_off ? "it is cut off: its end is missing" : "";
+  }
+  const std::shared_ptr<ReadAhead>& blocks() const override { return blocks_; }
+
+  bool next(TrackBlock& block) override {
+    FilePipeline::Progress progress;
+    for (;;) {
+      const ReadAhead::Found found = blocks_->take(
+          block, ReadAhead::Time::clock::now() + std::chrono::nanoseconds(FilePipeline::kLook));
+      if (found == ReadAhead::Found::kBlock) return true;
+      const std::string problem = blocks_->problem();
+      if (!problem.empty()) throw std::runtime_error(problem);
+      if (found == ReadAhead::Found::kEnd) return false;
+      file_.check(progress);
+    }
+  }
+
+  void seek(int64_t time_ns) override {
+    GstEvent* const event =
+        gst_event_new_seek(1, GST_FORMAT_TIME,
+                           static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
+                                                     GST_SEEK_FLAG_SNAP_BEFORE),
+                           GST_SEEK_TYPE_SET, std::max<int64_t>(time_ns, 0), GST_SEEK_TYPE_NONE, 0);
+    if (gst_element_send_event(file_.find("out"), event)) return;
+    blocks_->end("it can only be read from its beginning to its end");
+  }
+
+ private:
+  static void give_up(GstElement* element) {
+    gst_element_post_message(element, gst_message_new_application(
+                                          GST_OBJECT(element), gst_structure_new_empty("enough")));
+  }
+
+  /// Ends reading before the end of the file.
+  void fail(GstElement* element, const std::string& problem) {
+    blocks_->end(problem);
+    give_up(element);
+  }
+
+  bool is_wanted(StreamKind kind) const {
+    if (is_chosen_) return false;
+    return kind == StreamKind::kHapticTrack ||
+           (wanted_ == Wanted::kFirstSound && kind == StreamKind::kSound);
+  }
+
+  /// The first stream that is wanted is decoded, and all others are ignored.
+  GstElement* take_stream(GstPad* pad) {
+    const StreamKind kind = kind_of(pad);
+    if (kind == StreamKind::kSound) has_sound_ = true;
+    if (!is_wanted(kind)) return nullptr;
+    is_chosen_ = true;
+    const std::string unparsed = unparsed_type(pad);
+    if (unparsed.empty()) return file_.find("decode");
+    fail(GST_PAD_PARENT(pad),
+         "GStreamer cannot take " + unparsed +
+             " apart, for which it has no plug-in; make WAV, FLAC or Matroska of it, with ffmpeg "
+             "for example.");
+    return nullptr;
+  }
+
+  /// Ends reading when all streams have ended, and none was wanted.
+  static GstPadProbeReturn count_end(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<TrackOfFile*>(user);
+    if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
+    GstElement* const parser = GST_PAD_PARENT(pad);
+    if (++self.ended_ == parser->numsrcpads && !self.is_chosen_) give_up(parser);
+    return GST_PAD_PROBE_OK;
+  }
+  static void add_stream(GstElement*, GstPad* pad, gpointer user) {
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, count_end, user, nullptr);
+  }
+
+  static GstPadProbeReturn follow(GstPad*, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<TrackOfFile*>(user);
+    switch (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info))) {
+      case GST_EVENT_FLUSH_STOP:
+        self.input_.restart();
+        self.blocks_->begin_pass();
+        break;
+      case GST_EVENT_EOS:
+        self.blocks_->end();
+        break;
+      default:
+        break;
+    }
+    return GST_PAD_PROBE_OK;
+  }
+
+  /// Runs in the streaming thread of the pipeline that reads the file.
+  static void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
+    auto& self = *static_cast<TrackOfFile*>(user);
+    if (!self.blocks_->problem().empty()) return;
+    const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
+    if (caps.get() != self.caps_.get()) {  // also in the middle of a stream
+      std::string problem = self.input_.set_caps(caps.get());
+      if (problem.empty() && self.wanted_ == Wanted::kFirstSound)
+        problem = why_unmarked(caps.get());
+      self.caps_.reset(gst_caps_ref(caps.get()));
+      if (!problem.empty()) return self.fail(GST_PAD_PARENT(pad), problem);
+      if (self.only_notes_) return give_up(GST_PAD_PARENT(pad));
+    }
+    if (self.only_notes_) return;
+    self.take(buffer, pad);
+  }
+
+  void take(GstBuffer* buffer, GstPad* pad) {
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    input_.read(buffer, segment, 1, [this, pad](const TrackBlock& block) {
+      if (end_of(block) > kLongest_ns) {
+        fail(GST_PAD_PARENT(pad),
+             "its samples reach to " + std::to_string(block.begin_ns / GST_SECOND) +
+                 " s, and a track lasts at most 24 h: is a timestamp in it wrong?");
+        return GST_FLOW_EOS;
+      }
+      if (!has_begun_ &&
+          end_of(block) - std::exchange(first_ns_, std::min(first_ns_, block.begin_ns)) >=
+              kFirstPart_ns) {
+        has_begun_ = true;
+        give_up(GST_PAD_PARENT(pad));
+      }
+      return blocks_->put(block, input_.faults()) ? GST_FLOW_OK : GST_FLOW_EOS;
+    });
+  }
+
+  const std::string path_;
+  const bool only_notes_;
+  const Wanted wanted_;
+  FileLength length_;
+  const std::shared_ptr<ReadAhead> blocks_ = std::make_shared<ReadAhead>();
+  FilePipeline file_;
+  GstElement* const parser_;
+  Ref<GstPad> pad_;
+  TrackNotes notes_;
+  std::atomic<bool> is_chosen_{false}, has_sound_{false};
+  std::atomic<int> ended_{0};  // streams
+  // Streaming thread.
+  TrackInput input_;
+  Ref<GstCaps> caps_;
+  int64_t first_ns_ = INT64_MAX;
+  bool has_begun_ = false;
+};
+
+std::unique_ptr<TrackOfFile> open(const std::string& path, bool only_notes,
+                                  const std::atomic<bool>* stopped) {
+  for (const Wanted wanted : {Wanted::kHapticTrack, Wanted::kFirstSound}) {
+    auto track = std::make_unique<TrackOfFile>(path, only_notes, stopped, wanted);
+    track->begin();
+    if (track->is_chosen()) return track;
+    if (!track->has_sound()) break;
+    // The other one tells why it is no track.
+  }
+  throw std::runtime_error("There is no haptic track in it, and no sound.");
+}
+
+}  // namespace
+
+std::unique_ptr<OpenTrack> open_track(const std::string& path, const std::atomic<bool>* stopped) {
+  try {
+    return open(path, false, stopped);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
+int64_t find_end(OpenTrack& track) {
+  int64_t end_ns = 0;
+  for (TrackBlock block; track.next(block);) end_ns = end_of(block);
+  track.blocks()->seek(0);
+  if (const auto begin_ns = track.blocks()->await_seek()) track.seek(*begin_ns);
+  return end_ns;
+}
+
+TrackNotes read_track_notes(const std::string& path) {
+  try {
+    return open(path, true, nullptr)->notes();
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+}  // namespace spidar

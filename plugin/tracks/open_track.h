@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A haptic track that is read from a file as far as it is needed.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/track/track_format.h"
+#include "plugin/tracks/read_ahead.h"
+#include "plugin/tracks/track_file.h"
+
+namespace spidar {
+
+/// Owned by one thread. What it has read waits in blocks(), which another one may take.
+class OpenTrack {
+ public:
+  /// A longer one is taken for one with a wild timestamp.
+  static constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};
+
+  virtual ~OpenTrack() = default;
+
+  virtual const TrackNotes& notes() const = 0;
+  /// By the head and the last bytes of the file. Nothing when they do not say, or when other
+  /// streams may be longer.
+  virtual std::optional<int64_t> duration_ns() const = 0;
+  /// Of a track that ends at `end_ns`: empty, or what is missing at the end of the file.
+  virtual std::string missing(int64_t end_ns) const = 0;
+  virtual const std::shared_ptr<ReadAhead>& blocks() const = 0;
+
+  /// The next block; false at the end. Times rise. Throws std::runtime_error, which says what was
+  /// wrong, when the file is damaged, the track longer than kLongest_ns, or `stopped` has become
+  /// true.
+  virtual bool next(TrackBlock& block) = 0;
+  /// After ReadAhead::await_seek().
+  virtual void seek(int64_t time_ns) = 0;
+};
+
+/// The haptic track of a file, else its first sound, from any container that GStreamer has a
+/// decoder for. Returns when its first second has been read. Throws std::runtime_error, which says
+/// what was wrong, when there is none, when it is no haptic track (TrackInput::set_caps()), when
+/// the file is damaged or not a regular one, or when `stopped` has become true.
+std::unique_ptr<OpenTrack> open_track(const std::string& path,
+                                      const std::atomic<bool>* stopped = nullptr);
+
+/// The end of a track that does not say it, by reading all; it can be read again from its
+/// beginning. Throws as next().
+int64_t find_end(OpenTrack& track);
+
+/// Only what a track says of itself, from the beginning of the file. Empty where there is none.
+TrackNotes read_track_notes(const std::string& path);
+
+}  // namespace spidar

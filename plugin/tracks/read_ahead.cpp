@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/read_ahead.h"
+
+namespace spidar {
+
+bool ReadAhead::is_full() const {
+  return !blocks_.empty() && (blocks_.size() >= kMostBlocks ||
+                              blocks_.back().begin_ns - blocks_.front().begin_ns > kAhead_ns);
+}
+
+bool ReadAhead::put(const TrackBlock& block, const TrackFaults& faults) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return !is_wanted() || !is_full(); });
+  if (!is_wanted()) return false;
+  faults_ = faults;
+  if (end_of(block) <= sought_ns_ || block.begin_ns <= last_ns_) return true;
+  last_ns_ = block.begin_ns;
+  blocks_.push_back(block);
+  changed_.notify_all();
+  return true;
+}
+
+void ReadAhead::end(const std::string& problem) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (problem.empty() && !is_wanted()) return;  // the end of what is not wanted any more
+  if (problem_.empty()) problem_ = problem;
+  ended_ = true;
+  changed_.notify_all();
+}
+
+std::optional<int64_t> ReadAhead::await_seek() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return stopped_ || next_pass_ != wanted_pass_; });
+  if (stopped_) return std::nullopt;
+  next_pass_ = wanted_pass_;
+  return sought_ns_;
+}
+
+void ReadAhead::begin_pass() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  pass_ = next_pass_;
+  last_ns_ = INT64_MIN;
+}
+
+void ReadAhead::set_later(int64_t later_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  later_ns_ = later_ns;
+}
+
+void ReadAhead::seek(int64_t time_ns) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++wanted_pass_;
+  sought_ns_ = time_ns - later_ns_;
+  blocks_.clear();
+  ended_ = !problem_.empty();
+  changed_.notify_all();
+}
+
+ReadAhead::Found ReadAhead::take(TrackBlock& block, Time limit) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_until(lock, limit,
+                      [this] { return !blocks_.empty() || ended_ || interrupted_ || stopped_; });
+  if (blocks_.empty() && (ended_ || stopped_)) return Found::kEnd;
+  if (blocks_.empty()) {
+    late_ = late_ || !interrupted_;
+    return Found::kLate;
+  }
+  block = blocks_.front();
+  block.begin_ns += later_ns_;
+  blocks_.pop_front();
+  changed_.notify_all();
+  return Found::kBlock;
+}
+
+std::string ReadAhead::problem() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return problem_;
+}
+
+bool ReadAhead::has_failed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !problem_.empty() && blocks_.empty();
+}
+
+bool ReadAhead::was_late() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return late_;
+}
+
+TrackFaults ReadAhead::faults() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return faults_;
+}
+
+void ReadAhead::set(bool& flag, bool value) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  flag = value;
+  changed_.notify_all();
+}
+
+}  // namespace spidar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A few seconds of a track, between the thread that reads its file and the one that plays it.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "core/track/track_format.h"
+#include "plugin/tracks/track_input.h"
+
+namespace spidar {
+
+/// The end of a block, which is the time of what follows it.
+inline int64_t end_of(const TrackBlock& block) {
+  return block.begin_ns + block.duration_ns;
+}
+
+/// The file is read from one place to the next: a pass. Each seek() begins another one.
+class ReadAhead {
+ public:
+  /// So much is read before it is played: more than a disk takes to start.
+  static constexpr int64_t kAhead_ns = 10'000'000'000;
+  /// Ten seconds of blocks as short as encoders make them: 1 MB.
+  static constexpr size_t kMostBlocks = 1000;
+
+  // --- what reads
+
+  /// Waits for room. Blocks before the place that was sought, and such as do not rise, are left
+  /// out. False when nothing more of this pass is wanted.
+  bool put(const TrackBlock& block, const TrackFaults& faults);
+  /// The file ends here; `problem` says why it cannot be read further, if that is not its end. What
+  /// has ended with a problem stays so.
+  void end(const std::string& problem = "");
+  /// Waits for a seek(), whose place it returns; nothing after stop().
+  std::optional<int64_t> await_seek();
+  /// What comes from now on is read from the place that await_seek() returned last.
+  void begin_pass();
+
+  // --- what plays
+
+  using Time = std::chrono::steady_clock::time_point;
+  enum class Found {
+    kBlock,
+    kEnd,  ///< there is no more, see problem()
+    kLate  ///< it is not there yet
+  };
+
+  /// The film shows everything so much later than the file says. Before the first take().
+  void set_later(int64_t later_ns);
+  /// The next blocks are those that end after `time_ns`.
+  void seek(int64_t time_ns);
+  /// Moves the oldest block into `block`; waits for it until `limit`, or interrupt().
+  Found take(TrackBlock& block, Time limit);
+
+  // --- any thread
+
+  /// Why the file could not be read to its end; empty as long as it could.
+  std::string problem() const;
+  /// Whether all has been taken that could be read before a problem.
+  bool has_failed() const;
+  /// Whether take() has waited in vain.
+  bool was_late() const;
+  TrackFaults faults() const;
+  /// Until resume(), take() does not wait.
+  void interrupt() { set(interrupted_, true); }
+  void resume() { set(interrupted_, false); }
+  /// For ever: nothing waits, and nothing is taken any more.
+  void stop() { set(stopped_, true); }
+
+ private:
+  void set(bool& flag, bool value);
+  bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
+  bool is_full() const;
+
+  mutable std::mutex mutex_;  // of all
+  std::condition_variable changed_;
+  std::deque<TrackBlock> blocks_;
+  bool ended_ = false, late_ = false, interrupted_ = false, stopped_ = false;
+  std::string problem_;
+  TrackFaults faults_;
+  int64_t later_ns_ = 0;
+  int64_t sought_ns_ = 0;        // in the file
+  int64_t last_ns_ = INT64_MIN;  // begin of the last block of this pass
+  // Of the blocks that come, of the seek that is executed, and of the last seek().
+  uint64_t pass_ = 0, next_pass_ = 0, wanted_pass_ = 0;
+};
+
+}  // namespace spidar
