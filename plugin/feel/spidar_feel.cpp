@@ -27,13 +27,6 @@
 namespace spidar {
 namespace {
 
-/// `properties` are of the form NAME=VALUE; `element` is a spidarmotion in the state NULL. Sets its
-/// `device` and `profile`, and no other property. Opens no device, so one that is not plugged in is
-/// no error. Throws PropertyError, which says what is wrong and what would be right, for an unknown
-/// property, a value that the property does not take, a name that no device has, and a profile that
-/// cannot be read or does not suit the device.
-void check_properties(GstElement* element, const std::vector<std::string>& properties);
-
 void check_one(GObject* element, const std::string& text) {
   const TypedProperty property(element, text);
   const std::string name = property.name();
@@ -62,6 +55,11 @@ void check_device(GObject* element) {
   }
 }
 
+/// `properties` are of the form NAME=VALUE; `element` is a spidarmotion in the state NULL. Sets its
+/// `device` and `profile`, and no other property. Opens no device, so one that is not plugged in is
+/// no error. Throws PropertyError, which says what is wrong and what would be right, for an unknown
+/// property, a value that the property does not take, a name that no device has, and a profile that
+/// cannot be read or does not suit the device.
 void check_properties(GstElement* element, const std::vector<std::string>& properties) {
   for (const std::string& property : properties) check_one(G_OBJECT(element), property);
   check_device(G_OBJECT(element));

@@ -185,21 +185,5 @@ TEST(MotionModels, GrowthAndRollAreThoseOfTheSimilarity) {
   EXPECT_NEAR(model.growth(), scale * std::cos(angle_rad) - 1, 1e-12);
 }
 
-TEST(MotionModels, DisplacementsAreAboutTheCentreAndBounded) {
-  std::vector<Displacement> points;
-  displacements({{7, {319.5f, 179.5f}, {320.5f, 181.5f}}}, 640, 360, points);
-  ASSERT_EQ(points.size(), 1u);
-  EXPECT_EQ(points[0].id, 7u);
-  EXPECT_EQ(points[0].at_px, Eigen::Vector2d(0, 0));
-  EXPECT_EQ(points[0].moved_px, Eigen::Vector2d(1, 2));
-  for (const size_t n : {size_t{1}, kMostDisplacements, kMostDisplacements + 1, size_t{10000}}) {
-    displacements(std::vector<Track>(n), 640, 360, points);
-    EXPECT_LE(points.size(), kMostDisplacements);
-    EXPECT_GE(points.size(), std::min(n, kMostDisplacements / 2));
-  }
-  displacements({}, 640, 360, points);
-  EXPECT_TRUE(points.empty());
-}
-
 }  // namespace
 }  // namespace spidar::test::motion_models_test

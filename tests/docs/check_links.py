@@ -4,8 +4,9 @@
 """Follows the links of README.md, CONTRIBUTING.md, CHANGELOG.md, tests/README.md and docs/ within the source tree.
 
 check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path in
-`code` that looks like a source file's. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture must have a text for
-those who do not see it. Addresses on the net are not fetched."""
+`code` that looks like a source file's or folder's; `core/x/y` may stand for y.h and
+y.cpp. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture
+must have a text for those who do not see it. Addresses on the net are not fetched."""
 
 import re
 import sys
@@ -14,7 +15,7 @@ from urllib.parse import unquote
 
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
-SOURCE_FILE = re.compile(r"`((?:core|docs|examples|plugin|spidar|tests)/[\w./-]+\.(?:cpp|gp|h|py|sh))`")
+SOURCE_FILE = re.compile(r"`((?:core|docs|examples|plugin|spidar|tests)/[\w./-]*[\w/])`")
 
 
 def without_code(text):
@@ -47,7 +48,8 @@ def main():
         name = page.relative_to(source)
         if page.name != "CHANGELOG.md":
             wrong += [f"{name}: {path}: there is no such file" for path in SOURCE_FILE.findall(text)
-                      if not (source / path).exists() and not (page.parent / path).exists()]
+                      if not any((base / path).exists() or list((base / path).parent.glob(f"{(base / path).name}.*"))
+                                 for base in (source, page.parent))]
         for picture, words, target in LINK.findall(without_code(text)):
             if re.match(r"[a-z]+:", target):
                 continue

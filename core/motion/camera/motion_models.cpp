@@ -181,20 +181,6 @@ const char* to_string(ModelKind kind) {
   return "unknown";
 }
 
-void displacements(const std::vector<Track>& tracks, int width, int height,
-                   std::vector<Displacement>& result) {
-  // The centre of the first pixel is (0, 0).
-  const Eigen::Vector2d centre((width - 1) / 2.0, (height - 1) / 2.0);
-  const size_t step = tracks.size() / (kMostDisplacements + 1) + 1;
-  result.clear();
-  for (size_t i = 0; i < tracks.size(); i += step) {
-    const Eigen::Vector2d from =
-        Eigen::Vector2f(tracks[i].from.x_px, tracks[i].from.y_px).cast<double>();
-    const Eigen::Vector2d to = Eigen::Vector2f(tracks[i].to.x_px, tracks[i].to.y_px).cast<double>();
-    result.push_back({tracks[i].id, from - centre, to - from});
-  }
-}
-
 double MotionModel::roll_rad() const {
   return std::atan2((linear(1, 0) - linear(0, 1)) / 2, 1 + growth());
 }

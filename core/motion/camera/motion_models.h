@@ -9,8 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "core/tracking/tracker.h"
-
 namespace spidar {
 
 /// The rungs of the ladder: each one contains the ones before it.
@@ -24,18 +22,15 @@ constexpr int parameters(ModelKind kind) {
 /// "still", "translation", "similarity", "affine", "homography".
 const char* to_string(ModelKind kind);
 
-/// A track, relative to the centre of the frame.
+/// A displacement from one frame to the next, relative to the centre of the frame.
 struct Displacement {
   uint32_t id = 0;  ///< of the track
-  /// Its place in the first frame, from the frame's centre; x right, y down.
+  /// Its position in the first frame, from the frame's centre; x right, y down.
   Eigen::Vector2d at_px;
-  Eigen::Vector2d moved_px;  ///< its displacement to the next frame
+  Eigen::Vector2d moved_px;
 };
 
-/// The tracks of a frame of `width` × `height` pixels. If there are more than kMostDisplacements,
-/// only every k-th one, which bounds the cost of a frame.
-void displacements(const std::vector<Track>& tracks, int width, int height,
-                   std::vector<Displacement>& result);
+/// No more are used of a frame, which bounds its cost.
 constexpr size_t kMostDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not

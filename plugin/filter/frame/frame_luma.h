@@ -30,23 +30,22 @@ namespace spidar {
 
 /// What becomes of each field of GstVideoInfo:
 ///
-/// | field | |
-/// |---|---|
-/// | finfo, stride, offset | FrameLuma reads every format above as its caps and video meta say |
-/// | interlace_mode, field order | FrameLuma takes the first field |
-/// | width, height | visible_part() |
-/// | par_n, par_d | pixel_aspect(): motion is measured in square pixels (SquarePicture) |
-/// | multiview_mode, HALF_ASPECT of its flags | visible_part() and pixel_aspect(): of two pictures
-/// in one frame the first is analysed, since both show the same motion; of frames in turn, those
-/// that have the time of the one before are left out | | other multiview flags | say which eye a
-/// picture is for, and not where it is | | views | counts pictures in planes or buffers of their
-/// own, of which the first one is mapped | | colorimetry: range | luma_levels(): black and white of
-/// touch=luma. Motion is where pictures fit best, whatever their contrast: limited range has 0.86
-/// of the other's | | colorimetry: matrix, transfer, primaries | motion needs none of them, as they
-/// are the same in all frames | | chroma_site | chroma is not looked
-/// at | | fps_n, fps_d | nominal_duration(), where a frame has none of its own | | size, flags |
-/// holds_picture() looks at the memory itself; the flags speak of rates that vary, which the time
-/// stamps show, and of alpha, which is not looked at |
+/// - finfo, stride, offset: FrameLuma reads every format above as its caps and video meta say.
+/// - interlace_mode, field order: FrameLuma takes the first field.
+/// - width, height: visible_part().
+/// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePicture).
+/// - multiview_mode, HALF_ASPECT of its flags: visible_part() and pixel_aspect(). Of two pictures
+///   in one frame the first is analysed, since both show the same motion; of frames in turn, those
+///   that have the time of the one before are left out.
+/// - other multiview flags say which eye a picture is for, and not where it is.
+/// - views counts pictures in planes or buffers of their own, of which the first one is mapped.
+/// - colorimetry: luma_levels() reads the range, black and white of touch=luma. Motion is where
+///   pictures fit best, whatever their contrast: limited range has 0.86 of the other's. Matrix,
+///   transfer and primaries are the same in all frames, and motion needs none of them.
+/// - chroma_site: chroma is not read.
+/// - fps_n, fps_d: nominal_duration(), where a frame has none of its own.
+/// - size, flags: holds_picture() looks at the memory itself. The flags speak of rates that vary,
+///   which the time stamps show, and of alpha, which is not read.
 
 /// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it; of two
 /// views beside or above each other, the first.

@@ -33,7 +33,7 @@ bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
 /// Assigns the track to the background if it follows it, otherwise to the object with the most
 /// similar velocity among those whose box contains the track.
 void find_owner(const Frame& frame, const VisiblePart& visible, OwnedTrack& track) {
-  // Relative to the centre of the picture, as in displacements().
+  // Relative to the centre of the picture.
   const Eigen::Vector2d middle_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
   const Eigen::Vector2d from_px = Eigen::Vector2d(track.from.x_px, track.from.y_px) - middle_px;
   const Eigen::Vector2d to_px = Eigen::Vector2d(track.to.x_px, track.to.y_px) - middle_px;
