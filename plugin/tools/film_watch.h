@@ -41,9 +41,9 @@ class FilmWatch {
 
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;             // with an error; warnings after it follow from it
-  std::string warning_;             // the first one
-  std::string remark_;              // the first warning of spidarmotion
+  bool failed_ = false;  // with an error; warnings after it follow from it
+  std::string warning_;  // the first one
+  std::string remark_;   // the first warning of spidarmotion
   bool has_appended_ = false;
   bool unmeasured_ = false;         // frames in a row; the remark says why
   std::set<std::string> pictures_;  // streams of pictures that are files, by their ids

@@ -51,9 +51,8 @@ class LongTrack : public testing::TestWithParam<const char*> {
     const std::string encoder =
         format == "flac" ? "audioconvert dithering=none noise-shaping=none ! flacenc blocksize=40"
                          : "matroskamux";
-    const FilePipeline file("filesrc name=source ! wavparse ! " + encoder +
-                                " ! filesink location=" + path,
-                            wav);
+    const FilePipeline file(
+        "filesrc name=source ! wavparse ! " + encoder + " ! filesink location=" + path, wav);
     file.play_until(GST_MESSAGE_EOS);
     file.stop();
   }

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/open_track.h"
+#include "plugin/tracks/track_elements.h"
 #include "spidar/profiles/profile.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/pipelines/stepped_track.h"
