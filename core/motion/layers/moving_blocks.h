@@ -4,12 +4,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/field/block_field.h"
 #include "core/motion/camera/background.h"
+#include "core/motion/camera/relative_block.h"
 #include "core/motion/layers/burned_in.h"
 #include "core/motion/layers/parallax.h"
+#include "core/motion/learned/block_features.h"
+#include "core/motion/learned/block_network.h"
 
 namespace spidar {
 
@@ -22,19 +26,6 @@ double alike_px(double fastest_px);
 
 /// Whether two motions may be of the same thing.
 bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
-
-/// Properties of a block in addition to its motion. Lengths are in pixels of the field's picture.
-struct RelativeBlock {
-  float x_px = 0;  ///< motion relative to the background
-  float y_px = 0;
-  float background_x_px = 0;  ///< motion of the background at this place
-  float background_y_px = 0;
-  bool shows_motion = false;  ///< its texture, or its pixels, tell how it moves
-  bool was_outside = false;   ///< most of it was outside of the film in the previous picture
-  bool is_covered = false;    ///< something burned in hides the film here, see BurnedIn::covers()
-  bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
-  bool moves = false;         ///< moves by itself, taking its neighbours into account
-};
 
 /// Compares each block with the background. A block moves by itself when its motion is further from
 /// the background's than its own error and the background's noise explain. The background's motion
@@ -58,6 +49,22 @@ class MovingBlocks {
   /// objects.
   const BurnedIn& burned_in() const { return burned_in_; }
 
+  /// From the next frame on, the network decides which blocks move; with nothing, the rules do.
+  void use_network(const std::optional<NetworkThresholds>& thresholds) {
+    network_decides_ = thresholds;
+  }
+  /// Measures the features also while the rules decide.
+  void keep_features() { keeps_features_ = true; }
+  /// How likely each block of the last frame may vote for the camera; null while the network does
+  /// not say that.
+  const std::vector<float>* votes() const {
+    return network_decides_ && network_decides_->votes ? &votes_ : nullptr;
+  }
+  /// Of the last frame, if the network decides or keep_features() was called.
+  const BlockFeatures& features() const { return features_; }
+  /// What it said of the last frame, if it decides.
+  const BlockNetwork& network() const { return network_; }
+
   void reset();
 
  private:
@@ -75,6 +82,7 @@ class MovingBlocks {
                   bool expected) const;
   void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
   void ask_neighbours(const BlockGrid& grid);
+  void ask_network(const BlockGrid& grid, const std::vector<uint8_t>& expected);
   void remember_what_stood_out(const BlockField& field);
   void remember_motion(const BlockField& field);
 
@@ -88,6 +96,11 @@ class MovingBlocks {
   Parallax parallax_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;
+  BlockFeatures features_;
+  BlockNetwork network_;
+  std::optional<NetworkThresholds> network_decides_;
+  bool keeps_features_ = false;
+  std::vector<float> votes_;
 };
 
 }  // namespace spidar
