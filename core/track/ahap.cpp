@@ -52,9 +52,9 @@ OrderedJson event(double time_s, double duration_s) {
 }
 
 /// Writes curves of some points each; the last point of one is the first of the next.
-class CurveWriter {
+class AhapCurveWriter {
  public:
-  CurveWriter(const WriteText& write, bool is_first) : write_(write), is_first_(is_first) {}
+  AhapCurveWriter(const WriteText& write, bool is_first) : write_(write), is_first_(is_first) {}
 
   void add(size_t index, double value) {
     points_.push_back({index, value});
@@ -103,7 +103,7 @@ void write_ahap(const SampleSource& samples, const WriteText& write, double tole
           event(time_s, std::min(kLongestEvent_s, length_s - time_s)).dump());
     is_first = false;
   }
-  CurveWriter curves(write, is_first);
+  AhapCurveWriter curves(write, is_first);
   KeyframeChooser points(tolerance,
                          [&curves](size_t index, double value) { curves.add(index, value); });
   samples.each([&points](const TrackSample& sample) { points.add(intensity(sample)); });

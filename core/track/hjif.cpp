@@ -54,9 +54,9 @@ void write_keyframe(const WriteText& write, size_t index, double value) {
 
 /// The keyframes of a curve, except that the Synthesizer of MPEG's reference software makes silence
 /// of a curve with two of them.
-class CurveWriter {
+class HjifCurveWriter {
  public:
-  explicit CurveWriter(const WriteText& write) : write_(write) {}
+  explicit HjifCurveWriter(const WriteText& write) : write_(write) {}
 
   void add(size_t index, double value) {
     if (count_ > 1) flush();
@@ -100,7 +100,7 @@ void write_channel(const SampleSource& samples, const WriteText& write, size_t c
   text += R"(,"effects":[{"effect_type":"Basis","position":0,"phase":0.0,"base_signal":"Sine",)"
           R"("keyframes":[)";
   write(text);
-  CurveWriter curve(write);
+  HjifCurveWriter curve(write);
   KeyframeChooser keyframes(tolerance,
                             [&curve](size_t index, double value) { curve.add(index, value); });
   samples.each([&](const TrackSample& sample) { keyframes.add(amplitude_of(sample[channel])); });

@@ -195,8 +195,7 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
   if (ends_with(path, ".hjif")) {
     write_hjif(source, write, options.tolerance.value_or(kHjifTolerance));
   } else if (ends_with(path, ".ahap")) {
-    write_ahap(source, write, options.tolerance.value_or(kAhapTolerance),
-               options.gain);
+    write_ahap(source, write, options.tolerance.value_or(kAhapTolerance), options.gain);
   } else {
     write_funscript(source, options.axis, write, options.tolerance.value_or(kFunscriptTolerance));
   }

@@ -258,8 +258,8 @@ class TrackOfFile : public OpenTrack {
   bool has_begun_ = false;
 };
 
-std::unique_ptr<TrackOfFile> open(const std::string& path, bool only_notes,
-                                  const std::atomic<bool>* stopped) {
+std::unique_ptr<TrackOfFile> open_file(const std::string& path, bool only_notes,
+                                       const std::atomic<bool>* stopped) {
   for (const Wanted wanted : {Wanted::kHapticTrack, Wanted::kFirstSound}) {
     auto track = std::make_unique<TrackOfFile>(path, only_notes, stopped, wanted);
     track->begin();
@@ -274,7 +274,7 @@ std::unique_ptr<TrackOfFile> open(const std::string& path, bool only_notes,
 
 std::unique_ptr<OpenTrack> open_track(const std::string& path, const std::atomic<bool>* stopped) {
   try {
-    return open(path, false, stopped);
+    return open_file(path, false, stopped);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
@@ -290,7 +290,7 @@ int64_t find_end(OpenTrack& track) {
 
 TrackNotes read_track_notes(const std::string& path) {
   try {
-    return open(path, true, nullptr)->notes();
+    return open_file(path, true, nullptr)->notes();
   } catch (const std::runtime_error&) {
     return {};
   }

@@ -3,7 +3,21 @@
 /// A block compared with the background.
 #pragma once
 
+#include "core/field/block_field.h"
+
 namespace spidar {
+
+/// Pixels of a block whose errors are independent, of 256: coding and interpolation change
+/// neighbours alike. Chosen on the first row of real films.
+constexpr float kIndependentPixels = 16;
+/// Variance of a block's mean difference that remains where its own motion explains every pixel,
+/// grey²: that of rounding and of light that changes a little from place to place.
+constexpr float kLeastVariance_grey2 = 0.5f;
+
+/// Variance of a block's mean difference, grey².
+inline float variance_grey2(const MotionBlock& block) {
+  return block.residual / kIndependentPixels + kLeastVariance_grey2;
+}
 
 /// Properties of a block in addition to its motion. Lengths are in pixels of the field's picture.
 struct RelativeBlock {

@@ -14,12 +14,6 @@ namespace {
 /// Squared Mahalanobis distance from which on a block moves by itself. The distance of two Gaussian
 /// coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
 constexpr float kLeastDistance2 = 13;
-/// Pixels of a block whose errors are independent, of 256: coding and interpolation change
-/// neighbours alike. Chosen on the first row of real films.
-constexpr float kIndependentPixels = 16;
-/// Variance of a block's mean difference that remains where its own motion explains every pixel,
-/// grey²: that of rounding and of light that changes a little from place to place.
-constexpr float kLeastVariance_grey2 = 0.5f;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
 /// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
@@ -54,7 +48,7 @@ constexpr float kLastingAlone = 0.8f;
 /// too, whose S has none.
 float distance2(const RelativeBlock& relative, const MotionBlock& block,
                 const Eigen::Matrix2f& noise_px2) {
-  const float v = block.residual / kIndependentPixels + kLeastVariance_grey2;
+  const float v = variance_grey2(block);
   Eigen::Matrix2f structure;
   structure << block.xx, block.xy, block.xy, block.yy;
   const Eigen::Vector2f e(relative.x_px, relative.y_px);

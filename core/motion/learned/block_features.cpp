@@ -10,10 +10,6 @@
 namespace spidar {
 namespace {
 
-/// Pixels of a block whose errors are independent, and variance of a block's mean difference that
-/// always remains, see moving_blocks.
-constexpr float kIndependentPixels = 16;
-constexpr float kLeastVariance_grey2 = 0.5f;
 /// Squared Mahalanobis distance from the background from which on the pixels are asked. Nearer
 /// blocks would answer with noise.
 constexpr float kAskPixels2 = 4;
@@ -38,7 +34,7 @@ float finite(float px) {
 class Information {
  public:
   Information(const MotionBlock& block, float nxx, float nxy, float nyy) {
-    const float v = block.residual / kIndependentPixels + kLeastVariance_grey2;
+    const float v = variance_grey2(block);
     const float a = v + nxx * block.xx + nxy * block.xy;
     const float b = nxx * block.xy + nxy * block.yy;
     const float c = nxy * block.xx + nyy * block.xy;
@@ -151,13 +147,13 @@ void BlockFeatures::look_around(const BlockField& field) {
     own_[i] = {weight * content_[i].moved_px, weight};
   }
   const auto sum = [](const std::vector<Weighted>& of, int from, int to, int step) {
-    Weighted sum;
+    Weighted all;
     for (int k = from; k <= to; k += step) {
       const Weighted& one = of[static_cast<size_t>(k)];
-      sum.sum_px += one.sum_px;
-      sum.weight += one.weight;
+      all.sum_px += one.sum_px;
+      all.weight += one.weight;
     }
-    return sum;
+    return all;
   };
   const int columns = grid.columns;
   for (int row = 0; row < grid.rows; ++row) {

@@ -144,9 +144,9 @@ def header(net, path, notes=()):
     with open(path, "w", encoding="utf-8") as file:
         file.write(
             "// SPDX-License-Identifier: LGPL-2.1-or-later\n// Copyright 2026 the gst-spidar authors\n"
-            "// Written by core/motion/world/network.py: edit that.\n"
+            "// clang-format off\n// Written by core/motion/world/network.py: edit that.\n"
             + "".join(f"// {note}\n" for note in notes)
-            + "// clang-format off\n#pragma once\n\n"
+            + "#pragma once\n\n"
             "namespace spidar::network_weights {\n\n"
             f"constexpr int kIn = {IN}, kHidden = {HIDDEN}, kState = {STATE}, kLast = {LAST}, kOut = {OUT},\n"
             f"              kPaddedOut = {PADDED_OUT};\n" + "".join(parts) + "\n"
