@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <mutex>
 #include <pthread.h>
+#include <semaphore.h>
 #include <set>
 #include <stdexcept>
 #include <sys/file.h>
@@ -101,15 +102,25 @@ std::string part_name(const fs::path& target) {
   return part;
 }
 
+volatile std::sig_atomic_t received_signal = 0;
+sem_t has_received;
+
+/// In whatever thread: libraries that start threads before main() block no signals in these
+/// (OpenBLAS).
+void receive_signal(int number) {
+  received_signal = number;
+  sem_post(&has_received);
+}
+
 /// Waits for one of the signals, removes the part files, and ends the program as the signal does.
 void await_signal(const sigset_t& signals) {
-  int number = 0;
-  if (sigwait(&signals, &number) != 0) return;
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+  while (sem_wait(&has_received) != 0) {  // interrupted, by the signal itself
+  }
   registry().mutex.lock();  // for ever: no more part files are made
   for (const std::string& path : registry().paths) unlink(path.c_str());
-  std::signal(number, SIG_DFL);
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
-  kill(getpid(), number);
+  std::signal(received_signal, SIG_DFL);
+  kill(getpid(), received_signal);
 }
 
 }  // namespace
@@ -208,12 +219,15 @@ void PartFile::publish(Existing existing) {
 
 void remove_part_files_on_signals() {
   for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_IGN);
+  sem_init(&has_received, 0, 0);
   sigset_t signals;
   sigemptyset(&signals);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction present {};
     sigaction(number, nullptr, &present);
-    if (present.sa_handler != SIG_IGN) sigaddset(&signals, number);  // nohup ignores SIGHUP
+    if (present.sa_handler == SIG_IGN) continue;  // as nohup does with SIGHUP
+    sigaddset(&signals, number);
+    std::signal(number, receive_signal);
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread(await_signal, signals).detach();
