@@ -229,7 +229,7 @@ TEST(Feel, MistakesAreNamedOnceAndTheVideoGoesOn) {
        "feel, line 2: \"bigest\" is none of: object at X,Y; largest; "
        "leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y to X,Y; "
        "camera; nothing."},
-      {"/nowhere/film.feel", "/nowhere/film.feel: there is no such file."},
+      {"/nowhere/film.feel", "/nowhere/film.feel: it cannot be read: No such file or directory."},
       {"0.4- object at 0.02,0.98", "feel, line 1: no object was at 0.02,0.98 at 0:00.4."}};
   for (const auto& [feel, warning] : mistakes) {
     SCOPED_TRACE(feel);
