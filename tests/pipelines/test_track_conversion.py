@@ -144,12 +144,13 @@ class Conversion(track_case.TrackCase):
         """sox writes 0x7ffff000 less a remainder into a pipe, others the largest number or its first bit."""
         self.make_track(count=2000)
         whole = self.path("a.wav").read_bytes()
+        at = whole.index(b"data") + 4
         for size in (0, 0x7fffeff0, 0x7fffffff, 0x80000000, 0xffffff00, 0xffffffff):
-            self.path("piped.wav").write_bytes(whole[:40] + struct.pack("<I", size) + whole[44:])
+            self.path("piped.wav").write_bytes(whole[:at] + struct.pack("<I", size) + whole[at + 4:])
             self.assertIn("ok\n", self.spidartrack("check", "piped.wav"), hex(size))
         # Real ones are not taken for these.
-        for size in (len(whole) - 44 + 24000, 0x7ffe0000, 0x80000001, 0xf0000000):
-            self.path("cut.wav").write_bytes(whole[:40] + struct.pack("<I", size) + whole[44:])
+        for size in (len(whole) - at - 4 + 24000, 0x7ffe0000, 0x80000001, 0xf0000000):
+            self.path("cut.wav").write_bytes(whole[:at] + struct.pack("<I", size) + whole[at + 4:])
             self.assert_said("it is cut off: 2.000 s of", "check", "cut.wav")
         # The head of FLAC has 36 bits for the number of samples, from the 172nd on.
         self.spidartrack("convert", "a.wav", "a.flac")
