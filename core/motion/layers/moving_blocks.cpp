@@ -233,11 +233,10 @@ void MovingBlocks::ask_network(const BlockGrid& grid, const std::vector<uint8_t>
   votes_.resize(answers.size());
   for (size_t i = 0; i < relative_.size(); ++i) {
     votes_[i] = answers[i].votes;
-    const bool is_expected = i < expected.size() && expected[i] != 0;
     RelativeBlock& block = relative_[i];
     block.probability = answers[i].moves;
-    block.moves = block.probability >
-                  (is_expected ? network_decides_->least_expected : network_decides_->least);
+    block.moves = block.probability > (is_expected(expected, i) ? network_decides_->least_expected
+                                                                : network_decides_->least);
     block.lasts = false;
   }
 }

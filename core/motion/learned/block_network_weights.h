@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // clang-format off
 // Written by core/motion/world/network.py: edit that.
-// Seed 2: 3,394 steps on 22,676 samples, then 8,659 on 21,000 of a changed world, see docs/learning.md.
+// Seed 2: 3,394 steps on 22,676 samples, then 8,659 on 19,656 of a changed world, see docs/learning.md.
 // Not used by the elements.
 #pragma once
 
