@@ -207,6 +207,11 @@ class TrackOfFile : public OpenTrack {
   static void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     auto& self = *static_cast<TrackOfFile*>(user);
     if (!self.blocks_->problem().empty()) return;
+    GstEvent* const segment = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
+    if (!segment) {  // wavparse then goes on for ever
+      return self.fail(GST_PAD_PARENT(pad), "its head is damaged: no chunk of samples is found");
+    }
+    gst_event_unref(segment);
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
     if (caps.get() != self.caps_.get()) {  // also in the middle of a stream
       std::string problem = self.input_.set_caps(caps.get());

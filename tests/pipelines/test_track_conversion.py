@@ -161,6 +161,15 @@ class Conversion(track_case.TrackCase):
         self.path("piped.flac").write_bytes(flac)
         self.assertIn("ok\n", self.spidartrack("check", "piped.flac"))
 
+    def test_a_chunk_without_a_length_is_refused(self):
+        """GStreamer goes on for ever where a chunk before the samples says that it has none."""
+        self.make_track()
+        whole = self.path("a.wav").read_bytes()
+        at = whole.index(b"LIST") + 4
+        self.path("b.wav").write_bytes(whole[:at] + bytes(4) + whole[at + 4:])
+        for command in (["info"], ["check"], ["convert", "c.wav"]):
+            self.assert_said("its head is damaged", command[0], "b.wav", *command[1:])
+
     @track_case.needs("ffmpeg")
     def test_a_file_that_gstreamer_cannot_take_apart_is_refused(self):
         """The decoder of Wave64 would give other values, and samples that are not in the file."""
