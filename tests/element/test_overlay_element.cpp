@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// The element with its overlay: which frames it draws into, and when.
+#include <gtest/gtest.h>
+
+#include "plugin/filter/overlay/arrow.h"
+#include "spidar/loop/haptic_loop.h"
+#include "tests/support/canvas.h"
+#include "tests/support/element_harness.h"
+#include "tests/support/video_formats.h"
+#include "tests/support/video_frames.h"
+
+namespace spidar::test::overlay_element_test {
+namespace {
+
+constexpr GstClockTime kFrame = 40 * GST_MSECOND;
+
+/// Bytes of `a` that differ in `b`.
+size_t differences(GstBuffer* a, GstBuffer* b) {
+  GstMapInfo x, y;
+  gst_buffer_map(a, &x, GST_MAP_READ);
+  gst_buffer_map(b, &y, GST_MAP_READ);
+  size_t count = x.size == y.size ? 0 : x.size;
+  for (gsize i = 0; i < x.size && i < y.size; ++i) count += x.data[i] != y.data[i];
+  gst_buffer_unmap(a, &x);
+  gst_buffer_unmap(b, &y);
+  return count;
+}
+
+TEST(OverlayElement, WritesToNoFrameThatSomebodyElseHolds) {
+  ElementHarness h("device=none overlay=tracks");
+  h.set_caps(make_caps("I420", 323, 241));
+  for (int n = 0; n < 3; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 3.0 * n, 0, 13);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    ASSERT_EQ(h.push(gst_buffer_ref(frame), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    EXPECT_NE(out, frame);
+    EXPECT_EQ(differences(frame, before), 0u);
+    // Nothing is known of the first one.
+    EXPECT_EQ(differences(out, before) > 0, n > 0);
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+    gst_buffer_unref(frame);
+  }
+  // What is drawn is not measured again.
+  EXPECT_NEAR(h.motions()[2].velocity_x, 75, 2.5);
+}
+
+TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
+  ElementHarness h("device=none");
+  h.set_caps(make_caps("NV12", 320, 240));
+  for (int n = 0; n < 9; ++n) {
+    const bool on = n / 3 == 1;
+    if (n % 3 == 0)
+      g_object_set(h.element(), "overlay", on ? OverlayKind::kTracks : OverlayKind::kNone, nullptr);
+    GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    EXPECT_EQ(differences(out, before) > 0, on) << "frame " << n;
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+  }
+}
+
+TEST(OverlayElement, DrawsWithinTheVisiblePart) {
+  ElementHarness h("device=none overlay=tracks");
+  h.set_caps(make_caps("GRAY8", 640, 480));
+  for (int n = 0; n < 2; ++n) {
+    GstBuffer* frame = make_frame(h.info(), 0, 0);
+    GstBuffer* before = gst_buffer_copy_deep(frame);
+    GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
+    crop->x = 200;
+    crop->y = 100;
+    crop->width = 300;
+    crop->height = 200;
+    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    GstMapInfo a, b;
+    gst_buffer_map(out, &a, GST_MAP_READ);
+    gst_buffer_map(before, &b, GST_MAP_READ);
+    int inside = 0, outside = 0;
+    for (int y = 0; y < 480; ++y) {
+      for (int x = 0; x < 640; ++x) {
+        if (a.data[y * 640 + x] == b.data[y * 640 + x]) continue;
+        ++(x >= 200 && x < 500 && y >= 100 && y < 300 ? inside : outside);
+      }
+    }
+    EXPECT_EQ(outside, 0);
+    EXPECT_EQ(inside > 20, n == 1) << inside;
+    gst_buffer_unmap(out, &a);
+    gst_buffer_unmap(before, &b);
+    gst_buffer_unref(before);
+    gst_buffer_unref(out);
+  }
+}
+
+int64_t read_time(void* time) {
+  return *static_cast<int64_t*>(time);
+}
+
+TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
+  for (const bool touching : {false, true}) {
+    int64_t time_ns = 1'000'000'000;
+    ElementHarness h(
+        touching ? "device=sim overlay=tracks touch=luma" : "device=sim overlay=tracks touch=off",
+        read_time, &time_ns);
+    h.set_caps(make_caps("GRAY8", 320, 240));
+    for (int tick = 0; tick < 300; ++tick) h.tick(time_ns += kTick_ns);  // until the device runs
+    GstBuffer* frame = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
+    gst_buffer_memset(frame, 0, 20, 320 * 240);
+    ASSERT_EQ(h.push(frame, 0), GST_FLOW_OK);
+    GstBuffer* out = gst_harness_pull(h.harness());
+    GstMapInfo map;
+    gst_buffer_map(out, &map, GST_MAP_READ);
+    // A ring of 5.5 px, 1.4 px thick, about the middle, where a hand holds the simulated grip.
+    EXPECT_EQ(map.data[120 * 320 + 164] > 100, touching) << "white, with soft edges";
+    EXPECT_EQ(map.data[120 * 320 + 160], 20) << "within the ring";
+    gst_buffer_unmap(out, &map);
+    gst_buffer_unref(out);
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test::overlay_element_test
