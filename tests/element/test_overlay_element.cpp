@@ -3,11 +3,8 @@
 // The element with its overlay: which frames it draws into, and when.
 #include <gtest/gtest.h>
 
-#include "plugin/filter/overlay/arrow.h"
 #include "spidar/loop/haptic_loop.h"
-#include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
-#include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::overlay_element_test {
