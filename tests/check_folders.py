@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Reads the #include lines: a layer includes only those below it, and in each layer the folders form
-no circle. Prints every #include of a layer above, and those of the shortest circle."""
+no circle, neither each by itself nor with the folders in them. Prints every #include of a layer above,
+and those of the shortest circle."""
 
 import re
 import sys
@@ -43,16 +44,28 @@ def circle(arrows):
     return shortest
 
 
+def with_their_folders(folder, other):
+    """The two folders beside each other in which they are; None when one is in the other."""
+    for depth, (part, other_part) in enumerate(zip(folder.parts, other.parts), start=1):
+        if part != other_part:
+            return Path(*folder.parts[:depth]), Path(*other.parts[:depth])
+    return None
+
+
 def faults():
     arrows = {}  # folder: {folder: an #include}
+    wide_arrows = {}  # the same of folders with all that is in them
     for file, included in includes():
         layer, other = file.parts[0], included.parts[0]
         if other != layer and other not in BELOW[layer]:
             yield f"{file} includes {included}, but {layer}/ may use {' and '.join(BELOW[layer]) or 'no other layer'}"
         arrows.setdefault(file.parent, {})[included.parent] = f"{file} includes {included}"
-    way = circle(arrows)
-    for folder, other in zip(way, way[1:]):
-        yield f"in a circle of folders: {arrows[folder][other]}"
+        if wide := with_their_folders(file.parent, included.parent):
+            wide_arrows.setdefault(wide[0], {})[wide[1]] = f"{file} includes {included}"
+    for between in (arrows, wide_arrows):
+        way = circle(between)
+        for folder, other in zip(way, way[1:]):
+            yield f"in a circle of folders: {between[folder][other]}"
 
 
 found = list(faults())

@@ -20,7 +20,7 @@
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "examples/touch/first_picture.h"
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/touch_view.h"
 #include "plugin/tools/gnuplot.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"

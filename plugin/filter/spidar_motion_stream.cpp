@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "plugin/filter/frame/object_metas.h"
 #include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
+#include "plugin/frame/object_metas.h"
 #include "plugin/gobject/exceptions.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/sidecar.h"

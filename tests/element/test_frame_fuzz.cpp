@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/picture/luma.h"
-#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/guarded_frame.h"
 #include "tests/support/video_formats.h"

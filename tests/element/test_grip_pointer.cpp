@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/touch_view.h"
 #include "plugin/properties/motion_properties.h"
 #include "spidar/profiles/profile.h"
 

@@ -9,7 +9,7 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/object_metas.h"
+#include "plugin/frame/object_metas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"

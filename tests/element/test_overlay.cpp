@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/overlay/arrow.h"
+#include "plugin/overlay/arrow.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"

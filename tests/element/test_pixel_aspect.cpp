@@ -11,8 +11,8 @@
 
 #include "core/force/gain_controller.h"
 #include "core/force/motion_rendering.h"
-#include "plugin/filter/frame/frame_luma.h"
-#include "plugin/filter/frame/object_metas.h"
+#include "plugin/frame/frame_luma.h"
+#include "plugin/frame/object_metas.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/texture.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/track_owners.h"
+#include "plugin/frame/track_owners.h"
 
 namespace spidar::test::track_owners_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"

@@ -10,8 +10,8 @@
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/touch_view.h"
 #include "plugin/filter/spidar_motion.h"
+#include "plugin/frame/touch_view.h"
 #include "tests/pipelines/touched_pipeline.h"
 #include "tests/support/rest_force.h"
 

@@ -6,7 +6,7 @@
 #include <gst/video/navigation.h>
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/touch_view.h"
 #include "tests/pipelines/touched_pipeline.h"
 
 namespace spidar::test::touch_mouse_test {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/frame_report.h"
-#include "plugin/filter/overlay/video_overlay.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

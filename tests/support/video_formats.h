@@ -10,7 +10,7 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/frame/frame_luma.h"
 
 namespace spidar::test {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/overlay/plot_axis.h"
+#include "plugin/overlay/plot_axis.h"
 
 namespace spidar::test::plot_axis_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/touch_view.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 #include "spidar/profiles/profile.h"

@@ -10,9 +10,9 @@
 
 #include "core/force/motion_rendering.h"
 #include "plugin/filter/display/element_source.h"
-#include "plugin/filter/frame/object_metas.h"
-#include "plugin/filter/overlay/video_overlay.h"
 #include "plugin/filter/reports/message_and_meta.h"
+#include "plugin/frame/object_metas.h"
+#include "plugin/overlay/video_overlay.h"
 
 namespace spidar {
 

@@ -13,8 +13,8 @@
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/filter/engine/motion_engine.h"
-#include "plugin/filter/frame/track_owners.h"
-#include "plugin/filter/overlay/force_curve.h"
+#include "plugin/frame/track_owners.h"
+#include "plugin/overlay/force_curve.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 

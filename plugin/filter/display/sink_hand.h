@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "plugin/filter/choice/sink_mouse.h"
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/window/view/mouse_hand.h"
 

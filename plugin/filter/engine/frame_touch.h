@@ -10,9 +10,9 @@
 #include <gst/video/video.h>
 
 #include "core/picture/image_view.h"
-#include "plugin/filter/frame/frame_report.h"
-#include "plugin/filter/frame/touch_view.h"
 #include "plugin/filter/touch/relief_stream.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/touch_view.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 #include "spidar/loop/stiffness_limit.h"

@@ -10,8 +10,8 @@
 #include "core/analysis/square_picture.h"
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/wrench_source.h"
-#include "plugin/filter/frame/frame_luma.h"
 #include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/frame/frame_luma.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/wrench_backlog.h"
 

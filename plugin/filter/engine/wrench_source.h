@@ -8,7 +8,7 @@
 #include <gst/video/video.h>
 
 #include "core/analysis/analyzer_settings.h"
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {

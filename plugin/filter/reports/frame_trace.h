@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 #include "spidar/realtime/line_writer.h"
 
 namespace spidar {

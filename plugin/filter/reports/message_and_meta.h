@@ -6,7 +6,7 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 

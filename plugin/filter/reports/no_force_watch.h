@@ -12,7 +12,7 @@
 #include <gst/gst.h>
 
 #include "core/wrench.h"
-#include "plugin/filter/frame/no_force_reason.h"
+#include "plugin/frame/no_force_reason.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {

@@ -17,7 +17,7 @@
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
-#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/frame/frame_luma.h"
 #include "plugin/properties/motion_properties.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/filter/frame/track_owners.h"
-#include "plugin/filter/overlay/arrow.h"
+#include "plugin/frame/track_owners.h"
+#include "plugin/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 
 namespace spidar {

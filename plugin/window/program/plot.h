@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/filter/overlay/plot_axis.h"
+#include "plugin/overlay/plot_axis.h"
 #include "plugin/window/program/style.h"
 
 namespace spidar {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/touch_view.h"
 #include "plugin/window/view/rect.h"
 
 namespace spidar {

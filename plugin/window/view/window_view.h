@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/choice/feel_rules.h"
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
 namespace spidar {

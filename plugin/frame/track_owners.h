@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 

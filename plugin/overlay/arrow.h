@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/frame/track_owners.h"
+#include "plugin/frame/track_owners.h"
 
 #include <algorithm>
 #include <utility>

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "plugin/filter/overlay/plot_axis.h"
+#include "plugin/overlay/plot_axis.h"
 
 namespace spidar {
 

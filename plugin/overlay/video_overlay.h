@@ -5,8 +5,8 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/filter/frame/frame_report.h"
-#include "plugin/filter/overlay/force_curve.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/overlay/force_curve.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/frame/no_force_reason.h"
+#include "plugin/frame/no_force_reason.h"
 
 #include "core/force/gain_controller.h"
 #include "core/force/motion_rendering.h"

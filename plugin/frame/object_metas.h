@@ -14,7 +14,7 @@
 #include "core/choice/chosen.h"
 #include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
-#include "plugin/filter/frame/frame_report.h"
+#include "plugin/frame/frame_report.h"
 
 namespace spidar {
 

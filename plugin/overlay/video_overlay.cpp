@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/overlay/video_overlay.h"
+#include "plugin/overlay/video_overlay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/filter/frame/track_owners.h"
-#include "plugin/filter/overlay/arrow.h"
+#include "plugin/frame/track_owners.h"
+#include "plugin/overlay/arrow.h"
 
 namespace spidar {
 namespace {

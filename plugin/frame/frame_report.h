@@ -14,9 +14,9 @@
 #include "core/force/gain_controller.h"
 #include "core/motion/scene_motion.h"
 #include "core/picture_turn.h"
-#include "plugin/filter/frame/frame_luma.h"
-#include "plugin/filter/frame/no_force_reason.h"
-#include "plugin/filter/frame/touch_view.h"
+#include "plugin/frame/frame_luma.h"
+#include "plugin/frame/no_force_reason.h"
+#include "plugin/frame/touch_view.h"
 
 namespace spidar {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/frame/object_metas.h"
+#include "plugin/frame/object_metas.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "plugin/filter/frame/frame_luma.h"
+#include "plugin/frame/frame_luma.h"
 
 namespace spidar {
 namespace {
