@@ -26,12 +26,11 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
   using SinkRow = Property<SinkProperties>;
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<SinkProperties>{{
-      SinkRow::text(
-          {"device", "Device",
-           "Haptic device: 'sim' (simulated SPIDAR) or a board that 'spidarctl list' prints "
-           "('usb', 'usb:ID', 'uart:PATH', 'mouse', 'ff', 'falcon', 'inverse3'). Opened in the "
-           "change from NULL to READY"},
-          kReady, KEPT_IN(device)),
+      SinkRow::text({"device", "Device",
+                     "Haptic device: 'sim' (simulated SPIDAR), or one that 'spidarctl list' "
+                     "prints. Opened in "
+                     "the change from NULL to READY"},
+                    kReady, KEPT_IN(device)),
       profile_row<SinkProperties>(),
       SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,
                       20, kControllable, KEPT_IN(max_force_N)),

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -52,10 +54,14 @@ inline const char* to_string(Trial trial) noexcept {
   return "unknown";
 }
 
-/// `Output` is what it puts out, `Reading` what it reads. To be used by one thread at a time.
-template <typename Output, typename Reading>
+/// `OutputType` is what it puts out, `ReadingType` what it reads. To be used by one thread at a
+/// time.
+template <typename OutputType, typename ReadingType>
 class BoardOf {
  public:
+  using Output = OutputType;
+  using Reading = ReadingType;
+
   virtual ~BoardOf() = default;
 
   /// Claims, identifies and resets the board and reads it once with the motors at zero. Throws
@@ -73,6 +79,17 @@ class BoardOf {
   /// another open(): the board is not to be left as other programs expect it.
   virtual void expect_reopening() noexcept {}
 
+  /// Sets the counts to zero at the present position of the grip. To be called after open().
+  virtual void zero_counts() noexcept {}
+
+  /// True if the board's counters have been reset since it was last open, for example because it
+  /// had no power, so that they do not determine the position of the grip. Remains true until
+  /// zero_counts().
+  virtual bool counts_restarted() const noexcept { return false; }
+
+  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
+  virtual int rotary() const noexcept { return -1; }
+
   /// Releases the board; its motors keep their last value.
   virtual void close() noexcept = 0;
 
@@ -88,19 +105,7 @@ class BoardOf {
 };
 
 /// Motors and encoders: puts out volts, reads counts.
-class Board : public BoardOf<MotorVolts, DeviceReading> {
- public:
-  /// Sets the counts to zero at the present position of the grip. To be called after open().
-  virtual void zero_counts() noexcept = 0;
-
-  /// True if the board's counters have been reset since it was last open, for example because it
-  /// had no power, so that they do not determine the position of the grip. Remains true until
-  /// zero_counts().
-  virtual bool counts_restarted() const noexcept { return false; }
-
-  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
-  virtual int rotary() const noexcept { return -1; }
-};
+using Board = BoardOf<MotorVolts, DeviceReading>;
 
 struct ForceOutput {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the hand, device frame
@@ -129,5 +134,8 @@ class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
   /// See Grip::abilities(). Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
 };
+
+/// A board of either type.
+using AnyBoard = std::variant<std::unique_ptr<Board>, std::unique_ptr<ForceBoard>>;
 
 }  // namespace spidar

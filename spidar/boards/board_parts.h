@@ -79,7 +79,7 @@ inline DacScale unipolar_dac(const Profile& profile) noexcept {
   return {sh4::kMaxDigit / profile.dac_max_V, 0, sh4::kMaxDigit};
 }
 
-inline DacScale uart_dac() noexcept {
+inline DacScale uart_dac(const Profile&) noexcept {
   return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
 }
 

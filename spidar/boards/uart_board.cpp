@@ -20,6 +20,7 @@ UartBoard::UartBoard(std::string name, const Profile& profile,
                      std::vector<std::unique_ptr<Transport>> lines)
     : name_(std::move(name)),
       strings_(static_cast<size_t>(profile.geometry.count)),
+      dac_(uart_dac(profile)),
       lines_(std::move(lines)) {
   require_fitting(name_, profile, kUartTraits);
 }

@@ -52,7 +52,7 @@ class UartBoard final : public Board {
 
   const std::string name_;
   const size_t strings_;
-  const DacScale dac_ = uart_dac();
+  const DacScale dac_;
   const std::vector<std::unique_ptr<Transport>> lines_;
   std::vector<Station> stations_;
   size_t motors_ = 0;

@@ -28,13 +28,13 @@ size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
 void EmulatedSh4::receive(ByteView bytes) noexcept {
   sh4::DacDigits digits{};
   if (!sh4::decode_update(bytes, digits)) return;
-  motors_.put_out(as_ints(digits));
-  const std::array<int32_t, kMaxStrings> counts = motors_.counts();
+  motors_->put_out(as_ints(digits));
+  const std::array<int32_t, kMaxStrings> counts = motors_->counts();
   sh4::Reading reading;
   reading.dac_echo = digits;
   for (size_t i = 0; i < sh4::kChannels; ++i)
     reading.counter[i] = static_cast<uint16_t>(0u - static_cast<uint32_t>(counts[i]));
-  reading.inputs = motors_.inputs();
+  reading.inputs = motors_->inputs();
   sh4::encode_reading(reading, packet_);
   due_ = true;
 }
@@ -48,13 +48,13 @@ void EmulatedSimple::receive(ByteView bytes) noexcept {
   if (!usb_simple::decode_command(bytes, said)) return;
   switch (said.command) {
     case usb_simple::Command::kSetDac:
-      motors_.put_out(as_ints(said.digits));
+      motors_->put_out(as_ints(said.digits));
       break;
     case usb_simple::Command::kLatchCounters: {
-      const std::array<int32_t, kMaxStrings> counts = motors_.counts();
+      const std::array<int32_t, kMaxStrings> counts = motors_->counts();
       usb_simple::Reading reading;
       for (size_t i = 0; i < usb_simple::kChannels; ++i) reading.counter[i] = counts[i];
-      reading.inputs = static_cast<uint8_t>(motors_.inputs() & 0xFF);
+      reading.inputs = static_cast<uint8_t>(motors_->inputs() & 0xFF);
       usb_simple::encode_reading(reading, packet_);
       due_ = true;
       break;
@@ -81,7 +81,7 @@ void EmulatedMouse::receive(ByteView bytes) noexcept {
     milli_N[1] = static_cast<int>(std::lround(1000 * force.y_N));
   }
   if (command == mouse::Command::kForce || command == mouse::Command::kStop)
-    motors_.put_out(milli_N);
+    motors_->put_out(milli_N);
 }
 
 size_t EmulatedMouse::reply(MutableBytes bytes) noexcept {
@@ -137,8 +137,8 @@ void EmulatedUart::end_of_command() noexcept {
   } else if (uart_motor::decode_current(command, station.id, station.info, digits)) {
     const size_t motors = std::min<size_t>(station.info.motors, kMaxStrings - first_);
     std::copy_n(digits.begin(), motors, digits_.begin() + static_cast<long>(first_));
-    motors_.put_out(digits_);
-    const std::array<int32_t, kMaxStrings> counts = motors_.counts();
+    motors_->put_out(digits_);
+    const std::array<int32_t, kMaxStrings> counts = motors_->counts();
     uart_motor::Reading reading;
     for (size_t i = 0; i < motors; ++i)
       reading.position[i] = static_cast<uint16_t>(counts[first_ + i]);

@@ -15,24 +15,22 @@ namespace spidar {
 
 class EmulatedSh4 final : public EmulatedBoard {
  public:
-  explicit EmulatedSh4(EmulatedMotors& motors) : motors_(motors) {}
+  using EmulatedBoard::EmulatedBoard;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
  private:
-  EmulatedMotors& motors_;
   sh4::Packet packet_{};
   bool due_ = false;
 };
 
 class EmulatedSimple final : public EmulatedBoard {
  public:
-  explicit EmulatedSimple(EmulatedMotors& motors) : motors_(motors) {}
+  using EmulatedBoard::EmulatedBoard;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
  private:
-  EmulatedMotors& motors_;
   usb_simple::Packet packet_{};
   bool due_ = false;
 };
@@ -40,12 +38,11 @@ class EmulatedSimple final : public EmulatedBoard {
 /// Its digits are the force in millinewtons, x and y.
 class EmulatedMouse final : public EmulatedBoard {
  public:
-  explicit EmulatedMouse(EmulatedMotors& motors) : motors_(motors) {}
+  using EmulatedBoard::EmulatedBoard;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
  private:
-  EmulatedMotors& motors_;
   bool due_ = false;
   bool started_ = false;
 };
@@ -59,8 +56,8 @@ class EmulatedUart final : public EmulatedBoard {
   };
 
   /// `motors` are numbered in the order of the stations.
-  EmulatedUart(EmulatedMotors& motors, std::vector<Station> stations)
-      : motors_(motors), stations_(std::move(stations)) {}
+  EmulatedUart(std::shared_ptr<EmulatedMotors> motors, std::vector<Station> stations)
+      : EmulatedBoard(std::move(motors)), stations_(std::move(stations)) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -70,7 +67,6 @@ class EmulatedUart final : public EmulatedBoard {
   void end_of_command() noexcept;
   void put_reply(ByteView reply) noexcept;
 
-  EmulatedMotors& motors_;
   const std::vector<Station> stations_;
   std::array<int, kMaxStrings> digits_{};
   // The command that is being received.

@@ -34,12 +34,12 @@ Eigen::Vector3d force_N(const std::array<int, 3>& digit, const Eigen::Vector3d& 
 
 bool EmulatedFalcon::control(const VendorRequest& request) noexcept {
   if (request.request == ftdi::kSetBaud) {
-    memory_.baud = request.value;
+    memory_->baud = request.value;
     loader_ = loader_ && request.value != falcon::kRunBaud;
     taken_ = 0;
-  } else if (is(request, ftdi::kDtrHigh) && memory_.baud == falcon::kHelloBaud) {
+  } else if (is(request, ftdi::kDtrHigh) && memory_->baud == falcon::kHelloBaud) {
     loader_ = true;
-    takes_firmware_ = memory_.loaded = false;
+    takes_firmware_ = memory_->loaded = false;
   } else if (is(request, ftdi::kDropReceived)) {
     due_ = 0;
   }
@@ -48,11 +48,11 @@ bool EmulatedFalcon::control(const VendorRequest& request) noexcept {
 
 void EmulatedFalcon::receive(ByteView bytes) noexcept {
   for (size_t i = 0; i < bytes.size; ++i) {
-    if (memory_.baud == falcon::kHelloBaud)
+    if (memory_->baud == falcon::kHelloBaud)
       hello(bytes.u8(i));
-    else if (memory_.baud == falcon::kLoadBaud)
+    else if (memory_->baud == falcon::kLoadBaud)
       load(bytes.u8(i));
-    else if (memory_.baud == falcon::kRunBaud)
+    else if (memory_->baud == falcon::kRunBaud)
       run(bytes.u8(i));
   }
 }
@@ -75,25 +75,25 @@ void EmulatedFalcon::hello(uint8_t byte) noexcept {
 void EmulatedFalcon::load(uint8_t byte) noexcept {
   if (!loader_) return;
   answer({&byte, 1});
-  if (takes_firmware_) memory_.loaded = true;
+  if (takes_firmware_) memory_->loaded = true;
   takes_firmware_ = true;
 }
 
 void EmulatedFalcon::run(uint8_t byte) noexcept {
   falcon::Command command;
-  if (!memory_.loaded || !feed(byte, falcon::kPacketSize)) return;
+  if (!memory_->loaded || !feed(byte, falcon::kPacketSize)) return;
   if (falcon::decode_command(packet_, command)) obey(command);
 }
 
 void EmulatedFalcon::obey(const falcon::Command& command) noexcept {
-  const Eigen::Vector3d at_m = position_m(motors_);
+  const Eigen::Vector3d at_m = position_m(*motors_);
   // Beyond its reach, the grip stays where it was.
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
-  put_out_N(motors_, force_N(command.digit, angles_rad_, at_m));
+  put_out_N(*motors_, force_N(command.digit, angles_rad_, at_m));
   falcon::Reading reading;
   for (size_t i = 0; i < 3; ++i)
     reading.count[i] = falcon::count_at(angles_rad_[static_cast<Eigen::Index>(i)]);
-  const uint16_t inputs = motors_.inputs();
+  const uint16_t inputs = motors_->inputs();
   reading.buttons = inputs & 0xF;
   if (command.homing) reading.homed = inputs >> 4 & 7;
   falcon::Packet packet;
@@ -111,7 +111,7 @@ void EmulatedFalcon::answer(ByteView bytes) noexcept {
 size_t EmulatedFalcon::reply(MutableBytes bytes) noexcept {
   if (due_ == 0 || bytes.size <= ftdi::kStatusSize) return 0;
   bytes.put_u16(0, 0x6001);  // modem and line status of an idle chip
-  const size_t part = memory_.baud == falcon::kRunBaud ? kPart : falcon::kPieceSize;
+  const size_t part = memory_->baud == falcon::kRunBaud ? kPart : falcon::kPieceSize;
   const size_t length = timer_first_ ? 0 : std::min({due_, part, bytes.size - ftdi::kStatusSize});
   timer_first_ = false;
   std::copy_n(answer_.begin(), length, bytes.data + ftdi::kStatusSize);
@@ -156,7 +156,7 @@ void EmulatedForceFeedback::receive(ByteView bytes) noexcept {
   if (bytes.size == ff::kDescribeSize) {
     answer(description_);
   } else if (bytes.size == ff::kPositionSize) {
-    const std::array<int32_t, kMaxStrings> counts = motors_.counts();
+    const std::array<int32_t, kMaxStrings> counts = motors_->counts();
     answer(ff::Position{static_cast<int16_t>(counts[0]), static_cast<int16_t>(counts[1])});
   } else if (const auto effect = ff::decode_effect(bytes)) {
     upload(*effect);
@@ -175,9 +175,9 @@ void EmulatedForceFeedback::put_out() noexcept {
     up += slot.effect.up;
     rumble += slot.effect.rumble;
   }
-  motors_.put_out({static_cast<int>(std::lround(right * ff::kFullLevel)),
-                   static_cast<int>(std::lround(up * ff::kFullLevel)),
-                   static_cast<int>(std::lround(rumble * ff::kFullStrength))});
+  motors_->put_out({static_cast<int>(std::lround(right * ff::kFullLevel)),
+                    static_cast<int>(std::lround(up * ff::kFullLevel)),
+                    static_cast<int>(std::lround(rumble * ff::kFullStrength))});
 }
 
 size_t EmulatedForceFeedback::reply(MutableBytes bytes) noexcept {
@@ -190,14 +190,14 @@ size_t EmulatedForceFeedback::reply(MutableBytes bytes) noexcept {
 void EmulatedInverse3::receive(ByteView bytes) noexcept {
   due_ = true;
   Eigen::Vector3d force_N;
-  if (inverse3::decode_force(bytes, state.id, force_N)) put_out_N(motors_, force_N);
+  if (inverse3::decode_force(bytes, state.id, force_N)) put_out_N(*motors_, force_N);
 }
 
 size_t EmulatedInverse3::reply(MutableBytes bytes) noexcept {
   if (!due_) return 0;
   due_ = false;
-  state.position_m = position_m(motors_);
-  state.buttons = motors_.inputs();
+  state.position_m = position_m(*motors_);
+  state.buttons = motors_->inputs();
   return inverse3::encode_state(state, bytes);
 }
 

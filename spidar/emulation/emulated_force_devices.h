@@ -69,22 +69,16 @@ class SpringHand final : public EmulatedMotors {
                   at_m_ = Eigen::Vector3d::Zero();
 };
 
-/// A board without strings in such a hand. `Emulated` takes its motors.
-template <typename Emulated>
-class Held final : public EmulatedBoard {
- public:
-  void receive(ByteView bytes) noexcept override { board_.receive(bytes); }
-  size_t reply(MutableBytes bytes) noexcept override { return board_.reply(bytes); }
-
- private:
-  SpringHand hand_;
-  Emulated board_{hand_};
-};
-
 /// What stays in the device while programs come and go. Starts as after plugging in.
 struct FalconMemory {
   std::atomic<bool> loaded{false};  ///< with its firmware
   std::atomic<uint16_t> baud{0};    ///< divisor
+
+  static std::shared_ptr<FalconMemory> with_firmware() {
+    auto memory = std::make_shared<FalconMemory>();
+    memory->loaded = true;
+    return memory;
+  }
 };
 
 /// Its digits are the force on the hand in millinewtons, right, up and towards the viewer; its
@@ -94,9 +88,12 @@ struct FalconMemory {
 /// faster than the firmware, and two parts.
 class EmulatedFalcon final : public EmulatedBoard {
  public:
-  /// Both must outlive the board.
-  EmulatedFalcon(EmulatedMotors& motors, FalconMemory& memory) noexcept
-      : motors_(motors), memory_(memory) {}
+  static constexpr uint16_t kHomed = 0x70;  ///< inputs: every encoder has passed its mark
+
+  explicit EmulatedFalcon(
+      std::shared_ptr<EmulatedMotors> motors,
+      std::shared_ptr<FalconMemory> memory = FalconMemory::with_firmware()) noexcept
+      : EmulatedBoard(std::move(motors)), memory_(std::move(memory)) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -110,8 +107,7 @@ class EmulatedFalcon final : public EmulatedBoard {
   void answer(ByteView bytes) noexcept;
   bool feed(uint8_t byte, size_t length) noexcept;
 
-  EmulatedMotors& motors_;
-  FalconMemory& memory_;
+  std::shared_ptr<FalconMemory> memory_;
   Eigen::Vector3d angles_rad_ = Eigen::Vector3d::Constant(falcon::kAngleAtZero_rad);
   bool loader_ = false;  ///< started by toggling DTR, until the line is fast
   bool takes_firmware_ = false;
@@ -122,21 +118,6 @@ class EmulatedFalcon final : public EmulatedBoard {
   bool timer_first_ = false;  ///< the next packet has only status bytes
 };
 
-/// With its firmware.
-class HeldFalcon final : public EmulatedBoard {
- public:
-  HeldFalcon() noexcept { memory_.loaded = true; }
-  void receive(ByteView bytes) noexcept override { board_.receive(bytes); }
-  size_t reply(MutableBytes bytes) noexcept override { return board_.reply(bytes); }
-  bool control(const VendorRequest& request) noexcept override { return board_.control(request); }
-
- private:
-  /// Every encoder has passed its mark, and no button is pressed.
-  SpringHand hand_{0x70};
-  FalconMemory memory_;
-  EmulatedFalcon board_{hand_, memory_};
-};
-
 /// Its digits are the sum of the playing effects: level to the right, level upwards, and strength
 /// of the rumble. Its counts are the position of the stick, of ff::Position::kFull: to the right
 /// and upwards.
@@ -145,9 +126,9 @@ class EmulatedForceFeedback final : public EmulatedBoard {
   /// A stick with two axes, gain, autocentre and room for sixteen effects.
   static ff::Description stick() noexcept;
 
-  explicit EmulatedForceFeedback(EmulatedMotors& motors,
+  explicit EmulatedForceFeedback(std::shared_ptr<EmulatedMotors> motors,
                                  const ff::Description& description = stick()) noexcept
-      : motors_(motors), description_(description) {}
+      : EmulatedBoard(std::move(motors)), description_(description) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -164,7 +145,6 @@ class EmulatedForceFeedback final : public EmulatedBoard {
   template <typename Structure>
   void answer(const Structure& structure) noexcept;
 
-  EmulatedMotors& motors_;
   const ff::Description description_;
   std::array<Slot, 16> slots_{};
   std::array<uint8_t, sizeof(ff::Description)> reply_{};
@@ -175,9 +155,9 @@ class EmulatedForceFeedback final : public EmulatedBoard {
 /// up, towards the viewer. The inputs are the buttons.
 class EmulatedInverse3 final : public EmulatedBoard {
  public:
-  explicit EmulatedInverse3(EmulatedMotors& motors,
+  explicit EmulatedInverse3(std::shared_ptr<EmulatedMotors> motors,
                             inverse3::Version version = inverse3::Version::k35)
-      : motors_(motors) {
+      : EmulatedBoard(std::move(motors)) {
     state.id = "049D";
     state.version = version;
   }
@@ -188,7 +168,6 @@ class EmulatedInverse3 final : public EmulatedBoard {
   inverse3::State state;  ///< what it reports, except for position and buttons
 
  private:
-  EmulatedMotors& motors_;
   bool due_ = false;
 };
 

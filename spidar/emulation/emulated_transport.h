@@ -18,21 +18,23 @@
 
 namespace spidar {
 
-/// The device that is connected to an emulated board.
+/// The device that is connected to an emulated board. This one has neither motors nor encoders:
+/// what it gets has no effect.
 class EmulatedMotors {
  public:
   virtual ~EmulatedMotors() = default;
   /// The board has set the D/A to these digits.
-  virtual void put_out(const std::array<int, kMaxStrings>& digits) noexcept = 0;
+  virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
   /// Counts as the host should receive them.
-  virtual std::array<int32_t, kMaxStrings> counts() noexcept = 0;
+  virtual std::array<int32_t, kMaxStrings> counts() noexcept { return {}; }
   /// 16 inputs; bits 4–7 are the rotary ID switch.
   virtual uint16_t inputs() noexcept { return 0; }
 };
 
-/// A board without its wire. Not thread-safe.
+/// A board without its wire, and the motors to which it is connected. Not thread-safe.
 class EmulatedBoard {
  public:
+  explicit EmulatedBoard(std::shared_ptr<EmulatedMotors> motors) : motors_(std::move(motors)) {}
   virtual ~EmulatedBoard() = default;
   /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
@@ -41,6 +43,9 @@ class EmulatedBoard {
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
   /// Takes a request of the vendor; false where there is no such request.
   virtual bool control(const VendorRequest&) noexcept { return false; }
+
+ protected:
+  std::shared_ptr<EmulatedMotors> motors_;
 };
 
 /// Faults to be caused on the wire; must outlive the transport. Thread-safe.

@@ -11,9 +11,9 @@
 
 namespace spidar {
 
-/// A device that make_device() can open.
+/// A device that make_grip() can open.
 struct BoardInfo {
-  std::string device;  ///< for make_device(): "usb:1-2", "sim"
+  std::string device;  ///< for make_grip(): "usb:1-2", "sim"
   std::string name;    ///< "CyVerse USB 2.0 SH4"
   std::string path;    ///< on the bus: "1-2"; empty for simulated devices
   std::string serial;  ///< empty when it has none
@@ -32,6 +32,9 @@ struct BoardInfo {
   bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
 };
 
+/// BoardInfo::note of a device that 70-spidar.rules would make accessible.
+constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
+
 /// Returns the devices that are plugged in, then the simulated ones. Opens and sends nothing. A
 /// serial line does not identify the board behind it, so only lines that a udev rule names
 /// /dev/spidar… are listed. An Inverse3 is listed while its service runs. Input devices are listed
@@ -44,12 +47,11 @@ std::vector<BoardInfo> list_boards();
 std::string default_profile(const std::string& device);
 
 /// Returns what is known about a device from its name. The device need not be plugged in, and
-/// nothing is opened. If make_device() does not know the device either, the name in the result is
+/// nothing is opened. If make_grip() does not know the device either, the name in the result is
 /// empty.
 BoardInfo board_info(const std::string& device);
 
-/// Whether a program listens at this TCP port, on the loopback or on all addresses. Reads the
-/// kernel's list, and connects to nothing. False where that cannot be read.
+/// Whether a program listens at this TCP port of the loopback, to which it connects for a moment.
 bool is_listening(uint16_t port);
 
 }  // namespace spidar

@@ -3,6 +3,8 @@
 #include "spidar/transports/usb_transport.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <poll.h>
 #include <utility>
 
@@ -125,6 +127,12 @@ int open_file(libusb_context* context) {
 }
 
 }  // namespace
+
+std::string UsbId::text() const {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%04x:%04x", vendor, product);
+  return text.data();
+}
 
 UsbTransport::UsbTransport(std::string name, const UsbPipes& pipes)
     : name_(std::move(name)), pipes_(pipes) {}

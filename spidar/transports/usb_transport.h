@@ -22,6 +22,17 @@ struct UsbPipes {
   bool interrupt = false;  ///< otherwise bulk
 };
 
+/// How a board is known on the bus.
+struct UsbId {
+  uint16_t vendor = 0;  ///< 0: it is not on USB
+  uint16_t product = 0;
+  UsbPipes pipes;
+  bool shared = false;  ///< other devices have this id, too, so each that has it is asked
+
+  /// "0cec:0205"
+  std::string text() const;
+};
+
 /// All transfers of an exchange are submitted to the kernel at once, the reply's first, so that an
 /// exchange takes one round trip on the bus. The thread that exchanges also handles the events. At
 /// the deadline it cancels transfers and waits for their end, which may take any time in libusb and

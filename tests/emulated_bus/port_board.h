@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <memory>
+#include <utility>
 
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_boards.h"
@@ -34,12 +35,16 @@ class PortMotors final : public EmulatedMotors {
   UsbPort& port_;
 };
 
-inline std::unique_ptr<EmulatedBoard> make_board(UsbKind kind, EmulatedMotors& motors,
+/// `falcon` must outlive the board.
+inline std::unique_ptr<EmulatedBoard> make_board(UsbKind kind,
+                                                 std::shared_ptr<EmulatedMotors> motors,
                                                  FalconMemory& falcon) {
-  if (kind == UsbKind::kFalcon) return std::make_unique<EmulatedFalcon>(motors, falcon);
-  if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(motors);
-  if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(motors);
-  return std::make_unique<EmulatedSh4>(motors);
+  if (kind == UsbKind::kFalcon)
+    return std::make_unique<EmulatedFalcon>(
+        std::move(motors), std::shared_ptr<FalconMemory>(std::shared_ptr<void>(), &falcon));
+  if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(std::move(motors));
+  if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(std::move(motors));
+  return std::make_unique<EmulatedSh4>(std::move(motors));
 }
 
 /// The negative errno with which usbfs ends a transfer on such a link; 0: the transfer succeeds.

@@ -37,13 +37,11 @@ struct UsbFile {
       : shared(with),
         port_number(shared.port),
         port(bus().port[port_number]),
-        motors(port),
-        board(make_board(port.kind, motors, port.falcon)) {}
+        board(make_board(port.kind, std::make_shared<PortMotors>(port), port.falcon)) {}
 
   SharedFile& shared;
   const size_t port_number;
   UsbPort& port;
-  PortMotors motors;
   std::unique_ptr<EmulatedBoard> board;
   int file = -1;
   int other_end = -1;  // −1: held by another process

@@ -62,8 +62,7 @@ class KernelUsb : public testing::Test {
   }
 
   MotorBench bench;
-  RecordedMotors motors{bench};
-  UsbipBoard board{motors, "EMULATED"};
+  UsbipBoard board{std::make_shared<RecordedMotors>(bench), "EMULATED"};
   const Profile profile = load_profile(kProfile);
 };
 
@@ -108,8 +107,7 @@ TEST(KernelFalcon, TakesItsFirmwareAndExchanges) {
   setenv("SPIDAR_FALCON_FIRMWARE", firmware.c_str(), 1);
   MotorBench bench;
   bench.inputs = 0x70;  // homed
-  RecordedMotors motors{bench};
-  UsbipBoard board{motors, "EMULATED", UsbKind::kFalcon};
+  UsbipBoard board{std::make_shared<RecordedMotors>(bench), "EMULATED", UsbKind::kFalcon};
   board.plug();
   wait_for(listed);
   BoardSettings settings;

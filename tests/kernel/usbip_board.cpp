@@ -49,8 +49,8 @@ void attach(int socket, bool full_speed) {
 
 }  // namespace
 
-UsbipBoard::UsbipBoard(EmulatedMotors& motors, std::string serial, UsbKind kind)
-    : motors_(motors), serial_(std::move(serial)), kind_(kind) {}
+UsbipBoard::UsbipBoard(std::shared_ptr<EmulatedMotors> motors, std::string serial, UsbKind kind)
+    : motors_(std::move(motors)), serial_(std::move(serial)), kind_(kind) {}
 
 UsbipBoard::~UsbipBoard() {
   unplug();

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <deque>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,8 +20,9 @@ namespace spidar::test {
 /// A board behind the kernel's vhci-hcd, which gets its packets through a socket.
 class UsbipBoard {
  public:
-  /// Initially not plugged in. `motors` must outlive it.
-  UsbipBoard(EmulatedMotors& motors, std::string serial, UsbKind kind = UsbKind::kSh4);
+  /// Initially not plugged in.
+  UsbipBoard(std::shared_ptr<EmulatedMotors> motors, std::string serial,
+             UsbKind kind = UsbKind::kSh4);
   ~UsbipBoard();
   UsbipBoard(const UsbipBoard&) = delete;
   UsbipBoard& operator=(const UsbipBoard&) = delete;
@@ -48,7 +50,7 @@ class UsbipBoard {
   bool reply_with(const UsbipRequest& request, const std::string& data);
   std::string descriptor(uint8_t type, uint8_t index) const;
 
-  EmulatedMotors& motors_;
+  const std::shared_ptr<EmulatedMotors> motors_;
   const std::string serial_;
   const UsbKind kind_;
   std::thread thread_;

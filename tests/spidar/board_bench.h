@@ -14,40 +14,22 @@
 #include "spidar/emulation/emulated_boards.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/session/haptic_session.h"
+#include "tests/spidar/kinds.h"
 #include "tests/support/recorded_motors.h"
 
 namespace spidar::test {
 
-enum class Kind { kSh4, kSimple, kUart };
-
-inline std::string name_of(Kind kind) {
-  constexpr const char* kNames[] = {"sh4", "simple", "uart"};
-  return kNames[static_cast<int>(kind)];
-}
-
 struct BoardBench {
-  explicit BoardBench(Kind of) : kind(of) {}
+  /// "sh4"
+  explicit BoardBench(const std::string& board) : kind(kind_of(board)), is_uart(board == "uart") {}
 
   std::unique_ptr<Transport> transport_to(std::unique_ptr<EmulatedBoard> emulated) {
-    return std::make_unique<EmulatedTransport>(std::move(emulated), wire);
+    return wire_to(std::move(emulated), wire);
   }
 
   std::unique_ptr<Board> board() {
-    switch (kind) {
-      case Kind::kSh4:
-        return std::make_unique<Sh4Board>("sh4", profile,
-                                          transport_to(std::make_unique<EmulatedSh4>(recorded)));
-      case Kind::kSimple:
-        return std::make_unique<SimpleBoard>(
-            "simple", profile, transport_to(std::make_unique<EmulatedSimple>(recorded)));
-      case Kind::kUart:
-        break;
-    }
-    constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
-    std::vector<std::unique_ptr<Transport>> lines;
-    lines.push_back(transport_to(std::make_unique<EmulatedUart>(
-        recorded, std::vector<EmulatedUart::Station>{{0, kB3M}, {3, kB3M}})));
-    return std::make_unique<UartBoard>("uart", profile, std::move(lines));
+    return std::get<std::unique_ptr<Board>>(
+        kind.attach(kind.board, profile, transport_to(kind.emulate(recorded))));
   }
 
   std::unique_ptr<BoardDevice> device(bool threaded = false,
@@ -58,11 +40,12 @@ struct BoardBench {
     return std::make_unique<BoardDevice>(board(), settings);
   }
 
-  const Kind kind;
+  const DeviceKind& kind;
+  const bool is_uart;
   /// For the D/A of the boards: up to 9.867 V, or 3.3 V.
-  const Profile profile = load_profile(kind == Kind::kUart ? "spidar-g6x" : "spidar-g6x3-v2-r");
+  const Profile profile = load_profile(is_uart ? "spidar-g6x" : kind.profile);
   MotorBench motors;
-  RecordedMotors recorded{motors};
+  std::shared_ptr<RecordedMotors> recorded = std::make_shared<RecordedMotors>(motors);
   std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>();
 };
 

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "examples/example_board.h"
-#include "spidar/emulation/wire_simulation.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
@@ -18,13 +17,11 @@
 namespace spidar::test::boards_test {
 namespace {
 
-class Boards : public testing::TestWithParam<Kind>, public BoardBench {
+class Boards : public testing::TestWithParam<std::string>, public BoardBench {
  protected:
   Boards() : BoardBench(GetParam()) {}
 };
-const auto kNameOf = [](const testing::TestParamInfo<Kind>& kind) { return name_of(kind.param); };
-INSTANTIATE_TEST_SUITE_P(, Boards, testing::Values(Kind::kSh4, Kind::kSimple, Kind::kUart),
-                         kNameOf);
+INSTANTIATE_TEST_SUITE_P(, Boards, testing::ValuesIn(boards_that_there_are(true)), name_of);
 
 TEST_P(Boards, OpenLeavesTheMotorsAtZero) {
   motors.digit[2] = 77;  // of an earlier host
@@ -45,12 +42,12 @@ TEST_P(Boards, VoltsBecomeDigitsAndCountsComeBack) {
   DeviceReading reading;
   ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
   // 415 digits per volt nominally (4095 at 9.867 V); 4096 at 3.3 V on the UART boards.
-  const double per_V = kind == Kind::kUart ? 4096 / 3.3 : 4095 / 9.867;
+  const double per_V = is_uart ? 4096 / 3.3 : 4095 / 9.867;
   for (size_t i = 0; i < kMaxStrings; ++i) {
     EXPECT_EQ(motors.digit[i], static_cast<int>(std::lround(per_V * volts.volt[i]))) << i;
     EXPECT_EQ(reading.count[i], 100 * static_cast<int>(i) - 350) << i;
   }
-  EXPECT_EQ(reading.inputs, kind == Kind::kUart ? 0u : 0xA3u);
+  EXPECT_EQ(reading.inputs, is_uart ? 0u : 0xA3u);
 }
 
 TEST_P(Boards, VoltsBeyondTheConverterAreCut) {
@@ -64,7 +61,7 @@ TEST_P(Boards, VoltsBeyondTheConverterAreCut) {
   DeviceReading reading;
   ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
   EXPECT_EQ(motors.digit[0], 4095);
-  EXPECT_EQ(motors.digit[1], kind == Kind::kUart ? -4095 : 0);
+  EXPECT_EQ(motors.digit[1], is_uart ? -4095 : 0);
   EXPECT_EQ(motors.digit[2], 0);
   EXPECT_EQ(motors.digit[3], 0);
 }
@@ -133,9 +130,9 @@ TEST_P(Boards, GarbageIsNotTakenForCounts) {
   EXPECT_EQ(device->exchange(all_volts(1), reading), ExchangeStatus::kBadReply);
   EXPECT_EQ(reading.count[0], 42);
   // Which check finds it depends on what the packets repeat: the D/A, a header, or nothing.
-  const LinkFault expected = kind == Kind::kSh4    ? LinkFault::kWrongEcho
-                             : kind == Kind::kUart ? LinkFault::kWrongReply
-                                                   : LinkFault::kCounterJump;
+  const LinkFault expected = GetParam() == "sh4" ? LinkFault::kWrongEcho
+                             : is_uart           ? LinkFault::kWrongReply
+                                                 : LinkFault::kCounterJump;
   EXPECT_EQ(device->health().last_fault, expected);
 }
 
@@ -219,9 +216,9 @@ TEST_P(Boards, OpenSaysWhatIsWrong) {
       FAIL() << to_string(fault);
     } catch (const DeviceError& error) {
       const std::string what = error.what();
-      EXPECT_EQ(what.find(name_of(kind)), 0u) << what;
+      EXPECT_EQ(what.find(kind.board), 0u) << what;
       // UART boards that do not answer are no boards.
-      const std::string expected = kind == Kind::kUart ? "0 motor boards" : to_string(fault);
+      const std::string expected = is_uart ? "0 motor boards" : to_string(fault);
       EXPECT_NE(what.find(expected), std::string::npos) << what;
     }
   }

@@ -10,11 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/boards/link_thread.h"
 #include "spidar/conformance/delay_test.h"
-#include "spidar/emulation/wire_simulation.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/session/board_list.h"
+#include "spidar/session/device_factory.h"
+#include "tests/spidar/kinds.h"
 #include "tests/support/tampered_device.h"
 
 namespace spidar::test::delay_test {
@@ -64,8 +66,10 @@ DelayTest measure(const std::string& board, const Profile& profile, const GripMo
     device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock, model,
                                                time.clock());
   } else {
-    device = make_wire_simulation(board.substr(4), profile, std::make_shared<EmulatedWire>(),
-                                  {model, time.clock()});
+    AnyBoard simulated =
+        simulated_board(kind_of(board.substr(4)), board, profile, {model, time.clock()});
+    device = std::make_unique<BoardDevice>(std::get<std::unique_ptr<Board>>(std::move(simulated)),
+                                           settings_of_simulation());
   }
   DelayTestSettings settings;
   settings.seed = seed;

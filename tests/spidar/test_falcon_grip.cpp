@@ -15,7 +15,7 @@ namespace spidar::test::falcon_grip_test {
 namespace {
 
 TEST(FalconGrip, TakesForcesAndGivesPositionsInAllAxes) {
-  ForceBench bench(ForceKind::kFalcon);
+  ForceBench bench("falcon");
   const auto grip = bench.grip();
   grip->open();
   EXPECT_EQ(grip->description(), "Novint Falcon");
@@ -39,7 +39,7 @@ TEST(FalconGrip, TakesForcesAndGivesPositionsInAllAxes) {
 
 /// Every place of the 50 mm around the centre, in every direction.
 TEST(FalconGrip, GivesItsLargestForceEverywhere) {
-  ForceBench bench(ForceKind::kFalcon);
+  ForceBench bench("falcon");
   const auto grip = bench.grip();
   grip->open();
   const double most_N = grip->abilities().largest_force_N;
@@ -62,7 +62,7 @@ TEST(FalconGrip, GivesItsLargestForceEverywhere) {
 }
 
 TEST(FalconGrip, ReachesTheWholeRoomThatItStates) {
-  ForceBench bench(ForceKind::kFalcon);
+  ForceBench bench("falcon");
   const auto grip = bench.grip();
   const std::array<double, 3> half_m = grip->abilities().half_room_m;
   grip->open();
@@ -81,7 +81,7 @@ TEST(FalconGrip, ReachesTheWholeRoomThatItStates) {
 /// 0.1 kg that nobody holds, from one side of the workspace to the other. 3 N alone would make it
 /// 2.4 m/s fast.
 TEST(FalconGrip, ReleasedItStaysSlow) {
-  ForceBench bench(ForceKind::kFalcon);
+  ForceBench bench("falcon");
   SessionSettings by_hand;
   by_hand.threaded = false;
   HapticSession session(bench.grip(), by_hand);
@@ -106,7 +106,7 @@ TEST(FalconGrip, ReleasedItStaysSlow) {
 }
 
 TEST(FalconGrip, WithoutItsZeroHasNoPositionAndNoForce) {
-  ForceBench bench(ForceKind::kFalcon);
+  ForceBench bench("falcon");
   bench.motors.inputs = 0x35;  // two encoders; buttons 1 and 3
   const auto grip = bench.grip();
   grip->open();

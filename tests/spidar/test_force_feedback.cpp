@@ -244,7 +244,7 @@ TEST_F(ForceFeedback, TheDriverIsFoundThroughALink) {
 
 /// The loop's own ramp, and one update for each axis, in ticks.
 TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
-  ForceBench bench(ForceKind::kForceFeedback);
+  ForceBench bench("ff");
   SessionSettings by_hand;
   by_hand.threaded = false;
   HapticSession session(bench.grip(), by_hand);

@@ -131,7 +131,7 @@ class ForceFeedbackFaults : public testing::Test {
 
 /// 13 mm between two updates of a fast driver.
 TEST_F(ForceFeedbackFaults, AFastHandLosesNoPose) {
-  ForceBench bench(ForceKind::kForceFeedback);
+  ForceBench bench("ff");
   SessionSettings by_hand;
   by_hand.threaded = false;
   HapticSession session(bench.grip(), by_hand);

@@ -264,8 +264,7 @@ TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
 TEST(Guardian, ZeroesUartBoardsWhenTheHostIsKilledOrStopped) {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     MotorBench bench;
-    RecordedMotors motors(bench);
-    UartLine line({motors, {{2, {7, 1, 8, 0, 4, 0}}}});
+    UartLine line({std::make_shared<RecordedMotors>(bench), {{2, {7, 1, 8, 0, 4, 0}}}});
     Victim victim("uart:" + line.path(), kUartProfile);
     wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
     ASSERT_TRUE(victim.lives());

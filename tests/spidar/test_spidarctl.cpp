@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
+#include "spidar/session/board_list.h"
+#include "spidar/session/device_factory.h"
 #include "tests/spidar/spidarctl_command.h"
 
 namespace fs = std::filesystem;
@@ -146,16 +148,15 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWiredAndLags) {
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {
-  for (const std::string device : {"sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse",
-                                   "sim:ff", "sim:inverse3", "sim:falcon"}) {
+  for (const BoardInfo& board : list_boards()) {
+    if (!is_simulated(board.device)) continue;
+    const std::string& device = board.device;
     SCOPED_TRACE(device);
     const CommandResult outcome = run_spidarctl("info " + device);
     EXPECT_EQ(outcome.status, 0);
     expect_contains(outcome.text, "device    " + device + "\n");
-    const bool strings = device != "sim:mouse" && device != "sim:ff" && device != "sim:inverse3" &&
-                         device != "sim:falcon";
     expect_contains(outcome.text,
-                    strings ? "\n  string  N smallest" : "\n  axis     force  position");
+                    board.has_strings ? "\n  string  N smallest" : "\n  axis     force  position");
   }
   const std::pair<const char*, const char*> found[] = {
       {"sim:ff", "found     emulated stick at 20 % of its strength, force feedback on two axes"},

@@ -50,7 +50,8 @@ class UartLines : public testing::Test {
 
   const Profile profile = load_profile("spidar-g6x5-r");
   MotorBench first, second;
-  RecordedMotors first_motors{first}, second_motors{second};
+  std::shared_ptr<RecordedMotors> first_motors = std::make_shared<RecordedMotors>(first),
+                                  second_motors = std::make_shared<RecordedMotors>(second);
 };
 
 TEST_F(UartLines, OneBoardOfEightMotors) {

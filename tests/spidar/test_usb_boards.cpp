@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/link_thread.h"
-#include "spidar/boards/usb_board.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/device_registry.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/pushed_grip.h"
@@ -93,7 +93,7 @@ TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
 }
 
 TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
-  EXPECT_EQ(board_info("usb").name, "CyVerse USB 2.0");
+  EXPECT_EQ(board_info("usb").name, "CyVerse USB 2.0 SH4 or CyVerse USB 2.0 Simple");
   EXPECT_EQ(board_info("mouse").trial, Trial::kInferred);
   EXPECT_FALSE(board_info("sim:mouse").has_strings);
   EXPECT_TRUE(board_info("foo").name.empty());
@@ -107,9 +107,11 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(line.path, "/no/such/line");
   EXPECT_FALSE(line.accessible);
   // What has a profile without a name can drive it.
-  for (const std::string device :
-       {"mouse", "sim", "sim:sh4", "sim:simple", "sim:uart", "sim:mouse", "sim:ff", "sim:inverse3",
-        "sim:falcon", "falcon", "falcon:1-4", "ff", "ff:/dev/input/event0", "inverse3"})
+  std::vector<std::string> named{"mouse",   "falcon", "falcon:1-4", "ff", "ff:/dev/input/event0",
+                                 "inverse3"};
+  for (const BoardInfo& board : list_boards())
+    if (is_simulated(board.device)) named.push_back(board.device);
+  for (const std::string& device : named)
     EXPECT_NO_THROW(make_grip(device, profile_for(device, ""))) << device;
 }
 
@@ -275,14 +277,16 @@ TEST(UsbKinds, EachHasAUdevRuleAndAModalias) {
   const std::string rules = text_of(rules_path);
   const std::string metainfo =
       text_of(rules_path.parent_path() / "org.gst_spidar.tools.metainfo.xml");
-  for (const UsbBoardKind& kind : usb_kinds()) {
-    const std::string id = kind.id();
+  for (const DeviceKind& kind : devices()) {
+    if (kind.usb.vendor == 0) continue;
+    const std::string id = kind.usb.text();
     const std::string rule = "ATTR{idVendor}==\"" + id.substr(0, 4) + "\", ATTR{idProduct}==\"" +
                              id.substr(5) + "\", TAG+=\"uaccess\"";
-    EXPECT_NE(rules.find(rule), std::string::npos) << kind.name << ": no line with " << rule;
+    EXPECT_NE(rules.find(rule), std::string::npos) << kind.title << ": no line with " << rule;
     std::array<char, 24> alias{};
-    std::snprintf(alias.data(), alias.size(), "usb:v%04Xp%04Xd*", kind.vendor, kind.product);
-    EXPECT_NE(metainfo.find(alias.data()), std::string::npos) << kind.name << ": " << alias.data();
+    std::snprintf(alias.data(), alias.size(), "usb:v%04Xp%04Xd*", kind.usb.vendor,
+                  kind.usb.product);
+    EXPECT_NE(metainfo.find(alias.data()), std::string::npos) << kind.title << ": " << alias.data();
   }
 }
 

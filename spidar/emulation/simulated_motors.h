@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The motors and encoders of a simulated SPIDAR, connected to an emulated board.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "spidar/boards/board_parts.h"
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/simulation/simulated_device.h"
+
+namespace spidar {
+
+/// The mechanics that a simulated board drives.
+struct SimulatedMechanics {
+  std::optional<GripModel> model;  ///< none: that of the profile
+  SimulatedClock clock;            ///< none: CLOCK_MONOTONIC
+};
+
+/// Grip, hand and motors are those of SimulatedDevice, which moves when the board puts out digits.
+class SimulatedMotors final : public EmulatedMotors {
+ public:
+  /// `dac` is that of the board. Throws std::invalid_argument as SimulatedDevice does.
+  SimulatedMotors(const Profile& profile, const DacScale& dac, const SimulatedMechanics& mechanics)
+      : device_(profile, SimulatedDevice::Time::kClock,
+                mechanics.model.value_or(grip_model_of(profile)), mechanics.clock),
+        dac_(dac) {
+    device_.open();
+  }
+  ~SimulatedMotors() override { device_.close(); }
+
+  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+    MotorVolts volts;
+    for (size_t i = 0; i < digits.size(); ++i) volts.volt[i] = dac_.volt(digits[i]);
+    device_.exchange(volts, reading_);
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override { return reading_.count; }
+
+ private:
+  SimulatedDevice device_;
+  const DacScale dac_;
+  DeviceReading reading_;
+};
+
+}  // namespace spidar

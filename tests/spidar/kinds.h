@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The boards that there are, as parameters of tests.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/session/device_registry.h"
+
+namespace spidar::test {
+
+/// DeviceKind::board of those with strings, or of those that take a force.
+inline std::vector<std::string> boards_that_there_are(bool with_strings) {
+  std::vector<std::string> boards;
+  for (const DeviceKind& kind : devices())
+    if (kind.has_strings() == with_strings) boards.emplace_back(kind.board);
+  return boards;
+}
+
+inline const DeviceKind& kind_of(const std::string& board) {
+  return *simulated_kind(DeviceName("sim:" + board));
+}
+
+inline std::string name_of(const testing::TestParamInfo<std::string>& board) {
+  return board.param;
+}
+
+inline std::unique_ptr<Transport> wire_to(std::unique_ptr<EmulatedBoard> emulated,
+                                          const std::shared_ptr<EmulatedWire>& wire) {
+  return std::make_unique<EmulatedTransport>(std::move(emulated), wire);
+}
+
+}  // namespace spidar::test
