@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <vector>
 
@@ -23,6 +24,8 @@ set key at graph 1.02, graph 0.95 left top Left reverse noenhanced samplen 2 spa
 set border 3 linecolor rgb '#606060'
 set tics nomirror
 set format x ''
+set lmargin at screen 0.11
+set rmargin at screen 0.84
 )";
 
 /// One colour for each string, from Okabe and Ito's set for colour-blind readers.
@@ -124,7 +127,7 @@ void draw_velocity(std::ostream& script) {
 }
 
 void draw_reasons(std::ostream& script, const std::vector<std::string>& words) {
-  script << "unset ylabel\nset label 1 'not felt because' at graph 1.02, graph 0.9\nset yrange ["
+  script << "unset ylabel\nset label 1 'not felt because' at graph 1.02, graph 0.5\nset yrange ["
          << static_cast<double>(words.size()) - 0.5 << ":-0.5]\nset ytics (";
   for (size_t i = 0; i < words.size(); ++i) {
     script << (i == 0 ? "" : ", ") << spidar::gnuplot_string(words[i]) << ' ' << i;
@@ -181,14 +184,38 @@ void draw_force(std::ostream& script, const Force& force, double limit_N, bool h
             "unset object 1\n";
 }
 
+/// Sizes in pixels.
+constexpr int kWidth_px = 1400, kAbove_px = 70, kBelow_px = 70, kGap_px = 42, kCurve_px = 220,
+              kReason_px = 24;
+
+struct Panel {
+  int height_px;
+  std::function<void(std::ostream&)> draw;
+};
+
+int height_of(const std::vector<Panel>& panels) {
+  int height_px = kAbove_px + kBelow_px - kGap_px;
+  for (const Panel& panel : panels) height_px += panel.height_px + kGap_px;
+  return height_px;
+}
+
 }  // namespace
 
 std::string picture_script(const Record& record, double max_force_N, const std::string& title) {
-  constexpr int kWidth_px = 1400, kPanel_px = 280;
   const bool has_device = !record.devices().empty();
   const size_t strings = strings_of(record);
   const std::vector<std::string> reasons = reasons_of(record);
-  std::vector<Force> forces = {kForces[0], kForces[1]};
+  // A haptic track says nothing of positions and speeds, and at rest there are none.
+  const bool has_motion =
+      std::any_of(record.frames().begin(), record.frames().end(), [](const FrameRow& frame) {
+        return std::hypot(frame.velocity_px_s[0], frame.velocity_px_s[1]) > 0;
+      });
+  std::vector<Force> forces;
+  const auto in_plane = [](const auto& row) { return std::hypot(row.force_N[0], row.force_N[1]); };
+  // Where nothing is felt, there are only the reasons to show.
+  if (reasons.empty() || is_felt(record, spidar::kFeltForce_N, in_plane)) {
+    forces = {kForces[0], kForces[1]};
+  }
   const auto depth = [](const auto& row) { return row.force_N[2]; };
   const auto roll = [](const auto& row) { return row.torque_Nm; };
   if (is_felt(record, spidar::kFeltForce_N, depth)) forces.push_back(kForces[2]);
@@ -196,45 +223,44 @@ std::string picture_script(const Record& record, double max_force_N, const std::
     forces.push_back(kForces[3]);
   }
 
-  const bool has_frames = !record.frames().empty();
-  const size_t panels =
-      (has_frames ? 2 : 0) + forces.size() + (reasons.empty() ? 0 : 1) + (strings > 0 ? 1 : 0);
-  const double edge = 0.25 / static_cast<double>(panels);
+  std::vector<Panel> panels;
+  if (has_motion) {
+    panels.push_back({kCurve_px, draw_position});
+    panels.push_back({kCurve_px, draw_velocity});
+  }
+  for (const Force& force : forces) {
+    panels.push_back({kCurve_px, [&, force](std::ostream& script) {
+                        draw_force(script, force, max_force_N > 0 ? max_force_N : 0.1, has_device);
+                      }});
+  }
+  if (!reasons.empty()) {
+    panels.push_back({kReason_px * static_cast<int>(reasons.size() + 1),
+                      [&](std::ostream& script) { draw_reasons(script, reasons); }});
+  }
+  if (strings > 0) {
+    panels.push_back({kCurve_px, [&](std::ostream& script) { draw_tensions(script, strings); }});
+  }
+
   const auto [begin_s, end_s] = record.span_s();
+  const int height_px = height_of(panels);
   std::ostringstream script;
-  script << "set terminal pngcairo size " << kWidth_px << ',' << kPanel_px * panels
+  script << "set terminal pngcairo size " << kWidth_px << ',' << height_px
          << " font 'DejaVu Sans,12'\n"
          << kStyle << "set xrange [" << begin_s << ':' << std::max(end_s, begin_s + 1) << "]\n";
   write_frames(script, record);
   write_devices(script, record);
   write_reasons(script, record, reasons);
-  script << "set multiplot layout " << panels << ",1 title "
-         << spidar::gnuplot_string(title + ": motion felt at the grip")
-         << " noenhanced font ',15' margins 0.11,0.84," << edge << ',' << 1 - edge << " spacing "
-         << 0.6 * edge << ',' << 0.6 * edge << '\n';
-
-  // Every panel but the last is without times at its axis.
-  size_t left = panels;
-  const auto next = [&] {
-    if (--left == 0) script << "set format x '%g'\nset xlabel 'running time, s'\n";
-  };
-  if (has_frames) {
-    next();
-    draw_position(script);
-    next();
-    draw_velocity(script);
-  }
-  for (const Force& force : forces) {
-    next();
-    draw_force(script, force, max_force_N > 0 ? max_force_N : 0.1, has_device);
-  }
-  if (!reasons.empty()) {
-    next();
-    draw_reasons(script, reasons);
-  }
-  if (strings > 0) {
-    next();
-    draw_tensions(script, strings);
+  script << "set multiplot title " << spidar::gnuplot_string(title + ": motion felt at the grip")
+         << " noenhanced font ',15'\n";
+  int top_px = kAbove_px;
+  for (size_t i = 0; i < panels.size(); ++i) {
+    const auto at_screen = [&](int px) { return 1 - static_cast<double>(px) / height_px; };
+    script << "set tmargin at screen " << at_screen(top_px) << "\nset bmargin at screen "
+           << at_screen(top_px + panels[i].height_px) << '\n';
+    top_px += panels[i].height_px + kGap_px;
+    // Every panel but the last is without times at its axis.
+    if (i + 1 == panels.size()) script << "set format x '%g'\nset xlabel 'running time, s'\n";
+    panels[i].draw(script);
   }
   return script.str();
 }

@@ -44,13 +44,13 @@ GstElement* chosen_sink(GstElement* autovideosink) {
 
 }  // namespace
 
-Screen open_screen(bool headless) {
+Screen open_screen(bool headless, bool in_debug_window) {
   Screen screen;
   if (headless) {
     screen.why_none = "as asked for";
   } else if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
     screen.why_none = "neither DISPLAY nor WAYLAND_DISPLAY is set";
-  } else {
+  } else if (!in_debug_window) {
     // An X server resets itself when its last client disconnects. That happens when autovideosink
     // closes the first sink that it tries, and the server is then not ready for the next one.
     for (int attempt = 0; attempt < 5; ++attempt) {

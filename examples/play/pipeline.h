@@ -15,8 +15,9 @@ struct Screen {
   std::string why_none;           ///< why there is no window; empty when one is shown
 };
 
-/// A window or, without a display, a sink that only keeps time.
-Screen open_screen(bool headless);
+/// A window or, without a display, a sink that only keeps time; so it is if the film is seen
+/// `in_debug_window`.
+Screen open_screen(bool headless, bool in_debug_window);
 
 /// Number of frames that the sink has shown; 0 for a sink that does not count them.
 uint64_t frames_shown(const Screen& screen);

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -62,11 +61,11 @@ Options parse(CLI::App& app, int argc, char** argv) {
   CLI::Option* const ball = app.add_flag("--ball", options.ball,
                                          "No video, but the ball of videotestsrc for ten seconds");
   app.add_option("--output", options.output, "Folder of spidar-play.png, else the current one");
-  app.add_option("--seconds", options.seconds, "Stop after so many seconds")
+  app.add_option("--seconds", options.seconds, "Stop at this second of the video")
       ->check(CLI::Range(1, 99999));
   app.add_flag("--verbose", options.verbose, "End with all fields of the element's stats, too");
   app.add_flag("--headless", options.headless, "No window for the video, even with a display");
-  app.add_flag("--window", options.window, "The debug window: tracks, forces, grip, settings");
+  app.add_flag("--window", options.window, "The debug window in place of a window for the video");
   app.add_option("--window-png", options.window_png,
                  "The same, saved as a picture after five seconds of the video, or at its end");
   app.footer("After -- come properties of spidarmotion, NAME=VALUE: gst-inspect-1.0 spidarmotion");
@@ -108,25 +107,6 @@ class WindowPicture {
   GstElement* const filter_;
   std::string path_;
 };
-
-/// Of the frame that is on the screen: its motion, and its force or why there is none.
-std::string progress_line(double time_s, const FrameRow* frame) {
-  constexpr int kBar = 20;
-  constexpr double kFullBar_N = 3.0;
-  char line[160];
-  if (!frame) {
-    std::snprintf(line, sizeof line, "%7.1f s", time_s);
-    return line;
-  }
-  const auto& force_N = frame->force_N;
-  const double size_N = std::hypot(force_N[0], force_N[1], force_N[2]);
-  const int filled = std::min(kBar, static_cast<int>(std::lround(kBar * size_N / kFullBar_N)));
-  std::snprintf(line, sizeof line, "%7.1f s  %6.0f px/s  %5.2f N [%-*s] x %+.2f y %+.2f  %s",
-                time_s, std::hypot(frame->velocity_px_s[0], frame->velocity_px_s[1]), size_N, kBar,
-                std::string(static_cast<size_t>(filled), '=').c_str(), force_N[0], force_N[1],
-                frame->reason == kFelt ? "felt" : frame->reason.c_str());
-  return line;
-}
 
 /// Makes the folder, if necessary, before a film is played for it. Throws std::invalid_argument
 /// when it cannot be written to.
@@ -201,7 +181,7 @@ int play(const Options& options) {
   if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
   if (fs::path(title).has_filename()) title = fs::path(title).filename();
-  const Screen screen = open_screen(options.headless);
+  const Screen screen = open_screen(options.headless, options.window);
   GstElement* const pipeline =
       options.ball ? make_ball(filter, screen) : make_player(options.video, filter, screen);
   std::printf("playing %s%s\n", title.c_str(),
@@ -220,7 +200,16 @@ int play(const Options& options) {
   };
   PlaybackWatch watch;
   watch.progress = [&] { return progress_line(now_s, record.shown_at(now_s)); };
-  watch.on_motion = [&](const GstStructure* message) { record.add_frame(message); };
+  watch.is_wanted = [&] {
+    gboolean is_open = TRUE;
+    if (options.window) g_object_get(filter, "debug-window", &is_open, nullptr);
+    return is_open != FALSE;
+  };
+  watch.on_motion = [&](const GstStructure* message) {
+    const std::string before = record.track();
+    record.add_frame(message);
+    if (record.track() != before) std::printf("playing %s\n", record.track().c_str());
+  };
   watch.on_moment = [&](double time_s) {
     now_s = time_s;
     record.add_device(stats_of_filter().get(), time_s);
@@ -235,9 +224,7 @@ int play(const Options& options) {
   g_object_get(filter, "max-force", &max_force_N, nullptr);
 
   const bool has_rows = !record.frames().empty() || !record.devices().empty();
-  guint64 track_frames = 0;
-  gst_structure_get_uint64(stats.get(), "track-frames", &track_frames);
-  if (record.frames().empty() && track_frames == 0) {
+  if (record.frames().empty()) {
     throw std::runtime_error(title + ": not one frame was played");
   }
   if (ending == Ending::kInterrupted) std::printf("stopped by the user\n");

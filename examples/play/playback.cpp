@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "examples/play/playback.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -20,11 +21,13 @@ constexpr guint kProgress_ms = 100, kLoggedProgress_ms = 2000;
 struct Playback {
   GstElement* pipeline;
   const std::string film;
+  const int seconds;  ///< of the film, that are played; 0: all
   const PlaybackWatch& watch;
   bool on_terminal;
   GMainLoop* main_loop;
   Ending ending = Ending::kFailed;
   bool buffering = false;
+  int unwanted = 0;                          ///< moments since the window was closed
   std::map<std::string, int> warnings = {};  ///< number of times, by text
 
   void stop(Ending why) {
@@ -176,13 +179,30 @@ gboolean on_signal(void* data) {
   return G_SOURCE_CONTINUE;
 }
 
-gboolean on_time_over(void* data) {
-  static_cast<Playback*>(data)->stop(Ending::kEndOfVideo);
-  return G_SOURCE_CONTINUE;
+/// Of the window that the user asked for; then the video goes on without it.
+bool has_warned_of_window(const Playback& playback) {
+  return std::any_of(playback.warnings.begin(), playback.warnings.end(), [](const auto& warning) {
+    return warning.first.find("debug window") != std::string::npos;
+  });
+}
+
+/// Whether the film has reached this second; in a pause, or while data are awaited, it does not.
+bool is_over(const Playback& playback) {
+  gint64 position_ns = 0;
+  return playback.seconds > 0 &&
+         gst_element_query_position(playback.pipeline, GST_FORMAT_TIME, &position_ns) &&
+         position_ns >= playback.seconds * static_cast<gint64>(GST_SECOND);
 }
 
 gboolean on_moment(void* data) {
-  const auto& playback = *static_cast<Playback*>(data);
+  auto& playback = *static_cast<Playback*>(data);
+  if (is_over(playback)) playback.stop(Ending::kEndOfVideo);
+  // The warning, if there is one, is read by then.
+  constexpr int kMoments = 5;
+  playback.unwanted = playback.watch.is_wanted() ? 0 : playback.unwanted + 1;
+  if (playback.unwanted > kMoments && !has_warned_of_window(playback)) {
+    playback.stop(Ending::kInterrupted);
+  }
   const GstClockTime running = gst_element_get_current_running_time(playback.pipeline);
   if (GST_STATE(playback.pipeline) == GST_STATE_PLAYING && running != GST_CLOCK_TIME_NONE) {
     playback.watch.on_moment(1e-9 * static_cast<double>(running));
@@ -210,7 +230,7 @@ Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
                     const PlaybackWatch& watch) {
   gst_pb_utils_init();
   const bool on_terminal = isatty(STDOUT_FILENO) != 0;
-  Playback playback{pipeline, film, watch, on_terminal, g_main_loop_new(nullptr, FALSE)};
+  Playback playback{pipeline, film, seconds, watch, on_terminal, g_main_loop_new(nullptr, FALSE)};
 
   GstBus* const bus = gst_element_get_bus(pipeline);
   gst_bus_add_watch(bus, on_message, &playback);
@@ -220,10 +240,6 @@ Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
       g_timeout_add(kMoment_ms, on_moment, &playback),
       g_timeout_add(on_terminal ? kProgress_ms : kLoggedProgress_ms, on_progress, &playback),
   };
-
-  if (seconds > 0) {
-    sources.push_back(g_timeout_add_seconds(static_cast<guint>(seconds), on_time_over, &playback));
-  }
 
   // The bus has a message with the reason of a failure.
   gst_element_set_state(pipeline, GST_STATE_PLAYING);

@@ -17,14 +17,16 @@ enum class Ending {
 struct PlaybackWatch {
   /// A line that is shown in place on a terminal, otherwise from time to time.
   std::function<std::string()> progress;
+  /// Whether the user has not closed the window of the video.
+  std::function<bool()> is_wanted;
   /// Takes each message `spidar-motion`.
   std::function<void(const GstStructure*)> on_motion;
   /// Called fifty times a second while the video plays, with its running time.
   std::function<void(double time_s)> on_moment;
 };
 
-/// Plays until the video ends or fails, the user stops it, or `seconds` have passed (0: never).
-/// Prints errors and warnings of the pipeline on standard error and the progress on standard
+/// Plays until the video ends, reaches the second `seconds` (0: none) or fails, or the user stops
+/// it. Prints errors and warnings of the pipeline on standard error and the progress on standard
 /// output. Afterwards the pipeline is still in PLAYING or PAUSED. `film` is its name for messages.
 Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
                     const PlaybackWatch& watch);

@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "examples/play/record.h"
 
+#include <filesystem>
+
 namespace {
 
 double number_of(const GstStructure* structure, const char* name) {
@@ -35,8 +37,13 @@ void Record::add_frame(const GstStructure* message) {
     reasons_.clear();
     shown_ = 0;
   }
+  const std::string track = text_of(message, "track");
+  row.is_measured = track.empty();
+  if (!track.empty()) track_ = std::filesystem::path(track).filename();
   // In the picture y points down.
-  row.velocity_px_s = {number_of(message, "velocity-x"), -number_of(message, "velocity-y")};
+  if (row.is_measured) {
+    row.velocity_px_s = {number_of(message, "velocity-x"), -number_of(message, "velocity-y")};
+  }
   row.force_N = force_of(message);
   row.torque_Nm = number_of(message, "torque-z");
   row.begins_scene = frames_.empty() || text_of(message, "limit") == "nothing-to-compare";

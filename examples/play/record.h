@@ -15,11 +15,11 @@
 /// Of the reason why nothing is felt, in messages and `stats`: something is.
 constexpr const char* kFelt = "none";
 
-/// What a frame asks for. While a haptic track plays, there are none. x is right, y up, z towards
-/// the viewer.
+/// What a frame asks for. x is right, y up, z towards the viewer.
 struct FrameRow {
-  double time_s = 0;  ///< running time at which it is shown
-  std::array<double, 2> velocity_px_s{};
+  double time_s = 0;                      ///< running time at which it is shown
+  bool is_measured = true;                ///< else its force is that of a haptic track
+  std::array<double, 2> velocity_px_s{};  ///< zero unless it is measured
   std::array<double, 3> force_N{};
   double torque_Nm = 0;  ///< about z
   /// Why nothing of it is felt, as a word; by the newest frame that shows its picture again.
@@ -47,6 +47,8 @@ class Record {
   /// Without frames that show the previous picture again: its force remains.
   const std::vector<FrameRow>& frames() const { return frames_; }
   size_t repeated() const { return repeated_; }
+  /// File name of the haptic track that was played last; empty if there was none.
+  const std::string& track() const { return track_; }
   /// Time and word of the reason of every frame, also of those that show a picture again.
   const std::vector<std::pair<double, std::string>>& reasons() const { return reasons_; }
   /// Running times of the first and the last frame, else of the device's rows; 0 without any.
@@ -63,6 +65,7 @@ class Record {
   std::vector<DeviceRow> devices_;
   std::vector<std::pair<double, std::string>> reasons_;
   std::map<std::string, std::string> sentences_;
+  std::string track_;
   size_t repeated_ = 0;
   size_t shown_ = 0;  ///< number of frames that shown_at() has passed
 };

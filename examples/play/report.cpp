@@ -66,12 +66,9 @@ std::string force_line(const Record& record) {
   const bool has_device = !record.devices().empty();
   const auto sizes_N = has_device ? forces_N(record.devices()) : forces_N(record.frames());
   if (sizes_N.empty()) return "Force: none, because no device ran.\n";
-  const auto felt = std::lower_bound(sizes_N.begin(), sizes_N.end(), spidar::kFeltForce_N);
-  return text_of("Force%s: %.2f N in the median, %.2f N at most; %s of the time a hand %s it.\n",
+  return text_of("Force%s: %.2f N in the median, %.2f N at most.\n",
                  has_device ? " at the grip" : " that is wanted", sizes_N[sizes_N.size() / 2],
-                 sizes_N.back(),
-                 percent(static_cast<size_t>(sizes_N.end() - felt), sizes_N.size()).c_str(),
-                 has_device ? "feels" : "would feel");
+                 sizes_N.back());
 }
 
 std::string time_line(const GstStructure* stats) {
@@ -83,11 +80,10 @@ std::string time_line(const GstStructure* stats) {
       median_ms, ms_in(stats, "skew-p99"));
 }
 
-std::string analysis_line(const GstStructure* stats) {
-  const uint64_t track_frames = count_in(stats, "track-frames");
-  if (track_frames > 0) {
-    return text_of("Analysis: none of %" PRIu64 " frames, whose force is that of a haptic track.\n",
-                   track_frames);
+std::string analysis_line(const Record& record, const GstStructure* stats) {
+  if (!record.track().empty()) {
+    return "Analysis: none, because the force is that of the haptic track " + record.track() +
+           ".\n";
   }
   return text_of("Analysis: %.2f ms a frame in the median, %.2f ms at most.\n",
                  ms_in(stats, "analysis-median"), ms_in(stats, "analysis-max"));
@@ -117,8 +113,8 @@ std::string device_line(const GstStructure* stats) {
   return "Device: " + device + ", " + (problems.empty() ? "no problems found" : problems) + ".\n";
 }
 
-/// In how many of the frames nothing was felt and why, the most frequent reason first.
-std::string unfelt_text(const Record& record) {
+/// How many of the frames were felt, and why the others were not, the most frequent reason first.
+std::string felt_text(const Record& record) {
   const auto counted = counted_reasons(record);
   const size_t all = record.reasons().size();
   std::vector<std::pair<std::string, size_t>> reasons(counted.begin(), counted.end());
@@ -127,27 +123,51 @@ std::string unfelt_text(const Record& record) {
   if (reasons.size() == 1 && reasons[0].first != kFelt) {
     return "Nothing was felt: " + record.sentence(reasons[0].first) + "\n";
   }
+  if (all == 0) return {};
   std::string text;
-  size_t unfelt = 0;
   for (const auto& [word, count] : reasons) {
     if (word == kFelt || static_cast<double>(count) < kWorthALine * static_cast<double>(all)) {
       continue;
     }
-    unfelt += count;
     text += "  " + percent(count, all) + "  " + record.sentence(word) + "\n";
   }
-  if (text.empty()) return text;
-  return "Nothing was felt in " + percent(unfelt, all) + " of the frames:\n" + text;
+  const auto felt = counted.find(kFelt);
+  return "Felt: " + percent(felt == counted.end() ? 0 : felt->second, all) + " of the frames" +
+         (text.empty() ? ".\n" : "; the others:\n" + text);
 }
 
 }  // namespace
 
 std::string report_text(const Record& record, const GstStructure* stats, uint64_t shown) {
-  const uint64_t frames =
-      record.frames().size() + record.repeated() + count_in(stats, "track-frames");
   const auto [begin_s, end_s] = record.span_s();
-  return text_of("Video: %.1f s, %" PRIu64 " frames, %" PRIu64 " of them shown.\n", end_s - begin_s,
-                 frames, shown) +
-         force_line(record) + time_line(stats) + analysis_line(stats) + device_line(stats) +
-         unfelt_text(record);
+  // Both counts include what was played before a seek, at which the record begins again.
+  const uint64_t analysed = count_in(stats, "frames");
+  const std::string of_them =
+      record.track().empty() ? text_of("%" PRIu64 " analysed of ", analysed) : "";
+  return text_of("Video: %.1f s, %s%" PRIu64 " frames shown.\n", end_s - begin_s, of_them.c_str(),
+                 shown) +
+         force_line(record) + time_line(stats) + analysis_line(record, stats) + device_line(stats) +
+         felt_text(record);
+}
+
+std::string progress_line(double time_s, const FrameRow* frame) {
+  constexpr int kBar = 20;
+  constexpr double kFullBar_N = 3.0;
+  char line[160];
+  if (!frame) {
+    std::snprintf(line, sizeof line, "%7.1f s", time_s);
+    return line;
+  }
+  const auto& force_N = frame->force_N;
+  const double size_N = std::hypot(force_N[0], force_N[1], force_N[2]);
+  const int filled = std::min(kBar, static_cast<int>(std::lround(kBar * size_N / kFullBar_N)));
+  char speed[24] = "";  // a track does not say how fast anything moves
+  if (frame->is_measured) {
+    std::snprintf(speed, sizeof speed, "  %6.0f px/s",
+                  std::hypot(frame->velocity_px_s[0], frame->velocity_px_s[1]));
+  }
+  std::snprintf(line, sizeof line, "%7.1f s%s  %5.2f N [%-*s] x %+.2f y %+.2f  %s", time_s, speed,
+                size_N, kBar, std::string(static_cast<size_t>(filled), '=').c_str(), force_N[0],
+                force_N[1], frame->reason == kFelt ? "felt" : frame->reason.c_str());
+  return line;
 }

@@ -36,7 +36,8 @@
  * not that of one object), `force-x`, `force-y`, `force-z` (newtons; x right, y up, z towards the
  * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
  * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
- * none or not one alone), `limit` (string: why nothing of this frame is to be felt, "none" when
+ * none or not one alone), `track` (string: the file of the haptic track whose force this is, empty
+ * when the frame was analysed), `limit` (string: why nothing of this frame is to be felt, "none" when
  * something is), `device-limit` (string: the same of the device and the playback) and
  * `limit-reason` and `device-limit-reason` (strings: the same as a sentence, empty for "none").
  * `stats` has them for the picture on the screen.

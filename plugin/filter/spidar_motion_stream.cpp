@@ -50,7 +50,7 @@ static void take_track(GstSpidarMotion* self, const GstVideoInfo& info) {
     const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
     std::shared_ptr<spidar::ReadAhead> blocks = self->felt->judge(*loaded, frame_ns);
     // The wrenches of frames that came before it stay: some of them may be the end of another film.
-    if (blocks) self->engine->set_track(std::move(blocks));
+    if (blocks) self->engine->set_track(std::move(blocks), loaded->path);
   }
   if (!self->felt->check()) self->engine->set_track(nullptr);
 }
@@ -79,7 +79,7 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
 }
 
 static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
-  if (!report.analyzed) {
+  if (!report.has_wrench()) {
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
                      GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.problem));
     return;
@@ -134,7 +134,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     const auto stream_time = static_cast<GstClockTime>(report->frame.stream_ns);
     self->choice->check(report->frame.choice, settings.kept, stream_time);
   }
-  if (report->analyzed && post_messages) {
+  if (report->has_wrench() && post_messages) {
     post_motion_message(GST_ELEMENT(self), frame->buffer, *report, &self->unread_messages);
   }
   return device_goes_on(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;

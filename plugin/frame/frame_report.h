@@ -75,6 +75,9 @@ struct OwnedTrack {
 struct FrameReport {
   FrameProblem problem = FrameProblem::kNone;
   bool analyzed = false;
+  /// The file of the haptic track that is played; null: none. Then nothing of the frame is
+  /// measured.
+  std::shared_ptr<const std::string> track;
   /// In pixels of the frame as it is stored, with its times at the element, and its wrench turned.
   /// While a haptic track is played, only times and wrench.
   Frame frame;
@@ -98,6 +101,9 @@ struct FrameReport {
   std::vector<OwnedTrack> tracks;
   std::vector<ImagePoint> lost;  ///< last positions of the lost points
   std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
+
+  /// There is a wrench, be it of the analysis or of a haptic track.
+  bool has_wrench() const { return analyzed || track; }
 
   /// Nothing is known of the next frame. The memory of this one stays.
   void begin() {

@@ -47,10 +47,12 @@ Wording wording(NoForceReason limit) noexcept {
     case NoForceReason::kNotPlaying:
       return {"not-playing",
               "The video is not playing: it is paused, it is seeking, or its clock stands still."};
+    case NoForceReason::kEnded:
+      return {"ended", "The film has ended."};
     case NoForceReason::kNoFrames:
       return {"no-frames",
-              "No frame was measured in the last second: the video has ended or stalls, or its "
-              "frames have no timestamps."};
+              "No frame was measured in the last second: the video stalls, or its frames have no "
+              "timestamps."};
     case NoForceReason::kNothingToCompare:
       return {"nothing-to-compare",
               "There was nothing to compare a picture with: it is the first one, or each picture "

@@ -11,7 +11,7 @@
 namespace spidar {
 
 /// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
-/// up to kNotPlaying and those from kCannotTouch on are of the device, the playback or, while
+/// up to kEnded and those from kCannotTouch on are of the device, the playback or, while
 /// touching, the contact, and hold for any film; the others are the film's.
 enum class NoForceReason {
   kNone,  ///< the force is not limited
@@ -22,6 +22,7 @@ enum class NoForceReason {
   kVibration,
   kMuted,
   kNotPlaying,
+  kEnded,
   kNoFrames,
   kNothingToCompare,
   kRepeatedFrames,

@@ -84,6 +84,19 @@ TEST_F(ForceLimitTest, NotPlaying) {
   expect_of_device("not-playing");
 }
 
+TEST_F(ForceLimitTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
+  open("device=sim");
+  play();
+  show_moved(kFrames, 2);
+  gst_harness_push_event(h->harness(), gst_event_new_eos());
+  EXPECT_EQ(stats_field("device-limit"), "none") << "two frames are on their way to the screen";
+  tick(2 * kFrame_ms);
+  EXPECT_EQ(stats_field("device-limit"), "ended");
+  EXPECT_EQ(h->engine().no_force_reason(), NoForceReason::kEnded);
+  tick(2000);
+  EXPECT_EQ(h->engine().no_force_reason(), NoForceReason::kEnded) << "and not late";
+}
+
 TEST_F(ForceLimitTest, TheDeviceIsNotRunningYet) {
   open("device=sim");
   tick(kOpened_ms / 3);

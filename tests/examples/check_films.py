@@ -52,8 +52,10 @@ def check_track(play, folder):
     done = subprocess.run([play, "--headless", "--ball", "--seconds", "2", "--output", folder, "--", "device=sim",
                            f"track={track}"], text=True, capture_output=True, timeout=60)
     assert done.returncode == 0 and "warning: " not in done.stderr, done
-    assert "frames, whose force is that of a haptic track." in done.stdout, done.stdout
-    assert "Nothing was felt" not in done.stdout, done.stdout
+    assert "playing ball.wav" in done.stdout, done.stdout
+    assert re.search(r"^ +[\d.]+ s +1\.22 N \[=+ +\] x \+1\.22 y \+0\.00  felt$", done.stdout, re.M), done.stdout
+    assert "Analysis: none, because the force is that of the haptic track ball.wav." in done.stdout, done.stdout
+    assert "Felt: " in done.stdout, done.stdout
     assert os.path.getsize(os.path.join(folder, "spidar-play.png")) > 0
 
 

@@ -111,18 +111,18 @@ TEST(PlayRecord, ARepeatedFrameKeepsTheForceOfItsPicture) {
   EXPECT_EQ(record.reasons().size(), 2u) << "why nothing is felt is said of every frame";
 }
 
-TEST(PlayReport, IsFiveLinesOfWhatAPersonWants) {
+TEST(PlayReport, IsSixLinesOfWhatAPersonWants) {
   Record record;
   for (int number = 0; number <= 100; ++number) add_frame(record, number);
-  const Structure stats = structure(device_stats());
+  const Structure stats = structure(device_stats(", frames=(guint64)99"));
   record.add_device(stats.get(), 1);
-  EXPECT_EQ(report_text(record, stats.get(), 99),
-            "Video: 10.0 s, 101 frames, 99 of them shown.\n"
-            "Force at the grip: 1.00 N in the median, 1.00 N at most; 100.0 % of the time a hand "
-            "feels it.\n"
+  EXPECT_EQ(report_text(record, stats.get(), 101),
+            "Video: 10.0 s, 99 analysed of 101 frames shown.\n"
+            "Force at the grip: 1.00 N in the median, 1.00 N at most.\n"
             "In time: a force comes 0.40 ms after its frame in the median, 0.90 ms at 99 %.\n"
             "Analysis: 0.31 ms a frame in the median, 1.20 ms at most.\n"
-            "Device: sim, no problems found.\n");
+            "Device: sim, no problems found.\n"
+            "Felt: 100.0 % of the frames.\n");
 }
 
 TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
@@ -137,7 +137,8 @@ TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
   }
   add_frame(record, 1000, "late");  // too few for a line
   const std::string text = report_text(record, structure(device_stats()).get(), 1001);
-  EXPECT_NE(text.find("Nothing was felt in 50.0 % of the frames:\n"
+  // 1000 frames, and one that is late.
+  EXPECT_NE(text.find("Felt: 50.0 % of the frames; the others:\n"
                       "  40.0 %  Nothing moves in the picture.\n"
                       "  10.0 %  muted\n"),
             std::string::npos)
@@ -158,27 +159,41 @@ TEST(PlayReport, OfAStillFilmSaysHowLongItIsAndThatItsPictureRemains) {
     add_frame(record, number, "repeated-frames", ", repeated=(boolean)true");
   }
   EXPECT_EQ(record.shown_at(5)->reason, "repeated-frames");
-  const std::string text = report_text(record, structure("stats").get(), 100);
-  for (const char* line : {"Video: 9.9 s, 100 frames, 100 of them shown.\n",
-                           "Nothing was felt in 100.0 % of the frames:\n"
+  const std::string text = report_text(record, structure("stats, frames=(guint64)100").get(), 100);
+  for (const char* line : {"Video: 9.9 s, 100 analysed of 100 frames shown.\n",
+                           "Felt: 0.0 % of the frames; the others:\n"
                            "  99.0 %  repeated-frames\n"
                            "  1.0 %  nothing-to-compare\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   }
 }
 
+constexpr const char* kOfTrack = ", track=(string)/films/film.mp4.haptic.flac";
+
 TEST(PlayReport, SaysWhatWasNotMeasuredAndThatATrackWasPlayed) {
   Record record;
-  add_frame(record, 0);
+  add_frame(record, 0, "none", kOfTrack);
   const std::string text =
-      report_text(record, structure("stats, track-frames=(guint64)300").get(), 0);
+      report_text(record, structure("stats, track-frames=(guint64)300").get(), 300);
   for (const char* line :
-       {"Force that is wanted: 1.00 N", "of the time a hand would feel it.\n",
-        "In time: not measured", "Device: none.", "Video: 0.0 s, 301 frames, 0 of them shown.\n",
-        "Analysis: none of 300 frames, whose force is that of a haptic track.\n"}) {
+       {"Force that is wanted: 1.00 N", "In time: not measured", "Device: none.",
+        "Video: 0.0 s, 300 frames shown.\n",
+        "Analysis: none, because the force is that of the haptic track film.mp4.haptic.flac.\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   }
   EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}
+
+TEST(PlayReport, TheLineOfAFrameWithATrackHasItsForceAndNoSpeed) {
+  Record record;
+  EXPECT_EQ(progress_line(0, nullptr), "    0.0 s");
+  add_frame(record, 1);
+  EXPECT_NE(progress_line(0.1, &record.frames()[0]).find("36 px/s   1.00 N"), std::string::npos);
+  add_frame(record, 2, "none", kOfTrack);
+  const std::string line = progress_line(0.2, &record.frames()[1]);
+  EXPECT_NE(line.find("1.00 N [=======             ] x +1.00 y +0.00  felt"), std::string::npos)
+      << line;
+  EXPECT_EQ(line.find("px/s"), std::string::npos) << line;
 }
 
 TEST(PlayReport, NamesTheProblemsOfTheDevice) {
@@ -250,19 +265,26 @@ TEST(PlayPicture, IsDrawnOfAnyPlayback) {
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     return bytes.size() < 24 ? 0 : GST_READ_UINT32_BE(bytes.data() + 20);
   };
-  constexpr unsigned kPanel_px = 280;
+  // Of curves, and of reasons why nothing is felt: a line for each, and one more.
+  const auto expected = [](unsigned curves, unsigned reasons) {
+    return 98 + 262 * curves + (reasons > 0 ? 66 + 24 * reasons : 0);
+  };
   Record silent;
   silent.add_frame(structure("m, running-time=(guint64)0, limit=(string)nothing-moves").get());
-  EXPECT_EQ(height(silent, 0), 5 * kPanel_px) << "position, velocity, two forces, reasons";
+  EXPECT_EQ(height(silent, 0), expected(0, 1))
+      << "only the reasons: nothing moves, nothing is felt";
+  Record of_track;
+  for (int number = 0; number < 3; ++number) add_frame(of_track, number, "none", kOfTrack);
+  EXPECT_EQ(height(of_track, 3), expected(2, 0)) << "two forces";
   Record moving;
   for (int number = 0; number < 3; ++number) add_frame(moving, number);
-  EXPECT_EQ(height(moving, 3), 4 * kPanel_px);
+  EXPECT_EQ(height(moving, 3), expected(4, 0));
   // Torque is felt, and strings pull.
   moving.add_device(structure("stats, device-state=(string)running, torque-z=(double)0.05, "
                               "tensions=(double)<0.5, 0.7, 0>")
                         .get(),
                     0.1);
-  EXPECT_EQ(height(moving, 3), 6 * kPanel_px);
+  EXPECT_EQ(height(moving, 3), expected(6, 0));
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ MotionMessage parse_motion_message(GstMessage* message) {
   if (const char* const of_device = gst_structure_get_string(s, "device-limit")) {
     m.device_limit = of_device;
   }
+  if (const char* const track = gst_structure_get_string(s, "track")) m.track = track;
   if (const char* const reason = gst_structure_get_string(s, "limit-reason")) {
     m.limit_reason = reason;
   }

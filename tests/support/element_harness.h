@@ -27,6 +27,7 @@ struct MotionMessage {
   bool repeated = false;
   std::string limit, limit_reason;  ///< the latter may be missing
   std::string device_limit;
+  std::string track;
 };
 MotionMessage parse_motion_message(GstMessage* message);
 

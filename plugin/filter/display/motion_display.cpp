@@ -22,7 +22,7 @@ void MotionDisplay::show(FrameReport& report, const DisplayProperties& propertie
   hand_.see(report, width, height);
   const std::shared_ptr<Window> shown_in = window();
   const bool draws = properties.overlay != OverlayKind::kNone;
-  if (!report.analyzed || !(draws || properties.attach_meta || shown_in)) {
+  if (!report.has_wrench() || !(draws || properties.attach_meta || shown_in)) {
     owners_.reset();
     return;
   }
@@ -64,7 +64,8 @@ void MotionDisplay::follow_film(const FrameReport& report) {
     return;
   }
   const bool is_seek = std::llabs(now_ns - film_.stream_ns) > kSeek_ns;
-  if (film_.stream_ns < 0 || !report.frame.has_motion_before() || is_seek) {
+  const bool is_cut = report.analyzed && !report.frame.has_motion_before();
+  if (film_.stream_ns < 0 || is_cut || is_seek) {
     film_.scene_ns = now_ns;
     gint64 length_ns = 0;
     GstPad* const sink = GST_BASE_TRANSFORM_SINK_PAD(element_);

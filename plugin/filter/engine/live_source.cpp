@@ -108,13 +108,10 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
                                    {stream_ns_of(frame.video.buffer, frame.segment), turn_});
   report.limit = limit_of(report.frame, frame.settings.motion);
   to_stored_pixels(report.frame, picture.width);
+  set_shown(frame, turn_, report);
   // The picture is the left or the upper half.
-  report.visible = visible_part(frame.video);
   report.visible.width = picture.width;
   report.visible.height = picture.height;
-  report.motion = frame.settings.motion;
-  report.controller = frame.settings.controller;
-  report.click = frame.settings.kept.click;
   report.took_ns = monotonic_now_ns() - begin_ns;
   return true;
 }
@@ -141,7 +138,6 @@ bool LiveSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport
   // This share of the film's motion is felt, reported and shown in addition to touch.
   motion_share_ = frame.touch.kind == TouchKind::kOff ? 1 : frame.touch.motion_share;
   report.frame.wrench = turn_.to_shown(scaled(report.frame.wrench, motion_share_));
-  report.turn = turn_;
   if (!time.in_place) {
     touch_.add(frame.video, luma, frame.touch, shown_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),

@@ -87,7 +87,8 @@ GstStructure* MotionEngine::stats() const {
   stats_.describe(structure);
   const std::optional<LoopSnapshot> loop = output_.snapshot();
   describe_limits(no_force_watch_.of_film(loop), no_force_watch_.of_device(loop), structure);
-  gst_structure_set(structure, "track-frames", G_TYPE_UINT64, track_.frames(), nullptr);
+  gst_structure_set(structure, "track", G_TYPE_STRING, track_.path().c_str(), "track-frames",
+                    G_TYPE_UINT64, track_.frames(), nullptr);
   touch_.describe(structure);
   output_.describe(structure);
   if (loop) {
@@ -120,8 +121,8 @@ void MotionEngine::restart_timing() {
   no_force_watch_.forget();
 }
 
-void MotionEngine::set_track(std::shared_ptr<ReadAhead> track) {
-  track_.set_track(std::move(track));
+void MotionEngine::set_track(std::shared_ptr<ReadAhead> track, const std::string& path) {
+  track_.set_track(std::move(track), path);
   source_ = track_.has_track() ? static_cast<WrenchSource*>(&track_) : &live_;
 }
 

@@ -77,8 +77,9 @@ class MotionEngine {
   void take_tags(const GstTagList* tags);
   /// How frames are turned before they are shown. What is felt is turned like them.
   const PictureTurn& turn() const { return turn_; }
-  /// Frames are not analysed: the samples of this track are felt. Null: they are again.
-  void set_track(std::shared_ptr<ReadAhead> track);
+  /// Frames are not analysed: the samples of this track, of the file `path`, are felt. Null: they
+  /// are again.
+  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
   /// Valid until the next call. What is only shown of a frame is not filled in yet.
   FrameReport& process(const PassingFrame& frame);
   /// The next frame has nothing to do with the one before.
@@ -92,7 +93,10 @@ class MotionEngine {
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
   /// Nothing more comes.
-  void end_of_stream() { live_.end_of_stream(); }
+  void end_of_stream() {
+    live_.end_of_stream();
+    no_force_watch_.end();
+  }
   /// Where the grip points at the picture as it is shown; nothing while no device runs.
   std::optional<Eigen::Vector2d> grip_place() const { return touch_.grip_place(); }
 
@@ -110,7 +114,7 @@ class MotionEngine {
   PictureTurn turn_;
   FrameTouch touch_{output_};
   LiveSource live_{schedule_, no_force_watch_, touch_, turn_};
-  TrackSource track_{output_, track_samples_, schedule_, no_force_watch_, touch_};
+  TrackSource track_{output_, track_samples_, schedule_, no_force_watch_, touch_, turn_};
   std::mutex skip_mutex_;  // what is skipped reaches schedule and output in the same order
   HapticOutput output_;
   // Streaming thread.

@@ -204,9 +204,18 @@ Wrench TrackReplay::largest(const FramePlace& frame) const {
   return largest;
 }
 
-void TrackSource::set_track(std::shared_ptr<ReadAhead> track) {
+void TrackSource::set_track(std::shared_ptr<ReadAhead> track, const std::string& path) {
+  {
+    const std::lock_guard<std::mutex> lock(path_mutex_);
+    path_ = track ? std::make_shared<const std::string>(path) : nullptr;
+  }
   replay_.set_track(std::move(track));
   frames_ = 0;
+}
+
+std::string TrackSource::path() const {
+  const std::lock_guard<std::mutex> lock(path_mutex_);
+  return path_ ? *path_ : "";
 }
 
 void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const GstSegment& segment,
@@ -219,6 +228,7 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
   ++frames_;
   replay_.play(*place, [this](const TrackBlock& block) { samples_.add(block); });
   report.frame.wrench = replay_.largest(*place);
+  report.frame.interval_ns = place->length_ns;  // so long it is there
   const bool silent = size_N(report.frame.wrench) < kFeltForce_N;
   const std::optional<LoopSnapshot> loop = output_.snapshot();
   const bool weak = !silent && loop && loop->last.max_force_N < kFeltForce_N;
@@ -229,6 +239,9 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
 }
 
 bool TrackSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
+  report.track = path_;
+  set_shown(frame, turn_, report);
+  report.click = 0;  // no object is known
   play(frame.video.buffer, nominal_duration(frame.video.info), frame.segment, running_ns, report);
   if (frame.touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
   touch_.end(times_.at_sink_ns(running_ns));

@@ -9,6 +9,8 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <string>
 
 #include "core/wrench.h"
 #include "plugin/filter/engine/frame_touch.h"
@@ -78,13 +80,20 @@ class TrackSource : public WrenchSource {
   /// All are the engine's, and outlive this. `samples` takes those of the track; `times` knows when
   /// the sink shows a frame.
   TrackSource(const HapticOutput& output, BlockQueue& samples, const WrenchBacklog& times,
-              NoForceWatch& limits, FrameTouch& touch)
-      : output_(output), samples_(samples), times_(times), limits_(limits), touch_(touch) {}
+              NoForceWatch& limits, FrameTouch& touch, const PictureTurn& turn)
+      : output_(output),
+        samples_(samples),
+        times_(times),
+        limits_(limits),
+        touch_(touch),
+        turn_(turn) {}
 
   /// What was given of the track before is felt nevertheless: its frames are on their way to the
-  /// screen.
-  void set_track(std::shared_ptr<ReadAhead> track);
+  /// screen. `path` is its file.
+  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path);
   bool has_track() const { return replay_.has_track(); }
+  /// The file of the track; empty: there is none. Any thread.
+  std::string path() const;
   /// Since set_track(). Any thread.
   uint64_t frames() const { return frames_; }
 
@@ -103,7 +112,10 @@ class TrackSource : public WrenchSource {
   const WrenchBacklog& times_;
   NoForceWatch& limits_;
   FrameTouch& touch_;
+  const PictureTurn& turn_;
   TrackReplay replay_;
+  mutable std::mutex path_mutex_;  // of the pointer
+  std::shared_ptr<const std::string> path_;
   std::atomic<uint64_t> frames_{0};
 };
 

@@ -22,6 +22,15 @@ struct PassingFrame {
   const TouchProperties& touch;
 };
 
+/// What of the settings is shown with the frame.
+inline void set_shown(const PassingFrame& frame, const PictureTurn& turn, FrameReport& report) {
+  report.visible = visible_part(frame.video);
+  report.turn = turn;
+  report.motion = frame.settings.motion;
+  report.controller = frame.settings.controller;
+  report.click = frame.settings.kept.click;
+}
+
 /// Either the analysis of the frames or a haptic track, chosen when the stream starts. Streaming
 /// thread.
 class WrenchSource {

@@ -188,6 +188,7 @@ void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameRepo
                         "features", G_TYPE_UINT, static_cast<guint>(frame.features),            //
                         "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),       //
                         "object", G_TYPE_UINT, frame.felt_object,                               //
+                        "track", G_TYPE_STRING, report.track ? report.track->c_str() : "",      //
                         nullptr);
   set_motion(s, motion_of(frame.motion, frame.wrench));
   gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);

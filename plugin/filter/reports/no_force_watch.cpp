@@ -82,12 +82,19 @@ void NoForceWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason lim
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.add(shown_ns, size_N(wrench), limit);
   newest_ns_ = shown_ns;
+  is_last_ = false;
+}
+
+void NoForceWatch::end() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_last_ = true;
 }
 
 void NoForceWatch::forget() {
   const std::lock_guard<std::mutex> lock(mutex_);
   frames_.forget();
   newest_ns_ = 0;
+  is_last_ = false;
 }
 
 void NoForceWatch::set_muted(bool muted) {
@@ -109,9 +116,16 @@ NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const 
   return frames_.limit(loop ? loop->last.running_ns : newest_ns_);
 }
 
+/// The last frame is on the screen. Without a device, nothing says when that is.
+bool NoForceWatch::has_ended(const std::optional<LoopSnapshot>& loop) const {
+  return is_last_ && (!loop || loop->last.running_ns >= newest_ns_);
+}
+
 NoForceReason NoForceWatch::device(const std::optional<LoopSnapshot>& loop) const {
   if (!loop) return NoForceReason::kNoDevice;
   const NoForceReason reason = limit_of_device(*loop, muted_);
+  const bool is_at_rest = reason == NoForceReason::kNone || reason == NoForceReason::kNotPlaying;
+  if (is_at_rest && has_ended(loop)) return NoForceReason::kEnded;
   if (reason != NoForceReason::kNone) return reason;
   if (touching_) return limit_of_contact(*loop, can_touch_);
   // Of frames that come too late, none may be due in the last second.
@@ -132,6 +146,7 @@ NoForceReason NoForceWatch::of_device(const std::optional<LoopSnapshot>& loop) c
 
 NoForceReason NoForceWatch::first(const std::optional<LoopSnapshot>& loop) const {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (has_ended(loop)) return NoForceReason::kEnded;
   const NoForceReason of_device = device(loop);
   if (touching_) return of_device;
   const NoForceReason of_film = film(loop);

@@ -67,6 +67,8 @@ class NoForceWatch {
   /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
   /// for one that is too weak to feel.
   void add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit);
+  /// No frames come after the one that was added last, until another one is.
+  void end();
   /// Running time begins anew.
   void forget();
   void set_muted(bool muted);
@@ -80,16 +82,19 @@ class NoForceWatch {
   NoForceReason of_film(const std::optional<LoopSnapshot>& loop) const;
   /// The reason of the device, the playback or the contact, now; kNone when there is none.
   NoForceReason of_device(const std::optional<LoopSnapshot>& loop) const;
-  /// The one to be told to a person: the film's if it has one, and else the device's.
+  /// The one to be told to a person: the film's if it has one and has not ended, and else the
+  /// device's.
   NoForceReason first(const std::optional<LoopSnapshot>& loop) const;
 
  private:
   NoForceReason film(const std::optional<LoopSnapshot>& loop) const;
   NoForceReason device(const std::optional<LoopSnapshot>& loop) const;
+  bool has_ended(const std::optional<LoopSnapshot>& loop) const;
 
   mutable std::mutex mutex_;
   NoForceHistory frames_;
   int64_t newest_ns_ = 0;
+  bool is_last_ = false;  ///< the newest
   bool muted_ = false;
   bool touching_ = false;
   bool can_touch_ = true;
