@@ -58,6 +58,15 @@ inline PlotAxis make_axis(double low, double high, int most_steps) {
   return axis;
 }
 
+/// Upper end of an axis of forces up to `largest_N`: one of few round numbers, so that it changes
+/// seldom, and never less than kLeast_N, where hardly anything is felt.
+inline double force_axis_end_N(double largest_N) {
+  constexpr double kLeast_N = 0.1, kHeadroom = 1.1, kSteps = 4;
+  const double end_N = std::max(kHeadroom * largest_N, kLeast_N);
+  const double step_N = round_step(end_N / kSteps);
+  return step_N * std::ceil(end_N / step_N * (1 - PlotAxis::kRounding));
+}
+
 /// Upper end of a range from 0 for these values (≥ 0), which a few outliers do not stretch: the
 /// largest, but at most 1.5 times the value that 95 % of them do not exceed. Where 95 % are zero
 /// there is nothing that an outlier could flatten, and it is the largest. 0 without values.

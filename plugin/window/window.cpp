@@ -254,6 +254,8 @@ void Window::Session::obey(Channel& channel, FromWindow&& message) {
     free_slot(*free);
   } else if (const auto* change = std::get_if<ChangeSetting>(&message)) {
     source_->set(change->name, change->value);
+  } else if (const auto* preset = std::get_if<LoadPreset>(&message)) {
+    source_->load_preset(preset->name);
   } else if (const auto* lead = std::get_if<LeadHand>(&message)) {
     source_->lead_hand(lead->to_m);
   } else if (const auto* choose = std::get_if<ChooseObject>(&message)) {

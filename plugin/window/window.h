@@ -26,6 +26,7 @@ class WindowSource {
   /// Does nothing when there is nothing to look at any more.
   virtual void read(ElementState& state) = 0;
   virtual void set(const std::string& setting, double value) = 0;
+  virtual void load_preset(const std::string& name) = 0;
   virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
   virtual void choose(const std::optional<Eigen::Vector2d>& place) = 0;
   /// From then on the rules hold.

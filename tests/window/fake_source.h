@@ -21,12 +21,21 @@ class FakeSource final : public WindowSource {
     if (state_.name.empty()) state_.name = "fake";
   }
 
+  /// What read() gives from now on.
+  void change(const ElementState& state) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = state;
+    if (state_.name.empty()) state_.name = "fake";
+  }
   void read(ElementState& state) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     state = state_;
   }
   void set(const std::string& setting, double value) override {
     note([&] { sets_.emplace_back(setting, value); });
+  }
+  void load_preset(const std::string& name) override {
+    note([&] { presets_.push_back(name); });
   }
   /// Only what differs from before.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
@@ -44,7 +53,9 @@ class FakeSource final : public WindowSource {
   void play(bool plays) override {
     note([&] { plays_.push_back(plays); });
   }
-  void seek(int64_t) override {}
+  void seek(int64_t to_ns) override {
+    note([&] { seeks_.push_back(to_ns); });
+  }
   void warn(const std::string& what, const std::string&) override {
     note([&] { warnings_.push_back(what); });
   }
@@ -54,7 +65,9 @@ class FakeSource final : public WindowSource {
 
   using Sets = std::vector<std::pair<std::string, double>>;
   Sets wait_for_sets(size_t count) { return wait_for(sets_, count); }
+  std::vector<std::string> wait_for_presets(size_t count) { return wait_for(presets_, count); }
   std::vector<bool> wait_for_plays(size_t count) { return wait_for(plays_, count); }
+  std::vector<int64_t> wait_for_seeks(size_t count) { return wait_for(seeks_, count); }
   using Led = std::vector<std::optional<Eigen::Vector3d>>;
   Led wait_for_led(size_t count) { return wait_for(led_, count); }
   using Places = std::vector<std::optional<Eigen::Vector2d>>;
@@ -85,7 +98,9 @@ class FakeSource final : public WindowSource {
   std::condition_variable changed_;
   ElementState state_;
   Sets sets_;
+  std::vector<std::string> presets_;
   std::vector<bool> plays_;
+  std::vector<int64_t> seeks_;
   Led led_;
   Places choices_;
   Saves saves_;

@@ -35,6 +35,7 @@ inline FrameShown some_frame() {
   report.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
   report.speed_px_s = 321;
   report.click = 2;
+  report.track = std::make_shared<const std::string>("/film.haptic.flac");
   report.touch.on = true;
   report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), PictureTurn(1)};
   report.touch.stiffness_N_m = 300;
@@ -58,6 +59,8 @@ inline ElementState some_state() {
   device.max_tension_N[0] = 5;
   state.settings = {{"controller", "help", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
                     {"max-force", "newtons", Setting::Kind::kNumber, 2, 0, 20, {}}};
+  state.has_ended = true;
+  state.presets = {"film", "gentle"};
   state.no_force = "nothing moves";
   state.rules = std::make_shared<const FeelRules>("0:01-0:02.5 object at 0.25,0.5; 0:03- camera");
   return state;

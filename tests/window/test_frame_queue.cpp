@@ -16,7 +16,7 @@ namespace {
 class Frames {
  public:
   void pass(int64_t running_ns) {
-    WindowFrame frame;
+    WindowFrame frame{};
     frame.picture = SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
     frame.report.frame.running_ns = running_ns;
     queue_.add(std::move(frame));

@@ -45,7 +45,8 @@ std::vector<FromWindow> from_window_messages() {
           PlayFilm{true},
           SeekFilm{1'500'000'000},
           PictureTaken{"no room"},
-          CannotOpen{"no display", "start one"}};
+          CannotOpen{"no display", "start one"},
+          LoadPreset{"gentle"}};
 }
 
 TEST(Messages, AreReadAsTheyWereWritten) {
@@ -76,11 +77,14 @@ TEST(Messages, HaveWhatIsDrawn) {
             PictureTurn(3, true).to_shown(Eigen::Vector2d(1, 0)));
   EXPECT_EQ(frame.report.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
   EXPECT_EQ(frame.report.speed_px_s, 321);
+  EXPECT_EQ(*frame.report.track, "/film.haptic.flac");
   const auto state = std::get<ElementState>(*to_window(to_bytes(ToWindow(some_state()))));
   EXPECT_EQ(state.device->last.tension_N[3], 2.5);
   EXPECT_EQ(state.device->ticks.at(1).wanted_N, Eigen::Vector3d(7, 8, 9));
   EXPECT_EQ(state.setting("controller")->choices.at(1).name, "b");
   EXPECT_EQ(state.rules->text(), some_state().rules->text());
+  EXPECT_TRUE(state.has_ended);
+  EXPECT_EQ(state.presets, some_state().presets);
   const auto save = std::get<SaveChoices>(*from_window(to_bytes(FromWindow(some_choices()))));
   EXPECT_EQ(save.edits.at(0).place, Eigen::Vector2d(0.25, 0.5));
   EXPECT_FALSE(save.edits.at(1).place);

@@ -61,6 +61,18 @@ TEST(PlotAxis, ARangeThatIsNoneBecomesOne) {
   EXPECT_EQ(make_axis(0, 1, 0).ticks().size(), 2u) << "at least one step";
 }
 
+TEST(ForceAxis, FitsWhatIsFelt) {
+  EXPECT_NEAR(force_axis_end_N(0), 0.1, 1e-9);
+  EXPECT_NEAR(force_axis_end_N(0.13), 0.15, 1e-9) << "0.143 N in steps of 0.05 N";
+  EXPECT_NEAR(force_axis_end_N(2.5), 3, 1e-9) << "2.75 N in steps of 1 N";
+  for (double largest_N = 0.1; largest_N < 20; largest_N *= 1.01) {
+    const double end_N = force_axis_end_N(largest_N);
+    EXPECT_GE(end_N, 1.1 * largest_N * (1 - 1e-6));
+    // A step is at most 2.5 times what is asked for, a quarter of the range.
+    EXPECT_LE(end_N, 1.1 * largest_N * (1 + 2.5 / 4));
+  }
+}
+
 TEST(RobustLargest, OneOutlierDoesNotFlattenFiveSeconds) {
   std::vector<double> values(300);
   for (size_t i = 0; i < values.size(); ++i) values[i] = 80 + static_cast<double>(i % 21);

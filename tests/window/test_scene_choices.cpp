@@ -173,6 +173,19 @@ TEST_F(Choices, ThatCannotBeSavedAreNotTriedAgain) {
   EXPECT_TRUE(choices.has_unsaved());
 }
 
+TEST_F(Choices, OfAnObjectThatIsLostSayWhenOnce) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  film.click = 1;
+  film.play(1, 1.5, {1});
+  EXPECT_FALSE(choices.take_lost());
+  film.click = 0;
+  film.play(1.5, 1.9, {});
+  EXPECT_NEAR(1e-9 * static_cast<double>(choices.take_lost().value_or(0)), 1.5, 0.04)
+      << "the frame that was the last one";
+  EXPECT_FALSE(choices.take_lost());
+}
+
 TEST_F(Choices, AndRulesCanBeRemoved) {
   film.play(0, 1, {1});
   choices.choose(object(1, 0.2, {0.25, 0.5}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The data of a debug window, without a window.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -135,6 +136,28 @@ TEST(Settings, AreThoseThatCanBeChangedWhilePlaying) {
   source->read(state);
   EXPECT_EQ(state.value("max-force", 0), 2.5);
   gst_object_unref(element);
+}
+
+TEST(Settings, HavePresets) {
+  init_gstreamer();
+  auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
+  const std::shared_ptr<WindowSource> source =
+      gst_spidar_motion_display(GST_SPIDAR_MOTION(element)).source();
+  ElementState state;
+  source->read(state);
+  ASSERT_NE(std::find(state.presets.begin(), state.presets.end(), "gentle"), state.presets.end());
+  const double before_N = state.value("max-force", 0);
+  source->load_preset("gentle");
+  source->read(state);
+  EXPECT_LT(state.value("max-force", 0), before_N);
+  gst_object_unref(element);
+}
+
+TEST(Layout, OfATrackTheForceHasThePlaceOfTheSpeed) {
+  const WindowLayout l = lay_out(1280, 800, 1, false);
+  EXPECT_NEAR(l.force.right(), l.status.right(), kRounding);
+  EXPECT_EQ(l.speed.width, 0);
+  EXPECT_EQ(l.gain.width, 0);
 }
 
 TEST(Play, IsAskedOfTheApplication) {

@@ -96,6 +96,37 @@ TEST_F(WindowTest, PAsksThePlayerToPauseAndToPlay) {
   }
 }
 
+TEST_F(WindowTest, AtTheEndOfTheFilmPPlaysItAgain) {
+  ElementState state;
+  state.is_playing = true;
+  state.has_ended = true;
+  auto source = std::make_shared<FakeSource>(state);
+  Window window(source);
+  look(window);
+  press(window, GLFW_KEY_P);
+  EXPECT_EQ(source->wait_for_seeks(1)[0], 0);
+  EXPECT_TRUE(source->wait_for_plays(0).empty()) << "it plays already";
+}
+
+TEST_F(WindowTest, TheKeysOneAndTwoChangeBetweenTwoSettings) {
+  ElementState state;
+  state.settings.resize(1);
+  state.settings[0].name = "max-force";
+  state.settings[0].high = 20;
+  state.settings[0].value = 2;
+  auto source = std::make_shared<FakeSource>(state);
+  Window window(source);
+  look(window);
+  press(window, GLFW_KEY_2);
+  look(window);
+  state.settings[0].value = 1.5;
+  source->change(state);
+  look(window);
+  look(window);
+  press(window, GLFW_KEY_1);
+  EXPECT_EQ(source->wait_for_sets(1)[0], (std::pair<std::string, double>("max-force", 2)));
+}
+
 TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
   ElementState state;
   DeviceView& device = state.device.emplace();
@@ -140,6 +171,15 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   ASSERT_EQ(places.size(), 1u);
   ASSERT_TRUE(places[0]);
   EXPECT_NEAR((*places[0] - Eigen::Vector2d(200.0 / 320, 90.0 / 240)).norm(), 0, 1e-9);
+  // Without another frame, as in a pause, its outline is that of an object that is felt: orange.
+  const Screenshot clicked = look(window);
+  const Eigen::Vector2d edge = map_of(clicked)({159.5 + 40, 119.5 - 20 + 30});
+  int orange = 0;
+  for (int down = -2; down <= 2; ++down) {
+    const Color c = at(clicked, edge.x(), edge.y() + down);
+    orange += c.r > 200 && c.g > 140 && c.g < 220 && c.b < 120;
+  }
+  EXPECT_GT(orange, 0);
   report.click = 1;
   report.frame.felt_object = 3;
   give(window, report);

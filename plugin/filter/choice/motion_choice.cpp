@@ -84,6 +84,10 @@ void MotionChoice::apply(bool with_mouse, const PictureTurn& turn, AnalyzerSetti
   if (settings.feel || settings.kept.click != 0) warn_of_mean(settings.motion);
 }
 
+std::string MotionChoice::seen_text() const {
+  return time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND));
+}
+
 void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
   if (!told_.emplace(rule.line, state).second) return;
   const std::string place = place_text(rule.place), end = until(rule);
@@ -109,8 +113,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
     case ChoiceState::kLost:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
-          ("%s, line %d: the object is lost at %s.", name, rule.line,
-           time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND)).c_str()),
+          ("%s, line %d: the object is lost at %s.", name, rule.line, seen_text().c_str()),
           ("It was hidden for too long, or the scene is another. Nothing is felt %s, unless "
            "another rule begins where it is seen again.",
            end.c_str()));
@@ -140,7 +143,8 @@ void MotionChoice::tell_of_click(const KeptObject& kept, ChoiceState state) {
   if (state == ChoiceState::kGood) return;
   mouse_.let_go(kept.click);
   if (state == ChoiceState::kLost) {
-    GST_ELEMENT_INFO(element_, STREAM, FAILED, ("The object that was clicked is lost."),
+    GST_ELEMENT_INFO(element_, STREAM, FAILED,
+                     ("The object that was clicked is lost at %s.", seen_text().c_str()),
                      ("What 'motion' and 'feel' say is felt again."));
   } else {
     GST_ELEMENT_INFO(

@@ -57,6 +57,8 @@ class MotionChoice {
   void warn_of_times(GstPad* sink);
   void warn_of_mean(MotionKind motion);
   void tell_of_rule(const FeelRule& rule, ChoiceState state);
+  /// The time in the film of the frame before.
+  std::string seen_text() const;
   void tell_of_click(const KeptObject& kept, ChoiceState state);
 
   GstElement* const element_;

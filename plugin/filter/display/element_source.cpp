@@ -91,15 +91,21 @@ class ElementSource final : public WindowSource {
     state = {};
     state.name = GST_OBJECT_NAME(held.get());
     state.is_playing = GST_STATE(held.get()) == GST_STATE_PLAYING;
-    if (settings_.empty()) list_settings(held.get(), settings_);
+    if (settings_.empty()) {
+      list_settings(held.get(), settings_);
+      list_presets(held.get(), presets_);
+    }
     state.settings = settings_;
+    state.presets = presets_;
     for (Setting& setting : state.settings) {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     state.rules = choice_.rules();
     // In a pause there was no frame in the last second, whatever the film has.
+    const NoForceReason reason = engine_.no_force_reason();
+    state.has_ended = reason == NoForceReason::kEnded;
     state.no_force =
-        sentence(state.is_playing ? engine_.no_force_reason() : NoForceReason::kNotPlaying);
+        sentence(state.is_playing || state.has_ended ? reason : NoForceReason::kNotPlaying);
     DeviceView device;
     if (engine_.output().look_at_device(device)) state.device = std::move(device);
   }
@@ -125,6 +131,11 @@ class ElementSource final : public WindowSource {
       default:  // booleans, enumerations, and unsigned numbers in the range of an int
         g_object_set(held.get(), property, static_cast<gint>(std::lround(value)), nullptr);
     }
+  }
+
+  void load_preset(const std::string& name) override {
+    const Ref<GstElement> held = hold(element_);
+    if (held) gst_preset_load_preset(GST_PRESET(held.get()), name.c_str());
   }
 
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
@@ -205,11 +216,18 @@ class ElementSource final : public WindowSource {
     g_free(specs);
   }
 
+  static void list_presets(GstElement* element, std::vector<std::string>& presets) {
+    gchar** const names = gst_preset_get_preset_names(GST_PRESET(element));
+    for (gchar** name = names; name && *name; ++name) presets.emplace_back(*name);
+    g_strfreev(names);
+  }
+
   GWeakRef element_;
   // Only while the element is held.
   MotionEngine& engine_;
   MotionChoice& choice_;
   std::vector<Setting> settings_;  ///< without their values
+  std::vector<std::string> presets_;
 };
 
 }  // namespace

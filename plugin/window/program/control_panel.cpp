@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -64,8 +65,13 @@ bool value_widget(const Setting& setting, double& value) {
   return number_widget(setting, value);
 }
 
-void explain(const Brush& brush, const Setting& setting) {
+/// Left of `panel`, so that it covers no widget in it.
+void explain(const Brush& brush, const Rect& panel, const Setting& setting) {
   if (!ImGui::IsItemHovered()) return;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const bool is_low = low.y > ImGui::GetIO().DisplaySize.y / 2;
+  ImGui::SetNextWindowPos({static_cast<float>(panel.x) - brush.px(4), is_low ? high.y : low.y},
+                          ImGuiCond_Always, {1, is_low ? 1.0F : 0.0F});
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(brush.px(kTooltip_px));
   ImGui::TextUnformatted(setting.help.c_str());
@@ -73,32 +79,44 @@ void explain(const Brush& brush, const Setting& setting) {
   ImGui::EndTooltip();
 }
 
-/// One row of the table: name and widget.
-void draw_setting(const Brush& brush, const Setting& setting,
-                  const std::function<void(const std::string&, double)>& set) {
+/// One row of a table: name and widget.
+void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting, ControlsUse& use) {
   ImGui::PushID(setting.name.c_str());
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(setting.name.c_str());
-  explain(brush, setting);
+  explain(brush, panel, setting);
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
   double value = setting.value;
-  if (value_widget(setting, value) && value != setting.value) set(setting.name, value);
-  explain(brush, setting);
+  if (value_widget(setting, value) && value != setting.value) {
+    use.changes.emplace_back(setting.name, value);
+  }
+  explain(brush, panel, setting);
   ImGui::PopID();
 }
 
-}  // namespace
+/// What a viewer sets; all else is of interest to who knows how it works.
+bool is_of_viewer(const Setting& setting) {
+  constexpr std::array<const char*, 4> kNames{"motion", "max-force", "alpha", "touch"};
+  return std::find(kNames.begin(), kNames.end(), setting.name) != kNames.end();
+}
 
-void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                   const std::function<void(const std::string&, double)>& set) {
-  ImGui::SetNextWindowPos(upper_left(panel));
-  ImGui::SetNextWindowSize(im(panel.width, panel.height));
-  ImGui::Begin("controls", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+void draw_table(const Brush& brush, const Rect& panel, const ElementState& state, bool of_viewer,
+                ControlsUse& use) {
+  if (!ImGui::BeginTable(of_viewer ? "settings" : "advanced", 2)) return;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
+                          static_cast<float>(kNameShare * panel.width));
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  for (const Setting& setting : state.settings) {
+    if (setting.name == "mute" || is_of_viewer(setting) != of_viewer) continue;
+    draw_setting(brush, panel, setting, use);
+  }
+  ImGui::EndTable();
+}
+
+void draw_stop(const Brush& brush, const ElementState& state, ControlsUse& use) {
   const bool muted = state.value("mute", 0) != 0;
   ImGui::PushStyleColor(ImGuiCol_Button,
                         muted ? IM_COL32(46, 110, 66, 255) : IM_COL32(176, 48, 48, 255));
@@ -106,20 +124,64 @@ void draw_controls(const Brush& brush, const Rect& panel, const ElementState& st
                         muted ? IM_COL32(56, 132, 80, 255) : IM_COL32(204, 60, 60, 255));
   ImGui::PushFont(brush.fonts.bold);
   if (ImGui::Button(muted ? "Resume force (space)" : "Stop force (space)", {-1, brush.px(30)})) {
-    set("mute", muted ? 0 : 1);
+    use.changes.emplace_back("mute", muted ? 0 : 1);
   }
   ImGui::PopFont();
   ImGui::PopStyleColor(2);
-  if (ImGui::BeginTable("settings", 2)) {
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
-                            static_cast<float>(kNameShare * panel.width));
-    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-    for (const Setting& setting : state.settings) {
-      if (setting.name != "mute") draw_setting(brush, setting, set);
-    }
-    ImGui::EndTable();
+}
+
+/// The two settings, the presets, and a button that takes everything back.
+void draw_choices(const Brush& brush, const Rect& panel, const ElementState& state,
+                  const TwoSettings& settings, ControlsUse& use) {
+  for (const size_t which : {size_t{0}, size_t{1}}) {
+    const bool is_used = settings.used() == which;
+    if (is_used) ImGui::PushStyleColor(ImGuiCol_Button, kAccentColor);
+    if (ImGui::Button(which == 0 ? "1" : "2", {brush.px(26), 0})) use.use = which;
+    if (is_used) ImGui::PopStyleColor();
+    explain_above(panel,
+                  "Two settings to compare, also by the keys 1 and 2: each keeps its changes");
+    ImGui::SameLine();
   }
+  const float reset = ImGui::CalcTextSize("Reset").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(-(reset + ImGui::GetStyle().ItemSpacing.x));
+  if (ImGui::BeginCombo("##preset", "Presets")) {
+    for (const std::string& preset : state.presets) {
+      if (ImGui::Selectable(preset.c_str())) use.preset = preset;
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine();
+  use.resets = ImGui::Button("Reset");
+  explain_above(panel, "All settings as they were when the window was opened");
+}
+
+}  // namespace
+
+void explain_above(const Rect& panel, const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, static_cast<float>(panel.y)},
+                          ImGuiCond_Always, {0, 1});
+  ImGui::SetTooltip("%s", text);
+}
+
+ControlsUse draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
+                          const TwoSettings& settings) {
+  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                      ImGuiWindowFlags_NoSavedSettings;
+  ControlsUse use;
+  ImGui::SetNextWindowPos(upper_left(panel));
+  ImGui::SetNextWindowSize(im(panel.width, panel.height));
+  ImGui::Begin("controls", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+  draw_stop(brush, state, use);
+  draw_choices(brush, panel, state, settings, use);
+  // Only what is below scrolls.
+  ImGui::BeginChild("scrolled");
+  draw_table(brush, panel, state, true, use);
+  if (ImGui::CollapsingHeader("Advanced")) draw_table(brush, panel, state, false, use);
+  ImGui::EndChild();
   ImGui::End();
+  return use;
 }
 
 void draw_switch(const Brush& brush, const Rect& picture, bool& detail) {
@@ -165,10 +227,13 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   char text[96];
   std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(report.frame.running_ns));
   parts.emplace_back(text);
-  std::snprintf(text, sizeof text, "analysis %.1f ms", 1e-6 * static_cast<double>(report.took_ns));
-  parts.emplace_back(text);
-  parts.push_back(count_of(report.tracks.size(), "track"));
-  parts.push_back(count_of(report.frame.objects.size(), "object"));
+  if (!report.track) {
+    std::snprintf(text, sizeof text, "analysis %.1f ms",
+                  1e-6 * static_cast<double>(report.took_ns));
+    parts.emplace_back(text);
+    parts.push_back(count_of(report.tracks.size(), "track"));
+    parts.push_back(count_of(report.frame.objects.size(), "object"));
+  }
   if (state.device) {
     const TickRecord& last = state.device->last;
     parts.push_back(std::string(to_string(last.device)) + (last.playing ? "" : ", not playing"));

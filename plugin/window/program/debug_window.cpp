@@ -81,8 +81,8 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
-  window_ = glfwCreateWindow(kWidth, kHeight, (state_.name + " - what is felt").c_str(), nullptr,
-                             nullptr);
+  title_ = state_.name;
+  window_ = glfwCreateWindow(kWidth, kHeight, title_.c_str(), nullptr, nullptr);
   if (!window_) {
     const char* why = nullptr;
     glfwGetError(&why);
@@ -129,8 +129,18 @@ void DebugWindow::say(const std::string& note) {
   note_until_s_ = now_s() + kNote_s;
 }
 
+/// The name of the film, or of the element where there is no file.
+void DebugWindow::follow_title() {
+  const std::string film = report_.film.name();
+  const std::string title = film.empty() ? state_.name : film.substr(film.rfind('/') + 1);
+  if (title == title_) return;
+  title_ = title;
+  glfwSetWindowTitle(window_, title_.c_str());
+}
+
 void DebugWindow::read() {
   state_ = link_.state();
+  settings_.see(state_.settings);
   const int64_t before_ns = report_.frame.running_ns;
   const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
@@ -148,6 +158,8 @@ void DebugWindow::read() {
     texture_->load(picture_, width);
   }
   if (frame) {
+    if (report_.click != click_before_ || report_.frame.running_ns < before_ns) wished_.reset();
+    follow_title();
     sightings_.see(report_);
     follow_choices(film_before);
     // Another stream, or the same from the beginning: what was learnt is not of it.
@@ -178,6 +190,7 @@ ShownPicture DebugWindow::shown_picture() const {
   picture.arrow_scale = state_.value("arrow-scale", 1);
   picture.max_force_N = report_.controller.max_force_N;
   picture.detail = detail_;
+  picture.wished = wished_;
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
@@ -190,7 +203,8 @@ ShownPicture DebugWindow::shown_picture() const {
 }
 
 void DebugWindow::draw_panels(int width, int height) {
-  const WindowLayout layout = lay_out(width, height, scale_);
+  const bool has_speed = !report_.track;
+  const WindowLayout layout = lay_out(width, height, scale_, has_speed);
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
   const ControllerSettings& controller = report_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
@@ -204,13 +218,14 @@ void DebugWindow::draw_panels(int width, int height) {
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
   draw_choices(brush, layout.timeline);
-  draw_force(brush, layout.force, timeline_, controller.max_force_N);
-  draw_speed(brush, layout.speed, timeline_);
-  draw_gain(brush, layout.gain, timeline_, controller);
+  draw_force(brush, layout.force, timeline_);
+  if (has_speed) {
+    draw_speed(brush, layout.speed, timeline_);
+    draw_gain(brush, layout.gain, timeline_, controller, settings_);
+  }
   if (now_s() > note_until_s_) note_.clear();
   draw_status(brush, layout.status, state_, report_, note_);
-  draw_controls(brush, layout.controls, state_,
-                [this](const std::string& setting, double value) { change(setting, value); });
+  draw_controls_and_use(brush, layout.controls);
   draw_switch(brush, layout.picture, detail_);
 }
 

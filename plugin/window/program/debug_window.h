@@ -58,7 +58,11 @@ class DebugWindow {
   void draw_choices(const Brush& brush, const Rect& panel);
   void draw_panels(int width, int height);
   void save_here();
+  void draw_controls_and_use(const Brush& brush, const Rect& panel);
   void change(const std::string& setting, double value) { link_.change(setting, value); }
+  void use_settings(size_t which);
+  void toggle_play();
+  void follow_title();
   void say(const std::string& note);
 
   PlayerLink& link_;
@@ -76,6 +80,11 @@ class DebugWindow {
   int shown_width_ = 0, loaded_width_ = 0;  // of the picture in the window, and its texture
   MouseHand hand_;
   ObjectClick click_;
+  /// The object of a click of which no frame knows yet, see ShownPicture; and the click before it.
+  std::optional<uint32_t> wished_;
+  uint32_t click_before_ = 0;
+  TwoSettings settings_;
+  std::string title_;
   Sightings sightings_;
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does

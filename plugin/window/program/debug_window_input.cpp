@@ -63,7 +63,11 @@ void DebugWindow::on_key(int key) {
       detail_ = !detail_;
       break;
     case GLFW_KEY_P:
-      link_.play(!state_.is_playing);
+      toggle_play();
+      break;
+    case GLFW_KEY_1:
+    case GLFW_KEY_2:
+      use_settings(static_cast<size_t>(key - GLFW_KEY_1));
       break;
     case GLFW_KEY_C:
       save_choices(&SceneChoices::has_unsaved);
@@ -79,12 +83,33 @@ void DebugWindow::on_key(int key) {
   }
 }
 
+/// At its end the film begins again.
+void DebugWindow::toggle_play() {
+  if (state_.has_ended) link_.seek(0);
+  if (!state_.has_ended || !state_.is_playing) link_.play(!state_.is_playing);
+}
+
+void DebugWindow::use_settings(size_t which) {
+  for (const auto& [name, value] : settings_.use(which)) change(name, value);
+}
+
+void DebugWindow::draw_controls_and_use(const Brush& brush, const Rect& panel) {
+  const ControlsUse use = draw_controls(brush, panel, state_, settings_);
+  for (const auto& [name, value] : use.changes) change(name, value);
+  if (use.resets) {
+    for (const auto& [name, value] : settings_.reset()) change(name, value);
+  }
+  if (use.preset) link_.load_preset(*use.preset);
+  if (use.use) use_settings(*use.use);
+}
+
 /// Only a simulated device has a hand.
 bool DebugWindow::offers_hand() const {
   return state_.device && state_.device->has_hand;
 }
 
-/// What a click does, until the user has clicked once; then only how deep the hand is.
+/// The track that is played, and what a click does, until the user has clicked once; while the hand
+/// touches the picture, how deep it is.
 std::string DebugWindow::hint() const {
   if (hand_.holds() && report_.touch.on) {
     char text[96];
@@ -92,10 +117,12 @@ std::string DebugWindow::hint() const {
                   std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
     return text;
   }
-  if (has_clicked_) return {};
+  const std::string track =
+      report_.track ? "Playing " + report_.track->substr(report_.track->rfind('/') + 1) + ". " : "";
+  if (has_clicked_) return track;
   const char* const choosing = "A click on an object has it felt in this scene. ";
   const char* const leading = "The left button, held in the picture, moves the simulated hand.";
-  return std::string(offers_choice(report_) && !report_.frame.objects.empty() ? choosing : "") +
+  return track + (offers_choice(report_) && !report_.frame.objects.empty() ? choosing : "") +
          (offers_hand() ? leading : "");
 }
 
@@ -126,11 +153,18 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   if (film_before != report_.film.name()) has_ended = choices_[film_before].end_scene();
   // Without this, nothing would be felt until the object is given up.
   if (choices().see(report_) || has_ended) link_.choose(std::nullopt);
+  if (const std::optional<int64_t> lost_ns = choices().take_lost()) {
+    constexpr int64_t kTenth_ns = 100'000'000;
+    say("The chosen object was lost at " + time_text(*lost_ns / kTenth_ns * kTenth_ns) +
+        "; what the settings say is felt again.");
+  }
   save_choices(&SceneChoices::has_late_end);
 }
 
 void DebugWindow::choose(const ObjectWish& wish) {
   link_.choose(wish.place);
+  wished_ = wish.place ? wish.object : 0;
+  click_before_ = report_.click;
   const Sighting* const object = sightings_.find(wish.object);
   if (!wish.place) {
     choices().let_go();
@@ -157,12 +191,11 @@ void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
 
 void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
   const FilmStrip strip = film_strip(report_.film, state_.rules.get(), choices().edits());
-  const double max_force_N = report_.controller.max_force_N;
-  const TimelineUse use = draw_timeline(brush, panel, timeline_, state_.is_playing, max_force_N,
-                                        strip, has_unsaved_choices());
+  const TimelineUse use =
+      draw_timeline(brush, panel, timeline_, state_, strip, has_unsaved_choices());
   if (use.removed) remove_choice(*use.removed);
   if (use.saves) save_choices(&SceneChoices::has_unsaved);
-  if (use.plays) link_.play(*use.plays);
+  if (use.toggles) toggle_play();
   if (use.seek_ns) link_.seek(*use.seek_ns);
 }
 

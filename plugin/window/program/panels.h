@@ -3,15 +3,16 @@
 /// The parts of a debug window, each drawn into its rectangle with Dear ImGui.
 #pragma once
 
-#include <functional>
 #include <imgui.h>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/window/program/model/layout.h"
 #include "plugin/window/program/model/scene_choices.h"
 #include "plugin/window/program/model/timeline.h"
+#include "plugin/window/program/model/two_settings.h"
 #include "plugin/window/program/style.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
@@ -26,6 +27,8 @@ struct ShownPicture {
   double arrow_scale = 1;
   double max_force_N = 0;
   std::optional<TouchMark> touch;
+  /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
+  std::optional<uint32_t> wished;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
 };
 /// The part of the window that shows the visible part of the frame.
@@ -38,11 +41,12 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
 /// The tension of each string as a bar.
 void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state);
 
-void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                double max_force_N);
+/// The axis fits what is felt.
+void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline);
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline);
+/// With the curve of the settings that are not in use, if they are others.
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
-               const ControllerSettings& controller);
+               const ControllerSettings& controller, const TwoSettings& settings);
 
 /// At the lower edge of the picture: what the mouse does.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
@@ -51,14 +55,13 @@ void draw_hint(const Brush& brush, const Rect& picture, const std::string& line)
 struct TimelineUse {
   std::optional<FeelRule> removed;  ///< this one is to be removed
   std::optional<int64_t> seek_ns;   ///< the film is to go on from there
-  std::optional<bool> plays;        ///< the film is to play, or to pause
+  bool toggles = false;             ///< the film is to play, or to pause
   bool saves = false;
 };
-/// The last minute, with a button that pauses the film or plays it. Below it the film with its
-/// choices, which can be saved if there are some that are not.
+/// The last minute, with a button that pauses the film, plays it, or plays it again. Below it the
+/// film with its choices, which can be saved if there are some that are not.
 TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                          bool is_playing, double max_force_N, const FilmStrip& strip,
-                          bool has_unsaved);
+                          const ElementState& state, const FilmStrip& strip, bool has_unsaved);
 
 /// `note`: what the window has to say at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
@@ -66,9 +69,21 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
 
 /// A switch in the upper right corner of the picture.
 void draw_switch(const Brush& brush, const Rect& picture, bool& detail);
-/// Widgets for the settings of the element, the button for rest first.
-void draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                   const std::function<void(const std::string&, double)>& set);
+
+/// What the user wants of the settings.
+struct ControlsUse {
+  std::vector<std::pair<std::string, double>> changes;  ///< by name
+  std::optional<std::string> preset;
+  std::optional<size_t> use;  ///< see TwoSettings::use()
+  bool resets = false;
+};
+/// The button for rest, which stays in sight; the two settings, presets, and widgets for each
+/// setting.
+ControlsUse draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
+                          const TwoSettings& settings);
+
+/// Of the widget drawn last, above `panel`, so that it does not cover what is in it.
+void explain_above(const Rect& panel, const char* text);
 
 /// The mouse in the frame of the window that is drawn, from Dear ImGui.
 Mouse read_mouse();

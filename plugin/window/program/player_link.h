@@ -70,6 +70,7 @@ class PlayerLink {
   void picture_taken(const std::string& problem);
 
   void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }
+  void load_preset(const std::string& name) { send(LoadPreset{name}); }
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m);
   void choose(const std::optional<Eigen::Vector2d>& place) { send(ChooseObject{place}); }
   void play(bool plays) { send(PlayFilm{plays}); }

@@ -58,6 +58,18 @@ void tell_force(double at_s, const ForceColumn& column) {
   ImGui::SetTooltip("%s", text.c_str());
 }
 
+double largest_N(const std::vector<ForceColumn>& columns) {
+  double largest_N = 0;
+  for (const ForceColumn& column : columns) {
+    if (column.is_empty) continue;
+    for (const auto& force_N : {column.wanted_low_N, column.wanted_high_N, column.delivered_low_N,
+                                column.delivered_high_N}) {
+      largest_N = std::max(largest_N, force_N.cwiseAbs().maxCoeff());
+    }
+  }
+  return largest_N;
+}
+
 /// Upper end of an axis of speed: fits what is plotted, whatever one frame says.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
@@ -67,8 +79,7 @@ double highest_speed_px_s(const Timeline& timeline) {
 
 }  // namespace
 
-void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                double max_force_N) {
+void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline) {
   const Timeline::Part moments = timeline.plotted();
   std::string note;
   if (!moments.empty()) {
@@ -77,12 +88,12 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline,
            number("%.0f mN m delivered", 1e3 * felt.torque_Nm.norm());
   }
   const Rect content = draw_panel(brush, panel, "Force", note);
-  const double most_N = std::max(max_force_N, kLeastForce_N);
+  const double end_s = timeline.newest_s(), begin_s = end_s - timeline.plotted_s();
+  const auto pixels = static_cast<size_t>(std::max(content.width, 1.0));
+  const std::vector<ForceColumn> columns = timeline.columns(begin_s, end_s, pixels);
+  const double most_N = force_axis_end_N(largest_N(columns));
   const PlotAxis y = make_axis(-most_N, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "N");
-  const double end_s = timeline.newest_s(), begin_s = end_s - timeline.plotted_s();
-  const auto pixels = static_cast<size_t>(std::max(plot.area().width, 1.0));
-  const std::vector<ForceColumn> columns = timeline.columns(begin_s, end_s, pixels);
   for (Eigen::Index axis = 2; axis >= 0; --axis) {
     const ImU32 color = kAxisColors[axis];
     plot.band(spans(columns, axis, &ForceColumn::wanted_low_N, &ForceColumn::wanted_high_N),
@@ -120,19 +131,28 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
 }
 
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
-               const ControllerSettings& controller) {
+               const ControllerSettings& controller, const TwoSettings& settings) {
   const Rect content = draw_panel(brush, panel, "Speed to force");
   const double highest_px_s = highest_speed_px_s(timeline);
-  const double most_N = std::max(controller.max_force_N, kLeastForce_N);
+  const ControllerSettings other = with_values(controller, settings.other());
+  const double most_N = std::max({controller.max_force_N, other.max_force_N, kLeastForce_N});
   const PlotAxis x = make_axis(0, highest_px_s, Plot::steps_across(brush, content.width));
   const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "px/s", "N");
-  const std::vector<double> curve_N = timeline.gain_curve(controller, highest_px_s, kCurvePoints);
-  std::vector<PlotPoint> curve;
-  for (size_t i = 0; i < curve_N.size(); ++i) {
-    curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
+  const auto draw_curve = [&](const ControllerSettings& of, ImU32 color) {
+    const std::vector<double> curve_N = timeline.gain_curve(of, highest_px_s, kCurvePoints);
+    std::vector<PlotPoint> curve;
+    for (size_t i = 0; i < curve_N.size(); ++i) {
+      curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
+    }
+    plot.line(curve, color);
+  };
+  if (!settings.are_same()) {
+    const bool is_first = settings.used() == 0;
+    draw_curve(other, kMutedColor);
+    plot.legend({{is_first ? "1" : "2", kSpeedColor}, {is_first ? "2" : "1", kMutedColor}});
   }
-  plot.line(curve, kSpeedColor);
+  draw_curve(controller, kSpeedColor);
   const Timeline::Part moments = timeline.plotted();
   if (moments.empty()) return;
   // The controller's force, a part of which may have become torque.

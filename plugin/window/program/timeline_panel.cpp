@@ -86,8 +86,7 @@ void use_strip(const Brush& brush, const Rect& place, const FilmStrip& strip, Ti
 }  // namespace
 
 TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                          bool is_playing, double max_force_N, const FilmStrip& strip,
-                          bool has_unsaved) {
+                          const ElementState& state, const FilmStrip& strip, bool has_unsaved) {
   const Rect left = draw_panel(brush, panel, "Last minute");
   const double button = std::min(96 * brush.scale, left.width / 3);
   const double margin = 10 * brush.scale;
@@ -96,11 +95,13 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
                      std::max(left.width - button - margin, 1.0),
                      std::max(panel.height - 10 * brush.scale - below, 1.0)};
   const PlotAxis x = make_axis(-Timeline::kMemory_s, 0, Plot::steps_across(brush, content.width));
-  const PlotAxis y =
-      make_axis(0, std::max(max_force_N, 0.1), Plot::steps_up(brush, content.height));
-  const Plot plot(brush, content, x, y, "s", "N");
   const std::vector<PlotPoint> force =
-      profile(timeline, static_cast<size_t>(std::max(plot.area().width / 2, 1.0)));
+      profile(timeline, static_cast<size_t>(std::max(content.width / 2, 1.0)));
+  double largest_N = 0;
+  for (const PlotPoint& point : force) largest_N = std::max(largest_N, point.y);
+  const PlotAxis y =
+      make_axis(0, force_axis_end_N(largest_N), Plot::steps_up(brush, content.height));
+  const Plot plot(brush, content, x, y, "s", "N");
   plot.line(force, kFeltColor);
   // What the plots below show.
   brush.list.AddRectFilled(plot.at(-timeline.plotted_s(), y.high), plot.at(0, y.low),
@@ -119,16 +120,15 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
   ImGui::Begin("timeline", nullptr, kBare);
   ImGui::SetCursorScreenPos(im(left.x, left.y + 2 * brush.scale));
   TimelineUse use;
-  if (ImGui::Button(is_playing ? "Pause" : "Play", im(button, 0))) use.plays = !is_playing;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Asks the player for it (P)");
+  const char* const label = state.has_ended ? "Play again" : state.is_playing ? "Pause" : "Play";
+  use.toggles = ImGui::Button(label, im(button, 0));
+  explain_above(panel, "Asks the player for it (P)");
   if (has_unsaved) {
     ImGui::SetCursorScreenPos(im(left.x, left.y + 28 * brush.scale));
     ImGui::PushFont(brush.fonts.small);
     use.saves = ImGui::Button("Save choices", im(button, 0));
     ImGui::PopFont();
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("Writes them as rules into the file beside the film (C)");
-    }
+    explain_above(panel, "Writes them as rules into the file beside the film (C)");
   }
   ImGui::SetCursorScreenPos(upper_left(plot.area()));
   ImGui::InvisibleButton("force", im(plot.area().width, std::max(plot.area().height, 1.0)));

@@ -84,6 +84,11 @@ void pass(Wire& wire, FrameReport& report) {
        report.felt);
   wire.choice(report.motion, MotionKind::kCamera);
   wire(report.controller, report.speed_px_s, report.click, report.touch);
+  std::string track = report.track ? *report.track : "";
+  wire(track);
+  if constexpr (Wire::kReads) {
+    report.track = track.empty() ? nullptr : std::make_shared<const std::string>(std::move(track));
+  }
 }
 
 // --- the element
@@ -166,7 +171,8 @@ void pass(Wire& wire, FrameShown& frame) {
 
 template <typename Wire>
 void pass(Wire& wire, ElementState& state) {
-  wire(state.name, state.is_playing, state.device, state.settings, state.no_force, state.rules);
+  wire(state.name, state.is_playing, state.has_ended, state.device, state.settings, state.presets,
+       state.no_force, state.rules);
 }
 
 template <typename Wire>
@@ -203,6 +209,11 @@ void pass(Wire& wire, SlotFree& free) {
 template <typename Wire>
 void pass(Wire& wire, ChangeSetting& change) {
   wire(change.name, change.value);
+}
+
+template <typename Wire>
+void pass(Wire& wire, LoadPreset& preset) {
+  wire(preset.name);
 }
 
 template <typename Wire>

@@ -23,7 +23,7 @@ namespace spidar {
 
 /// To be raised when a message changes: a player and a window of different versions say so instead
 /// of misunderstanding each other.
-constexpr uint16_t kWindowProtocol = 2;
+constexpr uint16_t kWindowProtocol = 3;
 
 // --- to the window
 
@@ -73,6 +73,9 @@ struct ChangeSetting {
   std::string name;
   double value = 0;
 };
+struct LoadPreset {
+  std::string name;
+};
 /// Where the hand of the simulated device goes, device frame; nothing: it lets go.
 struct LeadHand {
   std::optional<Eigen::Vector3d> to_m;
@@ -104,7 +107,7 @@ struct CannotOpen {
 };
 
 using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
-                                PlayFilm, SeekFilm, PictureTaken, CannotOpen>;
+                                PlayFilm, SeekFilm, PictureTaken, CannotOpen, LoadPreset>;
 
 /// The bytes of a message, from its kind on.
 std::vector<uint8_t> to_bytes(const ToWindow& message);

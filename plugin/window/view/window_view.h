@@ -35,9 +35,11 @@ struct Setting {
 struct ElementState {
   std::string name;
   bool is_playing = false;           ///< its state is PLAYING
+  bool has_ended = false;            ///< the last frame is on the screen
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
-  std::string no_force;  ///< why there was none in the last second; empty: it is felt
+  std::vector<std::string> presets;  ///< by name
+  std::string no_force;              ///< why there was none in the last second; empty: it is felt
   std::shared_ptr<const FeelRules> rules;  ///< of `feel`; null: there are none
 
   /// Null when there is none of this name.
@@ -55,6 +57,7 @@ struct ElementState {
 /// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
 /// that the device gets less stiffness than is set.
 inline std::string felt_line(const ElementState& state, const TouchScene& touch = {}) {
+  if (state.has_ended) return state.no_force;
   if (!state.no_force.empty()) return "not felt: " + state.no_force;
   const double wanted_N_m = state.value("touch-stiffness", 0);
   if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";

@@ -31,7 +31,7 @@ Rect fit(const Rect& outer, double aspect) {
           height};
 }
 
-WindowLayout lay_out(int width, int height, double scale) {
+WindowLayout lay_out(int width, int height, double scale, bool has_speed) {
   const double w = std::max(width, 1), h = std::max(height, 1);
   const double left = kLeft * w, gap = kGap_px * scale / 2;
   const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
@@ -49,9 +49,11 @@ WindowLayout lay_out(int width, int height, double scale) {
   WindowLayout layout;
   layout.picture = place(0, 0, left, timeline_y);
   layout.timeline = place(0, timeline_y, left, plots_y);
-  layout.force = place(0, plots_y, 0.42 * left, status_y);
-  layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
-  layout.gain = place(0.71 * left, plots_y, left, status_y);
+  layout.force = place(0, plots_y, has_speed ? 0.42 * left : left, status_y);
+  if (has_speed) {
+    layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
+    layout.gain = place(0.71 * left, plots_y, left, status_y);
+  }
   layout.status = place(0, status_y, left, h);
   const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
   layout.grip = place(left, 0, w, tensions_y);

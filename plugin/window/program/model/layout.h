@@ -17,8 +17,9 @@ struct WindowLayout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
   Rect grip, tensions, controls;                       ///< right
 };
-/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read.
-WindowLayout lay_out(int width, int height, double scale);
+/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. Where no
+/// speed is measured, the force has the place of the plots of speed.
+WindowLayout lay_out(int width, int height, double scale, bool has_speed = true);
 
 /// From pixels of the frame to pixels of the window.
 struct PictureMap {

@@ -79,7 +79,9 @@ void SceneChoices::follow(Choice& choice, const FrameReport& report) {
   const bool is_lost = choice.is_kept && !is_kept;
   choice.is_kept = is_kept;
   choice.edit.to_ns = whole(is_lost ? choice.seen_ns : end_ns_);
-  if (is_lost) choice.grows = choice.is_saved = false;
+  if (!is_lost) return;
+  choice.grows = choice.is_saved = false;
+  lost_ns_ = choice.seen_ns;
 }
 
 bool SceneChoices::end_scene() {

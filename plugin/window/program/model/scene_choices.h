@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,6 +50,9 @@ class SceneChoices {
   /// The next frame that is on the screen. True when a choice ends because its scene has ended.
   bool see(const FrameReport& report);
 
+  /// When the object of a choice was seen last that has been lost since the last call.
+  std::optional<int64_t> take_lost() { return std::exchange(lost_ns_, std::nullopt); }
+
   /// In place of what was chosen in this scene while the object was in sight. Changes nothing where
   /// the time in the film is not known.
   void choose(const Sighting& object);
@@ -87,6 +92,7 @@ class SceneChoices {
   FilmMoment film_;
   int64_t end_ns_ = 0;  ///< of the frame that was seen last
   uint32_t click_ = 0;  ///< the same
+  std::optional<int64_t> lost_ns_;
 };
 
 struct StripMark {

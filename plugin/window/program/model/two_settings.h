@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Two settings of the element to compare, of which one is in use.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/force/gain_controller.h"
+#include "plugin/window/view/window_view.h"
+
+namespace spidar {
+
+/// Values by the names of the settings.
+using SettingValues = std::map<std::string, double>;
+
+/// Both are those of the element at first; from then on each keeps what is changed while it is in
+/// use. Whether the force is stopped is part of neither.
+class TwoSettings {
+ public:
+  /// So many answers of the element may have been on their way when it was asked for a change; then
+  /// it has refused it.
+  static constexpr int kPatience = 30;
+
+  /// As the element has them now.
+  void see(const std::vector<Setting>& settings) {
+    if (!asked_.empty() && ++answers_ > kPatience) asked_.clear();
+    for (const Setting& setting : settings) {
+      if (setting.name == "mute") continue;
+      const auto [seen, is_new] = seen_.emplace(setting.name, setting.value);
+      if (is_new) {
+        first_[setting.name] = setting.value;
+        for (SettingValues& values : kept_) values[setting.name] = setting.value;
+      }
+      const auto asked = asked_.find(setting.name);
+      if (asked == asked_.end()) {
+        // Only what has changed: the other setting's value may have been refused.
+        if (seen->second != setting.value) kept_[used_][setting.name] = setting.value;
+      } else if (asked->second == setting.value) {
+        asked_.erase(asked);
+      }
+      seen->second = setting.value;
+    }
+  }
+
+  size_t used() const { return used_; }
+  /// The one that is not in use.
+  const SettingValues& other() const { return kept_[1 - used_]; }
+  bool are_same() const { return kept_[0] == kept_[1]; }
+
+  /// From now on `which` (0 or 1) is in use. Returns what is to be set for that.
+  std::vector<std::pair<std::string, double>> use(size_t which) {
+    used_ = which;
+    return changes_to(kept_[which]);
+  }
+  /// What is to be set so that all is as it was seen first, in the one that is in use.
+  std::vector<std::pair<std::string, double>> reset() {
+    kept_[used_] = first_;
+    return changes_to(first_);
+  }
+
+ private:
+  std::vector<std::pair<std::string, double>> changes_to(const SettingValues& values) {
+    std::vector<std::pair<std::string, double>> changes;
+    for (const auto& [name, value] : values) {
+      const auto asked = asked_.find(name);
+      if ((asked == asked_.end() ? seen_.at(name) : asked->second) == value) continue;
+      changes.emplace_back(name, value);
+      asked_[name] = value;
+    }
+    answers_ = 0;
+    return changes;
+  }
+
+  SettingValues first_, seen_;
+  SettingValues asked_;  ///< that were not seen yet
+  int answers_ = 0;      ///< since then
+  std::array<SettingValues, 2> kept_;
+  size_t used_ = 0;
+};
+
+/// `controller` with what these values say of it.
+inline ControllerSettings with_values(ControllerSettings controller, const SettingValues& values) {
+  const auto value = [&](const char* name, double otherwise) {
+    const auto found = values.find(name);
+    return found == values.end() ? otherwise : found->second;
+  };
+  controller.kind = static_cast<ControllerKind>(
+      static_cast<int>(value("controller", static_cast<int>(controller.kind))));
+  controller.max_force_N = value("max-force", controller.max_force_N);
+  controller.alpha_s_px = value("alpha", controller.alpha_s_px);
+  return controller;
+}
+
+}  // namespace spidar
