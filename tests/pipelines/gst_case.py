@@ -32,6 +32,7 @@ class Outcome:
         self.error = ""
         self.warnings = []
         self.forces = []  # of each analysed frame: x and y, N
+        self.of_track = []  # the same, of frames and blocks with a haptic track
 
     def take(self, message):
         if message.type == Gst.MessageType.EOS:
@@ -42,7 +43,8 @@ class Outcome:
             self.warnings.append(message.parse_warning()[0].message)
         elif message.type == Gst.MessageType.ELEMENT and message.get_structure().get_name() == "spidar-motion":
             found = message.get_structure()
-            self.forces.append((found.get_value("force-x"), found.get_value("force-y")))
+            force = (found.get_value("force-x"), found.get_value("force-y"))
+            (self.of_track if found.get_value("track") else self.forces).append(force)
 
     @property
     def largest_N(self):
