@@ -24,7 +24,6 @@ std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
 }
 
 constexpr double kMaxSlew_N_s = 300;
-constexpr double kMostFast = 0.1;
 
 void print_json(const TrackCondition& found, const TrackSummary& summary) {
   nlohmann::ordered_json info;

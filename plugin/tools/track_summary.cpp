@@ -8,40 +8,9 @@
 #include "core/force/motion_rendering.h"
 
 namespace spidar {
-namespace {
-
-constexpr double kCorner_Hz = 30;
-
-}  // namespace
-
-const char* channel_name(size_t channel) {
-  constexpr std::array<const char*, kTrackChannels> kNames = {"fx", "fy", "fz", "tx", "ty", "tz"};
-  return kNames.at(channel);
-}
 
 const char* channel_unit(size_t channel) {
   return channel < kTrackChannels / 2 ? " N" : " N m";
-}
-
-double full_scale(size_t channel) {
-  return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
-}
-
-Summariser::HighPass::HighPass() {
-  const double k = std::tan(M_PI * kCorner_Hz / kTrackRate_Hz);
-  const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
-  b_ = scale;
-  a1_ = 2 * (k * k - 1) * scale;
-  a2_ = (1 - std::sqrt(2.0) * k + k * k) * scale;
-}
-
-double Summariser::HighPass::next(double x) {
-  const double y = b_ * (x - 2 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
-  x2_ = x1_;
-  x1_ = x;
-  y2_ = y1_;
-  y1_ = y;
-  return y;
 }
 
 void Summariser::add(const TrackSample& sample) {
@@ -49,10 +18,8 @@ void Summariser::add(const TrackSample& sample) {
     const double value = sample[channel];
     double& peak = so_far_.channels[channel].peak;
     peak = std::max(peak, std::fabs(value));
-    energy_[channel] += value * value;
-    const double high = filters_[channel].next(value);
-    fast_[channel] += high * high;
   }
+  band_.add(sample);
   const Wrench wrench = to_wrench(sample);
   so_far_.largest_force_N = std::max(so_far_.largest_force_N, wrench.force_N.norm());
   so_far_.largest_torque_Nm = std::max(so_far_.largest_torque_Nm, wrench.torque_Nm.norm());
@@ -71,9 +38,8 @@ TrackSummary Summariser::summary() const {
   const auto samples = static_cast<double>(summary.samples);
   summary.felt = static_cast<double>(felt_) / samples;
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
-    if (energy_[channel] <= 0) continue;
-    summary.channels[channel].rms = std::sqrt(energy_[channel] / samples);
-    summary.channels[channel].above_30_Hz = fast_[channel] / energy_[channel];
+    summary.channels[channel].rms = std::sqrt(band_.energy(channel) / samples);
+    summary.channels[channel].above_30_Hz = band_.above_30_Hz(channel);
   }
   return summary;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/track/track_format.h"
+#include "plugin/tracks/track_band.h"
 
 namespace spidar {
 
@@ -36,29 +37,13 @@ class Summariser {
   TrackSummary summary() const;
 
  private:
-  /// Second-order Butterworth high-pass filter, by the bilinear transform.
-  class HighPass {
-   public:
-    HighPass();
-    double next(double x);
-
-   private:
-    double b_, a1_, a2_;
-    double x1_ = 0, x2_ = 0, y1_ = 0, y2_ = 0;
-  };
-
   TrackSummary so_far_;
-  std::array<HighPass, kTrackChannels> filters_;
-  std::array<double, kTrackChannels> energy_{}, fast_{};
+  TrackBand band_;
   Wrench before_;
   size_t felt_ = 0;
 };
 
-/// "fx", …, "tz".
-const char* channel_name(size_t channel);
 /// " N" or " N m".
 const char* channel_unit(size_t channel);
-/// What a sample of 1.0 is, in that unit.
-double full_scale(size_t channel);
 
 }  // namespace spidar

@@ -67,6 +67,7 @@ std::string TrackInput::set_caps(const GstCaps* caps) {
   }
   info_ = info;
   thinner_.begin(rate_Hz);
+  band_ = TrackBand(rate_Hz / static_cast<double>(thinner_.group()));
   restart();
   return {};
 }
@@ -178,6 +179,7 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
   for (size_t i = first; i < last; ++i) {
     TrackSample next = sample(backwards ? first + last - 1 - i : i, gain);
     if (thinner_.add(next)) {
+      band_.add(next);
       if (block.count == 0) {
         // A mean belongs to the middle of its samples, of which the last one was just added. In
         // reverse playback the first sample ends where the buffer does.
@@ -189,6 +191,7 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
     if (block.count == TrackBlock::kCapacity || (i + 1 == last && block.count > 0)) {
       block.duration_ns =
           std::max<int64_t>(std::llround(static_cast<double>(block.count) * group * period_ns), 1);
+      faults_.sound_channel = band_.sound_channel();
       const GstFlowReturn flow = give(block);
       if (flow != GST_FLOW_OK) return flow;
       block.count = 0;
@@ -239,6 +242,15 @@ void TrackWarnings::check(const TrackFaults& faults, bool has_time, const std::s
                          "the same.",
                          track.c_str(), static_cast<guint64>(faults.beyond_full)),
                         ("Is it ordinary sound?"));
+  }
+  if (faults.sound_channel >= 0 && !is_sound_) {
+    is_sound_ = true;
+    GST_ELEMENT_WARNING(
+        element_, STREAM, WRONG_TYPE,
+        ("%s is sound for ears: more than %g %% of the energy of its channel %s is "
+         "above 30 Hz, which no motion of a film is.",
+         track.c_str(), 100 * kMostFast, channel_name(static_cast<size_t>(faults.sound_channel))),
+        ("See \"spidartrack check\"."));
   }
   if (!has_time && !no_time_) {
     no_time_ = true;

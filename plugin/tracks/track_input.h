@@ -13,13 +13,15 @@
 
 #include "core/track/track_format.h"
 #include "core/track/track_reader.h"
+#include "plugin/tracks/track_band.h"
 
 namespace spidar {
 
-/// What was wrong with the samples of a stream, and how often.
+/// What was wrong with the samples of a stream.
 struct TrackFaults {
   uint64_t not_finite = 0;   ///< samples of which a channel is no number: at rest instead
   uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
+  int sound_channel = -1;    ///< a channel that is sound for ears, see TrackBand; -1: none
 };
 
 /// All that reads samples reads them here, and by all that their caps say: format with its byte
@@ -59,6 +61,7 @@ class TrackInput {
   std::vector<gdouble> doubles_;  // of a buffer, sample by sample
   std::vector<gdouble> plane_;    // of a channel
   std::vector<gint32> integers_;  // as the format unpacks
+  TrackBand band_;
   TrackFaults faults_;
   uint64_t samples_ = 0;
 };
@@ -81,7 +84,8 @@ class TrackWarnings {
  private:
   GstElement* element_;
   // Already posted.
-  bool not_finite_ = false, beyond_full_ = false, no_time_ = false, unmarked_ = false;
+  bool not_finite_ = false, beyond_full_ = false, is_sound_ = false, no_time_ = false,
+       unmarked_ = false;
 };
 
 }  // namespace spidar

@@ -108,8 +108,8 @@ class BadTracks(TrackPlayedCase):
     CASES = (("5 channels", 5, 1000, 0x37), ("8 channels", 8, 1000, 0xc3f), ("not 48000", 6, 48000, 0x3f),
              ("not 96", 6, 96, 0x3f), ("channel-mask 0xc0f", 6, 1000, 0xc0f))
 
-    def film(self, track):
-        return self.play(f"{VIDEO} spidarmotion track={track} ! queue ! fakesink sync=true")
+    def film(self, track, video=VIDEO):
+        return self.play(f"{video} spidarmotion track={track} ! queue ! fakesink sync=true")
 
     def expect_analysed(self, outcome, word):
         self.assertTrue(outcome.eos, outcome.error)
@@ -156,6 +156,20 @@ class BadTracks(TrackPlayedCase):
             self.assertEqual(len(outcome.warnings), 2)
             self.assertIn(first + " that are not numbers", outcome.warnings[0])
             self.assertIn(second + " beyond full scale", outcome.warnings[1])
+
+    def test_sound_in_a_track_is_named_at_each_entrance(self):
+        """Six channels of a tone that is marked as a track, and a swing at a rate that a hand follows."""
+        video = VIDEO.replace(f"num-buffers={FRAMES}", f"num-buffers={4 * FRAMES}")
+        def expect(hertz, is_sound):
+            track = self.path(f"{hertz}.wav")
+            track_case.write_wav(track, [[.1 * math.sin(2 * math.pi * hertz * n / 1000)] * 6 for n in range(4 * MS)])
+            for outcome in (self.film(track, video), self.play(f"filesrc location={track} ! wavparse ! spidarsink")):
+                self.assertTrue(outcome.eos, outcome.error)
+                named = [warning for warning in outcome.warnings if "sound for ears" in warning]
+                self.assertEqual(len(named), is_sound, outcome.warnings)
+
+        expect(100, 1)
+        expect(5, 0)
 
     def test_a_truncated_flac_is_named_for_a_film_and_goes_to_rest_in_the_sink(self):
         self.make_track()

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tracks/track_band.h"
+
+#include <cmath>
+
+#include "core/force/motion_rendering.h"
+
+namespace spidar {
+namespace {
+
+constexpr double kCorner_Hz = 30;
+/// A single step has less of its energy above 30 Hz when it has been felt for so long.
+constexpr double kJudged_s = 1;
+
+/// What a channel has to have to be felt, in fractions of the full scale.
+double least_felt(size_t channel) {
+  return kFeltForce_N * (channel < kTrackChannels / 2 ? 1 : kTorqueArm_m) / full_scale(channel);
+}
+
+}  // namespace
+
+const char* channel_name(size_t channel) {
+  constexpr std::array<const char*, kTrackChannels> kNames = {"fx", "fy", "fz", "tx", "ty", "tz"};
+  return kNames.at(channel);
+}
+
+double full_scale(size_t channel) {
+  return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
+}
+
+TrackBand::TrackBand(double rate_Hz)
+    : rate_Hz_(rate_Hz), filters_{HighPass(rate_Hz), HighPass(rate_Hz), HighPass(rate_Hz),
+                                  HighPass(rate_Hz), HighPass(rate_Hz), HighPass(rate_Hz)} {}
+
+TrackBand::HighPass::HighPass(double rate_Hz) {
+  const double k = std::tan(M_PI * kCorner_Hz / rate_Hz);
+  const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
+  b_ = scale;
+  a1_ = 2 * (k * k - 1) * scale;
+  a2_ = (1 - std::sqrt(2.0) * k + k * k) * scale;
+}
+
+double TrackBand::HighPass::next(double x) {
+  const double y = b_ * (x - 2 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
+  x2_ = x1_;
+  x1_ = x;
+  y2_ = y1_;
+  y1_ = y;
+  return y;
+}
+
+void TrackBand::add(const TrackSample& sample) {
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    const double value = sample[channel];
+    energy_[channel] += value * value;
+    const double high = filters_[channel].next(value);
+    fast_[channel] += high * high;
+    if (std::fabs(value) >= least_felt(channel)) felt_s_[channel] += 1 / rate_Hz_;
+  }
+}
+
+double TrackBand::above_30_Hz(size_t channel) const {
+  return energy_[channel] > 0 ? fast_[channel] / energy_[channel] : 0;
+}
+
+int TrackBand::sound_channel() const {
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    if (felt_s_[channel] >= kJudged_s && above_30_Hz(channel) > kMostFast) {
+      return static_cast<int>(channel);
+    }
+  }
+  return -1;
+}
+
+}  // namespace spidar
