@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The interface of a device with strings: volts out, counts in, and what can go wrong with it.
+/// The interface of a device, and what can go wrong with it.
 #pragma once
 
 #include <array>
@@ -19,15 +19,9 @@ class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExchangeStatus {
-  kOk,
-  kTimeout,   ///< no answer in time; may come back
-  kBadReply,  ///< short, garbled or mismatched answer; may come back
-  kLost,      ///< unplugged or closed: open() again
-};
-
+/// What a link says of an exchange.
 enum class LinkFault : uint8_t {
-  kNone,
+  kNone,         ///< answered
   kTimeout,      ///< no answer in time
   kStall,        ///< the endpoint rejects the packet
   kShort,        ///< fewer bytes than expected
@@ -42,6 +36,12 @@ enum class LinkFault : uint8_t {
   kRefused,      ///< the kernel's driver refuses what it is asked for
 };
 constexpr size_t kLinkFaults = 13;
+
+/// Whether the device has to be opened again. Other faults may pass.
+constexpr bool is_lost(LinkFault fault) noexcept {
+  return fault == LinkFault::kGone || fault == LinkFault::kUnguarded ||
+         fault == LinkFault::kStoodStill;
+}
 
 /// "none", "time-out", "stall", "short packet", …
 constexpr const char* to_string(LinkFault fault) noexcept {
@@ -116,31 +116,35 @@ struct DeviceReading {
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
 };
 
-/// One controller board with its motors. One thread at a time.
-class Device {
+/// A device as a grip has it: `Output` goes out, `Reading` comes in. One thread at a time.
+template <typename Output, typename Reading>
+class DeviceOf {
  public:
-  virtual ~Device() = default;
+  virtual ~DeviceOf() = default;
 
-  /// Claims the board and reads it once; motors stay at zero. Throws DeviceError. After kLost or
-  /// close() it may be called again.
+  /// Claims the device and reads it once; motors stay at zero. Throws DeviceError. After close() or
+  /// when it is_lost() it may be called again.
   virtual void open() = 0;
 
-  /// One cycle: puts out volts, reads counts. Called at 1 kHz: no allocation, no lock, no
-  /// exception. `reading` is only written with kOk.
-  virtual ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept = 0;
+  /// One cycle. Called at 1 kHz: no allocation, no lock, no exception. `reading` is only written
+  /// with kNone.
+  virtual LinkFault exchange(const Output& output, Reading& reading) noexcept = 0;
 
-  /// Motors to zero, then releases the board. Safe to call twice, and after kLost.
+  /// Motors to zero, then releases the device. Safe to call twice, and when it is lost.
   virtual void close() noexcept = 0;
 
   /// A description for people of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
   /// Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
 
-  /// Statistics of the link to the board; all zero for a device without one. Any thread.
+  /// Statistics of the link to the device; all zero without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 
   /// For messages: "sim", "usb:3", …
   virtual const std::string& name() const noexcept = 0;
 };
+
+/// With strings: volts out, counts in.
+using StringDevice = DeviceOf<MotorVolts, DeviceReading>;
 
 }  // namespace spidar

@@ -88,7 +88,7 @@ note(430, 448, "pose of the tick before")
 
 # The link.
 lane(600, 130, "spidar-link, one thread for a board; none for the simulated device", "libusb and the kernel may lock and allocate: the loop waits 0.7 ms at most.", 560)
-exchange = box(355, 655, 180, 58, "spidar", "BoardDevice", "volts out, counts in")
+exchange = box(355, 655, 180, 58, "spidar", "LinkThread", "volts out, counts in")
 board = box(620, 655, 200, 58, "outside", "board", "eight motors, eight encoders")
 guard = box(900, 655, 250, 58, "outside", "spidar-guardian, a process", "zeroes the motors if this one dies")
 arrow(motors["b"], (435, 655))

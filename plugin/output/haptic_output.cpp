@@ -102,7 +102,7 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
                                SimulatedDevice*& simulated) {
   simulated = nullptr;
   if (spec != "sim") return make_grip(spec, profile);
-  std::unique_ptr<Device> device;
+  std::unique_ptr<StringDevice> device;
   if (threaded)
     device = make_device(spec, profile);
   else

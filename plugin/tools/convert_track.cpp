@@ -11,6 +11,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
 #include "plugin/tracks/part_file.h"
+#include "spidar/as_text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -20,7 +21,7 @@ namespace {
 std::string rounded(double value) {
   if (value == 0) return "0";
   const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-  return shown(std::round(value / step) * step);
+  return as_text(std::round(value / step) * step);
 }
 
 /// All channels but `axis` that contain something.

@@ -11,6 +11,7 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
+#include "spidar/as_text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -111,7 +112,7 @@ int check_track(const CheckOptions& options) {
   const bool is_silent = summary.felt == 0;
   if (problems == 0 && !is_silent) std::cout << path << ": ok\n";
   const std::string least =
-      shown(kFeltForce_N) + " N and " + shown(kFeltForce_N * kTorqueArm_m) + " N m";
+      as_text(kFeltForce_N) + " N and " + as_text(kFeltForce_N * kTorqueArm_m) + " N m";
   std::cout << path << ": " << std::lround(100 * summary.felt) << " % of it is felt"
             << (is_silent          ? ": force and torque are below " + least
                 : summary.felt < 1 ? "; in the rest force and torque are below " + least

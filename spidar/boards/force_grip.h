@@ -22,9 +22,7 @@ class ForceGrip final : public Grip {
  public:
   /// Only the settings of the guardian and of the thread are used.
   ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings)
-      : board_(std::move(board)),
-        traits_(traits_of(board_->abilities())),
-        link_(*board_, settings) {}
+      : board_(*board), traits_(traits_of(board_.abilities())), link_(std::move(board), settings) {}
 
   void open() override {
     link_.open();
@@ -38,11 +36,11 @@ class ForceGrip final : public Grip {
     trust_.check_age(now_ns);
     reading_.trouble = trust_.trouble();
   }
-  ExchangeStatus exchange(const GripCommand& command) noexcept override {
+  LinkFault exchange(const GripCommand& command) noexcept override {
     const ForceOutput output = output_for(command);
     ForceReading answer;
-    const ExchangeStatus status = link_.exchange(output, answer);
-    if (status == ExchangeStatus::kOk) {
+    const LinkFault fault = link_.exchange(output, answer);
+    if (fault == LinkFault::kNone) {
       reading_.delivered.force_N = output.force_N;
       see(answer, command);
     } else {
@@ -51,15 +49,15 @@ class ForceGrip final : public Grip {
       if (!trust_.trusted()) reading_.motion.reset();
     }
     reading_.trouble = trust_.trouble();
-    return status;
+    return fault;
   }
   const GripReading& reading() const noexcept override { return reading_; }
   void close() noexcept override { link_.close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
   std::string description() const override { return link_.description(); }
-  GripAbilities abilities() const noexcept override { return board_->abilities(); }
+  GripAbilities abilities() const noexcept override { return board_.abilities(); }
   LinkHealth health() const noexcept override { return link_.health(); }
-  const std::string& name() const noexcept override { return board_->name(); }
+  const std::string& name() const noexcept override { return board_.name(); }
 
  private:
   /// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not
@@ -70,7 +68,7 @@ class ForceGrip final : public Grip {
     return {false, free, 0, free ? Profile::kDriveLag_s : 0};
   }
   ForceOutput output_for(const GripCommand& command) const noexcept {
-    const GripAbilities can = board_->abilities();
+    const GripAbilities can = board_.abilities();
     ForceOutput output;
     output.on = command.power > 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -106,11 +104,11 @@ class ForceGrip final : public Grip {
                                                             : PoseTrouble::kNone;
   }
 
-  const std::unique_ptr<ForceBoard> board_;
+  const ForceBoard& board_;  // of the link
   const GripTraits traits_;
   GripReading reading_;
   PoseTrust trust_;
-  LinkThread<ForceOutput, ForceReading> link_;
+  ForceLink link_;
 };
 
 }  // namespace spidar

@@ -30,27 +30,12 @@ bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
   return true;
 }
 
-ExchangeStatus status_of(LinkFault fault) noexcept {
-  switch (fault) {
-    case LinkFault::kNone:
-      return ExchangeStatus::kOk;
-    case LinkFault::kTimeout:
-      return ExchangeStatus::kTimeout;
-    case LinkFault::kGone:
-    case LinkFault::kUnguarded:
-    case LinkFault::kStoodStill:
-      return ExchangeStatus::kLost;
-    default:
-      return ExchangeStatus::kBadReply;
-  }
-}
-
 }  // namespace
 
 template <typename Output, typename Reading>
-LinkThread<Output, Reading>::LinkThread(BoardOf<Output, Reading>& board,
+LinkThread<Output, Reading>::LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board,
                                         const BoardSettings& settings)
-    : board_(board), settings_(settings) {
+    : board_(std::move(board)), settings_(settings) {
   sem_init(&requested_, 0, 0);
   sem_init(&replied_, 0, 0);
 }
@@ -63,15 +48,15 @@ LinkThread<Output, Reading>::~LinkThread() {
 }
 
 template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::open(const std::function<void()>& prepare) {
+void LinkThread<Output, Reading>::open() {
   close();
-  board_.open();
+  board_->open();
   try {
     if (settings_.guardian) {
-      for (const LastWill& will : board_.last_wills())
-        guardians_.push_back(std::make_unique<Guardian>(board_.name(), will));
+      for (const LastWill& will : board_->last_wills())
+        guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));
     }
-    if (prepare) prepare();
+    zero_counts();
     last_ = {};
     errors_in_a_row_ = 0;
     pulling_ = false;
@@ -79,10 +64,21 @@ void LinkThread<Output, Reading>::open(const std::function<void()>& prepare) {
     if (settings_.threaded) start();
   } catch (...) {
     guardians_.clear();
-    board_.close();
+    board_->close();
     throw;
   }
   open_ = true;
+}
+
+template <typename Output, typename Reading>
+void LinkThread<Output, Reading>::zero_counts() {
+  if (settings_.count_zero != CountZero::kNever && !zeroed_) board_->zero_counts();
+  zeroed_ = true;
+  if (!board_->counts_restarted()) return;
+  count(LinkFault::kCounterJump);
+  throw DeviceError(board_->name() +
+                    ": was without power, its counters do not say any more where the grip is: "
+                    "hold the grip at the centre, and stop and start again");
 }
 
 template <typename Output, typename Reading>
@@ -168,14 +164,14 @@ typename LinkThread<Output, Reading>::Reply LinkThread<Output, Reading>::answer(
 template <typename Output, typename Reading>
 void LinkThread<Output, Reading>::exchange_now(const Request& request, Reply& reply) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
-  reply.fault = board_.cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
+  reply.fault = board_->cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
   if (reply.fault == LinkFault::kNone) {
     round_trip_.add(monotonic_now_ns() - begin_ns);
     errors_in_a_row_ = 0;
   } else if (reply.fault != LinkFault::kGone &&
              (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {
-    board_.recover();
+    board_->recover();
   }
 }
 
@@ -186,15 +182,14 @@ void LinkThread<Output, Reading>::count(LinkFault fault) noexcept {
 }
 
 template <typename Output, typename Reading>
-ExchangeStatus LinkThread<Output, Reading>::exchange(const Output& output,
-                                                     Reading& reading) noexcept {
-  if (!open_) return ExchangeStatus::kLost;
+LinkFault LinkThread<Output, Reading>::exchange(const Output& output, Reading& reading) noexcept {
+  if (!open_) return LinkFault::kGone;
   last_ = output;
   const Request request{++number_, output};
   const std::optional<Reply> reply = settings_.threaded ? ask(request) : answer(request);
-  if (!reply) return ExchangeStatus::kTimeout;
+  if (!reply) return LinkFault::kTimeout;
   if (reply->fault == LinkFault::kNone) reading = reply->reading;
-  return status_of(reply->fault);
+  return reply->fault;
 }
 
 /// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
@@ -225,7 +220,7 @@ bool LinkThread<Output, Reading>::bring_to_zero() noexcept {
   for (int left = pulls(from) ? kRamp_ms - 1 : 0; left > 0; --left) {
     const int64_t now_ns = monotonic_now_ns();
     // If one of several lines is dead, the others must still be ramped down.
-    board_.cycle(scaled(from, 1.0 * left / kRamp_ms), reading, now_ns + kTransfer_ns);
+    board_->cycle(scaled(from, 1.0 * left / kRamp_ms), reading, now_ns + kTransfer_ns);
     if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
   }
   return put_out_zero();
@@ -235,13 +230,13 @@ template <typename Output, typename Reading>
 bool LinkThread<Output, Reading>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
-    const LinkFault fault = board_.cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
+    const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
     // After a counter jump or a strange answer the board has received the output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
         fault == LinkFault::kWrongReply)
       return true;
     if (fault == LinkFault::kGone) break;
-    board_.recover();
+    board_->recover();
   }
   return false;
 }
@@ -252,8 +247,8 @@ void LinkThread<Output, Reading>::close() noexcept {
   open_ = false;
   stop();
   const bool zero = bring_to_zero();
-  if (unguarded_ != LinkFault::kNone) board_.expect_reopening();
-  board_.close();
+  if (unguarded_ != LinkFault::kNone) board_->expect_reopening();
+  board_->close();
   // The guardians keep trying for a while, and stop at once when the board is gone.
   if (!zero)
     for (const auto& guardian : guardians_) guardian->carry_out();
@@ -275,20 +270,5 @@ LinkHealth LinkThread<Output, Reading>::health() const noexcept {
 
 template class LinkThread<MotorVolts, DeviceReading>;
 template class LinkThread<ForceOutput, ForceReading>;
-
-BoardDevice::BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings)
-    : board_(std::move(board)), count_zero_(settings.count_zero), link_(*board_, settings) {}
-
-void BoardDevice::open() {
-  link_.open([this] {
-    if (count_zero_ != CountZero::kNever && !zeroed_) board_->zero_counts();
-    zeroed_ = true;
-    if (!board_->counts_restarted()) return;
-    link_.count(LinkFault::kCounterJump);
-    throw DeviceError(board_->name() +
-                      ": was without power, its counters do not say any more where the grip is: "
-                      "hold the grip at the centre, and stop and start again");
-  });
-}
 
 }  // namespace spidar

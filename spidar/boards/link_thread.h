@@ -7,7 +7,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <semaphore.h>
@@ -33,7 +32,7 @@ namespace spidar {
 ///
 /// `Output` has a function pulls(output), whether it differs from rest, and scaled(output, share).
 template <typename Output, typename Reading>
-class LinkThread {
+class LinkThread final : public DeviceOf<Output, Reading> {
  public:
   /// Share of a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
@@ -43,22 +42,18 @@ class LinkThread {
   /// before.
   static constexpr int kRamp_ms = 20;
 
-  /// `board` outlives the link. Of the settings, those of the guardian and the thread are used.
-  LinkThread(BoardOf<Output, Reading>& board, const BoardSettings& settings);
-  ~LinkThread();
+  /// CountZero::kByProfile is for make_grip(); here it means kFirstOpen.
+  LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board, const BoardSettings& settings);
+  ~LinkThread() override;
 
-  /// `prepare` is called with the open board, under guard, before the first exchange. Throws
-  /// DeviceError, and what it throws.
-  void open(const std::function<void()>& prepare = {});
-  /// See Device.
-  ExchangeStatus exchange(const Output& output, Reading& reading) noexcept;
+  void open() override;
+  LinkFault exchange(const Output& output, Reading& reading) noexcept override;
   /// Ramps to zero, then releases the board. Takes kRamp_ms, or longer if the board does not
   /// answer.
-  void close() noexcept;
-  std::string description() const { return open_ ? board_.description() : ""; }
-  LinkHealth health() const noexcept;
-  /// Adds a fault to the statistics.
-  void count(LinkFault fault) noexcept;
+  void close() noexcept override;
+  std::string description() const override { return open_ ? board_->description() : ""; }
+  const std::string& name() const noexcept override { return board_->name(); }
+  LinkHealth health() const noexcept override;
 
  private:
   struct Request {
@@ -71,6 +66,8 @@ class LinkThread {
     Reading reading;
   };
 
+  void zero_counts();
+  void count(LinkFault fault) noexcept;
   void start();
   void stop() noexcept;
   void run() noexcept;
@@ -83,8 +80,9 @@ class LinkThread {
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
 
-  BoardOf<Output, Reading>& board_;
+  const std::unique_ptr<BoardOf<Output, Reading>> board_;
   const BoardSettings settings_;
+  bool zeroed_ = false;  // the counts have been zeroed once
   std::vector<std::unique_ptr<Guardian>> guardians_;
   bool open_ = false;
   Output last_;
@@ -109,31 +107,7 @@ class LinkThread {
   LatencyHistogram round_trip_;
 };
 
-/// Decides when the counts are set to zero, and leaves all else to the link.
-class BoardDevice final : public Device {
- public:
-  using Link = LinkThread<MotorVolts, DeviceReading>;
-  static constexpr int64_t kReplyWait_ns = Link::kReplyWait_ns;
-  static constexpr int64_t kTransfer_ns = Link::kTransfer_ns;
-  static constexpr int kRamp_ms = Link::kRamp_ms;
-
-  /// CountZero::kByProfile is for make_device(); here it means kFirstOpen.
-  BoardDevice(std::unique_ptr<Board> board, const BoardSettings& settings);
-
-  void open() override;
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
-    return link_.exchange(volts, reading);
-  }
-  void close() noexcept override { link_.close(); }
-  std::string description() const override { return link_.description(); }
-  const std::string& name() const noexcept override { return board_->name(); }
-  LinkHealth health() const noexcept override { return link_.health(); }
-
- private:
-  const std::unique_ptr<Board> board_;
-  const CountZero count_zero_;
-  bool zeroed_ = false;  // the counts have been zeroed once
-  Link link_;
-};
+using StringLink = LinkThread<MotorVolts, DeviceReading>;
+using ForceLink = LinkThread<ForceOutput, ForceReading>;
 
 }  // namespace spidar

@@ -92,7 +92,7 @@ class StickPlace {
 /// exchanges.
 class UpdateWatch {
  public:
-  /// Failures in a row before all exchanges fail, as for a board on USB (see BoardDevice): one
+  /// Failures in a row before all exchanges fail, as for a board on USB (see StringLink): one
   /// fault may concern only one packet.
   static constexpr uint32_t kFailures = 3;
   /// Twice the time that the slowest drivers need, about 50 ms, and as long as other exchanges of a

@@ -10,9 +10,9 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/singular_values.h"
 #include "core/quantile.h"
+#include "spidar/as_text.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"
-#include "spidar/profiles/toml_field.h"
 #include "spidar/simulation/grip_model.h"
 
 namespace spidar {
@@ -202,9 +202,9 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
     const double range_m = (held.maxCoeff() - held.minCoeff()) * m_per_count;
     if (range_m > kMaxHeldRange_m)
       throw std::invalid_argument(
-          "calibration: the grip was not held still: the length of string " + shown(i) +
-          " changed by " + shown(1e3 * range_m) + " mm, must be less than " +
-          shown(1e3 * kMaxHeldRange_m) + " mm");
+          "calibration: the grip was not held still: the length of string " + as_text(i) +
+          " changed by " + as_text(1e3 * range_m) + " mm, must be less than " +
+          as_text(1e3 * kMaxHeldRange_m) + " mm");
     squares_m2 += (m_per_count * (held.array() - held.mean())).square().mean();
   }
   const Eigen::VectorXd mean = counts.colwise().mean();
@@ -240,7 +240,7 @@ Profile calibrated_profile(const Profile& profile, const CalibrationResult& resu
     calibrated.drives[i].metres_per_count *= result.scale;
   }
   const std::string note =
-      shown(result.samples) + " samples, residual " + shown(1e6 * result.residual_m) + " um";
+      as_text(result.samples) + " samples, residual " + as_text(1e6 * result.residual_m) + " um";
   replace_provenance("home_offset_m", how, note, calibrated.provenance);
   if (result.estimated.free_scale)
     replace_provenance("metres_per_count", how, note, calibrated.provenance);

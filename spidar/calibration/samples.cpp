@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/grip/pose_solver.h"
+#include "spidar/as_text.h"
 #include "spidar/conformance/hold.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
-#include "spidar/profiles/toml_field.h"
 
 namespace spidar {
 namespace {
@@ -29,21 +29,21 @@ void check_samples(const Profile& profile, const CountSamples& counts, int min_s
   const int strings = profile.geometry.count;
   if (strings < min_strings)
     throw std::invalid_argument("calibration: profile \"" + profile.name + "\" has " +
-                                shown(strings) + " strings, must have at least " +
-                                shown(min_strings) +
+                                as_text(strings) + " strings, must have at least " +
+                                as_text(min_strings) +
                                 ": a pose takes six, only those beyond tell anything");
   if (counts.cols() != strings)
-    throw std::invalid_argument("calibration: samples have counts of " + shown(counts.cols()) +
-                                " strings, must have " + shown(strings) + " as profile \"" +
+    throw std::invalid_argument("calibration: samples have counts of " + as_text(counts.cols()) +
+                                " strings, must have " + as_text(strings) + " as profile \"" +
                                 profile.name + "\"");
   if (counts.rows() < kMinCalibrationSamples)
-    throw std::invalid_argument("calibration: " + shown(counts.rows()) +
-                                " samples, must be at least " + shown(kMinCalibrationSamples));
+    throw std::invalid_argument("calibration: " + as_text(counts.rows()) +
+                                " samples, must be at least " + as_text(kMinCalibrationSamples));
   for (Eigen::Index k = 0; k < counts.rows(); ++k)
     for (Eigen::Index i = 0; i < counts.cols(); ++i)
       if (!std::isfinite(counts(k, i)))
-        throw std::invalid_argument("calibration: sample " + shown(k) + ", string " + shown(i) +
-                                    ": the count is " + shown(counts(k, i)) + ", must be finite");
+        throw std::invalid_argument("calibration: sample " + as_text(k) + ", string " + as_text(i) +
+                                    ": the count is " + as_text(counts(k, i)) + ", must be finite");
 }
 
 double rounding_sd_m(const Profile& profile, double averaged) {
@@ -93,7 +93,7 @@ CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings)
 
 }  // namespace
 
-CountSamples record_counts(Device& device, const Profile& profile,
+CountSamples record_counts(StringDevice& device, const Profile& profile,
                            const RecordingSettings& settings, const NextTick& next_tick) {
   constexpr auto kRise = static_cast<int64_t>(HapticLoop::kEnergise_s / kTick_s + 0.5);
   const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));

@@ -50,7 +50,7 @@ using NextTick = std::function<bool(double time_s)>;
 /// Failed exchanges give no sample.
 ///
 /// Throws DeviceError when the device cannot be opened or is lost, and whatever `next_tick` throws.
-CountSamples record_counts(Device& device, const Profile& profile,
+CountSamples record_counts(StringDevice& device, const Profile& profile,
                            const RecordingSettings& settings, const NextTick& next_tick);
 
 /// Moves and rotates in all six directions at once, with incommensurable periods of about two to

@@ -37,8 +37,8 @@ double envelope(double time_s) {
 
 class DelayRun {
  public:
-  DelayRun(Device& device, const Profile& profile, const Pace& pace, const MonotonicClock& now_ns,
-           const DelayTestSettings& settings)
+  DelayRun(StringDevice& device, const Profile& profile, const Pace& pace,
+           const MonotonicClock& now_ns, const DelayTestSettings& settings)
       : device_(device),
         loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
                                            limits(settings))),
@@ -200,7 +200,7 @@ class DelayRun {
     result_.trouble = result_.fit->trouble;
   }
 
-  const Device& device_;
+  const StringDevice& device_;
   const std::unique_ptr<HapticLoop> loop_;
   const Pace& pace_;
   const MonotonicClock& now_ns_;
@@ -216,7 +216,7 @@ class DelayRun {
 
 }  // namespace
 
-DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
+DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const MonotonicClock& now_ns, const DelayTestSettings& settings) {
   if (settings.periods < DelayTestSettings::kFewestPeriods)
     throw std::invalid_argument("measure_delay: " + std::to_string(settings.periods) +
@@ -226,7 +226,7 @@ DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace
 }
 
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns) {
-  const int64_t beyond_ns = std::max<int64_t>(answer_ns - BoardDevice::kReplyWait_ns, 0);
+  const int64_t beyond_ns = std::max<int64_t>(answer_ns - StringLink::kReplyWait_ns, 0);
   const double late_s = kTick_s * static_cast<double>((beyond_ns + kTick_ns - 1) / kTick_ns);
   // The tolerance keeps rounding errors from adding a step.
   constexpr double kStep_s = 1e-4;

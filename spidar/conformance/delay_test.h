@@ -55,7 +55,7 @@ using MonotonicClock = std::function<int64_t()>;
 /// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
 /// be opened.
-DelayTest measure_delay(Device& device, const Profile& profile, const Pace& pace,
+DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const MonotonicClock& now_ns, const DelayTestSettings& settings = {});
 
 /// Largest displacement of the grip by drift of the hand and the force together.
@@ -70,7 +70,7 @@ struct LagVerdict {
 };
 
 /// `answer_ns`: the time after which a board answers in 99 of 100 exchanges. While playing, the
-/// loop does not wait longer than BoardDevice::kReplyWait_ns, and the ticks that later answers cost
+/// loop does not wait longer than StringLink::kReplyWait_ns, and the ticks that later answers cost
 /// are added to the lag.
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);
 

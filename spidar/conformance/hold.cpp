@@ -26,19 +26,19 @@ std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns)
 }
 
 template <typename Value, typename Reading>
-void Hold<Value, Reading>::watch(ExchangeStatus status) {
+void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
-  errors_in_a_row_ = status == ExchangeStatus::kOk ? 0 : errors_in_a_row_ + 1;
-  if (status == ExchangeStatus::kLost || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+  errors_in_a_row_ = fault == LinkFault::kNone ? 0 : errors_in_a_row_ + 1;
+  if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors)
     throw DeviceError(loss_text(name(), health().last_fault, late_ns));
 }
 
 template class Hold<StringVector, DeviceReading>;
 template class Hold<Eigen::Vector3d, GripReading>;
 
-StringHold::StringHold(Device& device, const Profile& profile, Pace pace)
+StringHold::StringHold(StringDevice& device, const Profile& profile, Pace pace)
     : Hold(std::move(pace)), device_(device), profile_(profile) {
   device_.open();
 }
@@ -47,7 +47,7 @@ StringHold::~StringHold() {
   device_.close();
 }
 
-ExchangeStatus StringHold::put_out(const StringVector& tension_N) noexcept {
+LinkFault StringHold::put_out(const StringVector& tension_N) noexcept {
   const StringVector possible_N =
       tension_N.cwiseMax(StringVector::Zero()).cwiseMin(profile_.max_tension_N());
   return device_.exchange(to_volts(possible_N, profile_), reading_);
@@ -76,7 +76,7 @@ ForceHold::~ForceHold() {
   grip_.close();
 }
 
-ExchangeStatus ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {
+LinkFault ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {
   command_.now_ns += kTick_ns;
   command_.wrench.force_N = force_N;
   return grip_.exchange(command_);

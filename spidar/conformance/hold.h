@@ -62,16 +62,16 @@ class Hold {
   explicit Hold(Pace pace) : pace_(std::move(pace)) {}
   ~Hold() = default;
 
-  virtual ExchangeStatus put_out(const Value& value) noexcept = 0;
+  virtual LinkFault put_out(const Value& value) noexcept = 0;
   virtual const Reading& reading() const noexcept = 0;
   virtual LinkHealth health() const noexcept = 0;
   virtual const std::string& name() const noexcept = 0;
 
   /// Returns false when there is no new reading.
   bool exchange() {
-    const ExchangeStatus status = put_out(value_);
-    watch(status);
-    return status == ExchangeStatus::kOk;
+    const LinkFault fault = put_out(value_);
+    watch(fault);
+    return fault == LinkFault::kNone;
   }
 
   const Pace pace_;
@@ -79,7 +79,7 @@ class Hold {
 
  private:
   /// Throws DeviceError.
-  void watch(ExchangeStatus status);
+  void watch(LinkFault fault);
 
   int errors_in_a_row_ = 0;
   int64_t last_ns_ = 0;  // when the latest exchange ended
@@ -89,7 +89,7 @@ class Hold {
 class StringHold final : public Hold<StringVector, DeviceReading> {
  public:
   /// Opens the device with zero tensions. Throws DeviceError.
-  StringHold(Device& device, const Profile& profile, Pace pace);
+  StringHold(StringDevice& device, const Profile& profile, Pace pace);
   /// Closes the device, which takes the tensions to zero.
   ~StringHold();
   StringHold(const StringHold&) = delete;
@@ -102,12 +102,12 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   void reverse_motor(int string);
 
  private:
-  ExchangeStatus put_out(const StringVector& tension_N) noexcept override;
+  LinkFault put_out(const StringVector& tension_N) noexcept override;
   const DeviceReading& reading() const noexcept override { return reading_; }
   LinkHealth health() const noexcept override { return device_.health(); }
   const std::string& name() const noexcept override { return device_.name(); }
 
-  Device& device_;
+  StringDevice& device_;
   Profile profile_;
   DeviceReading reading_;
 };
@@ -129,7 +129,7 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
   }
 
  private:
-  ExchangeStatus put_out(const Eigen::Vector3d& force_N) noexcept override;
+  LinkFault put_out(const Eigen::Vector3d& force_N) noexcept override;
   const GripReading& reading() const noexcept override { return grip_.reading(); }
   LinkHealth health() const noexcept override { return grip_.health(); }
   const std::string& name() const noexcept override { return grip_.name(); }

@@ -20,7 +20,7 @@ constexpr double kSteady = 0.25;
 
 class Asking {
  public:
-  Asking(Device& device, const Profile& profile, const Pace& pace,
+  Asking(StringDevice& device, const Profile& profile, const Pace& pace,
          const WiringTestSettings& settings)
       : device_(device),
         profile_(profile),
@@ -160,7 +160,7 @@ class Asking {
     return profile_.drives[static_cast<size_t>(j)].metres_per_count;
   }
 
-  Device& device_;
+  StringDevice& device_;
   const Profile& profile_;
   const WiringTestSettings settings_;
   const StringVector rest_N_;
@@ -180,7 +180,7 @@ double smallest_answer_m(const Profile& profile) {
   return kCounts * coarsest_m;
 }
 
-WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
+WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                          const WiringTestSettings& settings) {
   WiringAnswers answers;
   std::array<bool, kMaxStrings> all{};
@@ -189,7 +189,7 @@ WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pac
   return answers;
 }
 
-void ask_again(Device& device, const Profile& profile, const Pace& pace,
+void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
                const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers) {
   Asking(device, profile, pace, settings).run(motors, answers);

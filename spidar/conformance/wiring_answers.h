@@ -41,11 +41,11 @@ struct WiringAnswers {
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
 /// hand gives way, the motor unwinds the string or nobody holds the grip.
-WiringAnswers ask_wiring(Device& device, const Profile& profile, const Pace& pace,
+WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                          const WiringTestSettings& settings = {});
 
 /// Pulls these motors again, and replaces their answers.
-void ask_again(Device& device, const Profile& profile, const Pace& pace,
+void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
                const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers);
 

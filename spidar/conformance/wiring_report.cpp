@@ -265,7 +265,7 @@ Profile rewired_profile(const Profile& profile, const WiringReport& report,
   return rewired;
 }
 
-WiringTest test_wiring(Device& device, const Profile& profile, const Pace& pace,
+WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                        const WiringTestSettings& settings,
                        const std::function<void(const WiringReport&)>& repeat) {
   WiringTest test;

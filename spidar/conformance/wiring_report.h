@@ -66,7 +66,7 @@ struct WiringTest {
 /// ask_wiring() and judge_wiring(). As long as the report is not understood, up to kTries times in
 /// all, and something has moved, calls `repeat`, when all tensions are zero, and asks the motors
 /// again that are unclear, or all if none is. Throws DeviceError like ask_wiring().
-WiringTest test_wiring(Device& device, const Profile& profile, const Pace& pace,
+WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                        const WiringTestSettings& settings,
                        const std::function<void(const WiringReport&)>& repeat = {});
 

@@ -97,8 +97,8 @@ class Grip {
  public:
   virtual ~Grip() = default;
 
-  /// Opens the device with nothing that pulls. Throws DeviceError. After kLost or close() it may be
-  /// called again.
+  /// Opens the device with nothing that pulls. Throws DeviceError. After close() or when it
+  /// is_lost() it may be called again.
   virtual void open() = 0;
 
   /// Time passes, also while the device is lost.
@@ -108,14 +108,14 @@ class Grip {
   virtual void check_age(int64_t now_ns) noexcept = 0;
 
   /// One cycle: a wrench out, a pose in. Called at 1 kHz: no allocation, no lock, no exception. If
-  /// the result is not kOk, the device may have received nothing: the next command continues from
+  /// the result is not kNone, the device may have received nothing: the next command continues from
   /// the last one that was answered. The pose can become known only while `command.wrench` is zero.
-  virtual ExchangeStatus exchange(const GripCommand& command) noexcept = 0;
+  virtual LinkFault exchange(const GripCommand& command) noexcept = 0;
 
   /// What the last call has read.
   virtual const GripReading& reading() const noexcept = 0;
 
-  /// Sets the device to rest, then releases it. Safe to call twice, and after kLost.
+  /// Sets the device to rest, then releases it. Safe to call twice, and when it is lost.
   virtual void close() noexcept = 0;
 
   virtual const GripTraits& traits() const noexcept = 0;

@@ -107,7 +107,7 @@ GripAbilities abilities_of(const Profile& profile) {
 
 }  // namespace
 
-StringGrip::StringGrip(const Profile& profile, Device& device)
+StringGrip::StringGrip(const Profile& profile, StringDevice& device)
     : profile_(profile),
       device_(device),
       traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
@@ -117,7 +117,7 @@ StringGrip::StringGrip(const Profile& profile, Device& device)
       tension_slew_(profile),
       heat_(profile) {}
 
-StringGrip::StringGrip(const Profile& profile, std::unique_ptr<Device> device)
+StringGrip::StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device)
     : StringGrip(profile, *device) {
   owned_ = std::move(device);
 }
@@ -167,11 +167,11 @@ void StringGrip::pull(const GripCommand& command) noexcept {
   reading_.held_back = tension_command_.held_back();
 }
 
-ExchangeStatus StringGrip::exchange(const GripCommand& command) noexcept {
+LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
   pull(command);
   DeviceReading answer;
-  const ExchangeStatus status = device_.exchange(to_volts(reading_.tension_N, profile_), answer);
-  if (status == ExchangeStatus::kOk) {
+  const LinkFault fault = device_.exchange(to_volts(reading_.tension_N, profile_), answer);
+  if (fault == LinkFault::kNone) {
     acknowledged_N_ = reading_.tension_N;
     see(answer, command);
   } else {
@@ -181,7 +181,7 @@ ExchangeStatus StringGrip::exchange(const GripCommand& command) noexcept {
     watch_.miss(command.now_ns);
   }
   report();
-  return status;
+  return fault;
 }
 
 void StringGrip::see(const DeviceReading& answer, const GripCommand& command) noexcept {

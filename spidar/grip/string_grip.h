@@ -94,13 +94,13 @@ class StringGrip final : public Grip {
  public:
   /// `device` outlives the grip. Throws std::invalid_argument when the profile has fewer than six
   /// strings.
-  StringGrip(const Profile& profile, Device& device);
-  StringGrip(const Profile& profile, std::unique_ptr<Device> device);
+  StringGrip(const Profile& profile, StringDevice& device);
+  StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device);
 
   void open() override;
   void pass(double passed_s) noexcept override;
   void check_age(int64_t now_ns) noexcept override;
-  ExchangeStatus exchange(const GripCommand& command) noexcept override;
+  LinkFault exchange(const GripCommand& command) noexcept override;
   const GripReading& reading() const noexcept override { return reading_; }
   void close() noexcept override { device_.close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
@@ -115,8 +115,8 @@ class StringGrip final : public Grip {
   void report() noexcept;
 
   const Profile profile_;
-  std::unique_ptr<Device> owned_;
-  Device& device_;
+  std::unique_ptr<StringDevice> owned_;
+  StringDevice& device_;
   const GripTraits traits_;
   const GripAbilities abilities_;
   GripReading reading_;

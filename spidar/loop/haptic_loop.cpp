@@ -231,13 +231,13 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   command.now_ns = record.monotonic_ns;
   const GripReading& grip = grip_->reading();
   const uint64_t pose_errors = grip.pose_errors, string_faults = grip.string_faults;
-  const ExchangeStatus status = grip_->exchange(command);
+  const LinkFault fault = grip_->exchange(command);
   record.delivered = grip.delivered;
   record.tension_N = grip.tension_N;
   if (grip.held_back) ++counters_.held_back_ticks;
   counters_.pose_errors += grip.pose_errors - pose_errors;
   counters_.string_faults += grip.string_faults - string_faults;
-  if (status == ExchangeStatus::kOk) {
+  if (fault == LinkFault::kNone) {
     errors_in_a_row_ = 0;
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
@@ -245,7 +245,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   }
   undo(record);
   ++counters_.exchange_errors;
-  if (status == ExchangeStatus::kLost || ++errors_in_a_row_ >= kMaxErrors) lose();
+  if (is_lost(fault) || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
 /// Nobody needs to be protected from a stick that lets go of the hand.

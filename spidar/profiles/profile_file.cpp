@@ -8,6 +8,7 @@
 
 #include <Eigen/SVD>
 
+#include "spidar/as_text.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/toml_field.h"
 
@@ -48,17 +49,17 @@ constexpr double kMaxResidual_m = 0.05;
 
 void check_length(const TomlField& field, int count) {
   if (field.size() != static_cast<size_t>(count))
-    field.fail("has " + shown(field.size()) + " entries, must have " + shown(count) +
+    field.fail("has " + as_text(field.size()) + " entries, must have " + as_text(count) +
                ", one for each string of geometry.exit");
 }
 
 Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
   if (field.size() != 3)
-    field.fail("has " + shown(field.size()) + " coordinates, must have three: [x, y, z]");
+    field.fail("has " + as_text(field.size()) + " coordinates, must have three: [x, y, z]");
   const Eigen::Vector3d point_m =
       Eigen::Array3d(field[0].number(), field[1].number(), field[2].number()) * scale;
   if (!(point_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m))
-    field.fail("is more than " + shown(kMaxCoordinate_m) +
+    field.fail("is more than " + as_text(kMaxCoordinate_m) +
                " m from the centre; check it and geometry.unit");
   return point_m;
 }
@@ -71,25 +72,25 @@ void check_hold(const TomlField& in, const StringGeometry& geometry) {
     for (size_t k = 0; k < i; ++k)
       if ((geometry.exit_m[i] - geometry.exit_m[k]).norm() < kMinLength_m &&
           (geometry.grip_m[i] - geometry.grip_m[k]).norm() < kMinLength_m)
-        exits[i].fail("is that of string " + shown(k) +
+        exits[i].fail("is that of string " + as_text(k) +
                       ", with the same grip point: two strings cannot be in one place");
   const double radius_m = geometry.grip_radius_m();
   if (radius_m < kMinLength_m)
-    in["grip"].fail("has all points within " + shown(kMinLength_m) +
+    in["grip"].fail("has all points within " + as_text(kMinLength_m) +
                     " m of the grip's origin: the strings could not turn the grip; check it and "
                     "geometry.unit");
   const StructureMatrix W = structure_matrix(geometry, {});
   const double reach = least_reach(W.topRows<3>(), geometry.count);
   if (!(reach >= kMinReach))
     exits.fail("has no string that pulls to one side: with 1 N each, the strings give " +
-               shown(std::max(0.0, reach)) + " N there, must give " + shown(kMinReach) +
+               as_text(std::max(0.0, reach)) + " N there, must give " + as_text(kMinReach) +
                " N or more; the exits enclose the grip");
   Eigen::Matrix<double, 6, Eigen::Dynamic> unit = W.leftCols(geometry.count);
   unit.bottomRows<3>() /= radius_m;
   const double weakest = Eigen::JacobiSVD<Eigen::MatrixXd>(unit).singularValues()[5];
   if (!(weakest >= kMinStiffness))
     in["grip"].fail("leaves a motion of the grip with which no string's length changes (" +
-                    shown(weakest) + ", must be " + shown(kMinStiffness) +
+                    as_text(weakest) + ", must be " + as_text(kMinStiffness) +
                     " or more): no pose could be found");
 }
 
@@ -101,8 +102,8 @@ StringGeometry read_geometry(const TomlField& in) {
 
   const TomlField exits = in["exit"];
   if (exits.size() < kMinStrings || exits.size() > kMaxStrings)
-    exits.fail("has " + shown(exits.size()) + " strings, must have " + shown(kMinStrings) + " to " +
-               shown(kMaxStrings));
+    exits.fail("has " + as_text(exits.size()) + " strings, must have " + as_text(kMinStrings) +
+               " to " + as_text(kMaxStrings));
   StringGeometry geometry;
   geometry.count = static_cast<int>(exits.size());
   const TomlField grips = in["grip"];
@@ -111,7 +112,7 @@ StringGeometry read_geometry(const TomlField& in) {
     geometry.exit_m[i] = point(exits[i], to_D);
     geometry.grip_m[i] = point(grips[i], to_D);
     if ((geometry.exit_m[i] - geometry.grip_m[i]).norm() < kMinLength_m)
-      exits[i].fail("is less than " + shown(kMinLength_m) +
+      exits[i].fail("is less than " + as_text(kMinLength_m) +
                     " m from its grip point: the string would have no direction; check both and "
                     "geometry.unit");
   }
@@ -152,9 +153,9 @@ Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
     values[i] = field[i].number();
     const double length_m = home_m[static_cast<Eigen::Index>(i)] + values[i];
     if (!(length_m > 0 && length_m <= 2 * kMaxCoordinate_m))
-      field[i].fail("is " + shown(values[i]) + ": with the length at the centre the string has " +
-                    shown(length_m) + " m at zero count, must be above zero and at most " +
-                    shown(2 * kMaxCoordinate_m) + " m; the unit is metres");
+      field[i].fail("is " + as_text(values[i]) + ": with the length at the centre the string has " +
+                    as_text(length_m) + " m at zero count, must be above zero and at most " +
+                    as_text(2 * kMaxCoordinate_m) + " m; the unit is metres");
   }
   return values;
 }
@@ -162,41 +163,42 @@ Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
 void check_drive(const TomlField& in, size_t i, const Profile& profile) {
   const StringDrive& drive = profile.drives[i];
   const double dac_max_V = profile.dac_max_V;
-  const std::string string = "string " + shown(i) + ": ";
+  const std::string string = "string " + as_text(i) + ": ";
   if (!(drive.min_tension_N < drive.max_tension_N))
-    in["max_tension_N"].fail(string + shown(drive.max_tension_N) +
+    in["max_tension_N"].fail(string + as_text(drive.max_tension_N) +
                              " N must be above min_tension_N, which is " +
-                             shown(drive.min_tension_N) + " N");
+                             as_text(drive.min_tension_N) + " N");
   if (drive.min_tension_N > kMaxRest_N)
-    in["min_tension_N"].fail(string + shown(drive.min_tension_N) + " N must be at most " +
-                             shown(kMaxRest_N) +
+    in["min_tension_N"].fail(string + as_text(drive.min_tension_N) + " N must be at most " +
+                             as_text(kMaxRest_N) +
                              " N: at rest the strings pull with it, and no limit bounds that");
   if (drive.max_tension_N > kMaxTension_N)
-    in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N must be at most " +
-                             shown(kMaxTension_N) + " N; the unit is newtons");
+    in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N must be at most " +
+                             as_text(kMaxTension_N) + " N; the unit is newtons");
   const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
   if (!(needed_V <= dac_max_V))
-    in["max_tension_N"].fail(string + shown(drive.max_tension_N) + " N needs " + shown(needed_V) +
-                             " V, but dac_max_V is " + shown(dac_max_V) +
+    in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N needs " +
+                             as_text(needed_V) + " V, but dac_max_V is " + as_text(dac_max_V) +
                              "; lower it, or correct newtons_per_volt or dac_max_V");
   const double steps = needed_V / dac_max_V * ((1 << profile.dac_bits) - 1);
   if (!(steps >= kMinSteps))
-    in["newtons_per_volt"].fail(string + shown(drive.newtons_per_volt) + " N/V leaves " +
-                                shown(steps) + " steps of the D/A for max_tension_N, must leave " +
-                                shown(kMinSteps) + " or more; check it, dac_max_V and dac_bits");
+    in["newtons_per_volt"].fail(string + as_text(drive.newtons_per_volt) + " N/V leaves " +
+                                as_text(steps) +
+                                " steps of the D/A for max_tension_N, must leave " +
+                                as_text(kMinSteps) + " or more; check it, dac_max_V and dac_bits");
   if (!(drive.min_tension_N <= drive.continuous_tension_N &&
         drive.continuous_tension_N <= drive.max_tension_N))
-    in["continuous_tension_N"].fail(string + shown(drive.continuous_tension_N) +
-                                    " N must be from min_tension_N, which is " +
-                                    shown(drive.min_tension_N) + " N, to max_tension_N, which is " +
-                                    shown(drive.max_tension_N) + " N");
+    in["continuous_tension_N"].fail(
+        string + as_text(drive.continuous_tension_N) + " N must be from min_tension_N, which is " +
+        as_text(drive.min_tension_N) + " N, to max_tension_N, which is " +
+        as_text(drive.max_tension_N) + " N");
   if (drive.metres_per_count < kMin_m_per_count || drive.metres_per_count > kMax_m_per_count)
-    in["metres_per_count"].fail(string + shown(drive.metres_per_count) + " must be from " +
-                                shown(kMin_m_per_count) + " to " + shown(kMax_m_per_count) +
+    in["metres_per_count"].fail(string + as_text(drive.metres_per_count) + " must be from " +
+                                as_text(kMin_m_per_count) + " to " + as_text(kMax_m_per_count) +
                                 "; the unit is metres");
   if (drive.heating_time_s < kMinHeating_s || drive.heating_time_s > kMaxHeating_s)
-    in["heating_time_s"].fail(string + shown(drive.heating_time_s) + " must be from " +
-                              shown(kMinHeating_s) + " to " + shown(kMaxHeating_s) +
+    in["heating_time_s"].fail(string + as_text(drive.heating_time_s) + " must be from " +
+                              as_text(kMinHeating_s) + " to " + as_text(kMaxHeating_s) +
                               "; the unit is seconds, of the winding");
 }
 
@@ -261,13 +263,14 @@ std::vector<Provenance> read_sources(const TomlField& sources) {
 
 double not_negative(const TomlField& field) {
   const double value = field.number();
-  if (value < 0) field.fail("is " + shown(value) + ", must not be negative");
+  if (value < 0) field.fail("is " + as_text(value) + ", must not be negative");
   return value;
 }
 
 double at_most(const TomlField& field, double value, double most, const std::string& unit) {
   if (!(value <= most))
-    field.fail("is " + shown(value) + ", must be at most " + shown(most) + "; the unit is " + unit);
+    field.fail("is " + as_text(value) + ", must be at most " + as_text(most) + "; the unit is " +
+               unit);
   return value;
 }
 

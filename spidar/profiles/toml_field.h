@@ -8,23 +8,16 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <toml++/toml.h>
 
+#include "spidar/as_text.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
-
-template <typename T>
-std::string shown(const T& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 /// Every accessor throws ProfileError when the value is not what is asked for. Refers to the parsed
 /// document and to `file`, which outlive it.
@@ -89,10 +82,10 @@ class TomlField {
   }
 
   int integer(int low, int high) const {
-    const std::string range = "an integer from " + shown(low) + " to " + shown(high);
+    const std::string range = "an integer from " + as_text(low) + " to " + as_text(high);
     if (!node_->is_integer()) wrong_type(range);
     const int64_t value = node_->as_integer()->get();
-    if (value < low || value > high) fail("is " + shown(value) + ", must be " + range);
+    if (value < low || value > high) fail("is " + as_text(value) + ", must be " + range);
     return static_cast<int>(value);
   }
 
@@ -101,19 +94,19 @@ class TomlField {
     if (!node_->is_number()) wrong_type("a number");
     const double value = node_->is_integer() ? static_cast<double>(node_->as_integer()->get())
                                              : node_->as_floating_point()->get();
-    if (!std::isfinite(value)) fail("is " + shown(value) + ", must be finite");
+    if (!std::isfinite(value)) fail("is " + as_text(value) + ", must be finite");
     return value;
   }
 
   double positive() const {
     const double value = number();
-    if (!(value > 0)) fail("is " + shown(value) + ", must be above zero");
+    if (!(value > 0)) fail("is " + as_text(value) + ", must be above zero");
     return value;
   }
 
  private:
   [[noreturn]] void wrong_type(const std::string& right) const {
-    fail("is " + shown(node_->type()) + ", must be " + right);
+    fail("is " + as_text(node_->type()) + ", must be " + right);
   }
 
   const toml::table& table() const {

@@ -81,7 +81,7 @@ BoardSettings settings_for(const std::string& text, const Profile& profile,
 
 /// Either of the two.
 struct MadeDevice {
-  std::unique_ptr<Device> strings;
+  std::unique_ptr<StringDevice> strings;
   std::unique_ptr<ForceBoard> force;
 };
 
@@ -97,7 +97,7 @@ MadeDevice make(const std::string& text, const Profile& profile, const BoardSett
   if (auto* force = std::get_if<std::unique_ptr<ForceBoard>>(&board))
     return {nullptr, std::move(*force)};
   return {
-      std::make_unique<BoardDevice>(std::get<std::unique_ptr<Board>>(std::move(board)), settings),
+      std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(board)), settings),
       nullptr};
 }
 
@@ -115,8 +115,8 @@ BoardSettings settings_of_simulation() {
   return settings;
 }
 
-std::unique_ptr<Device> make_device(const std::string& text, const Profile& profile,
-                                    const BoardSettings& settings) {
+std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile& profile,
+                                          const BoardSettings& settings) {
   MadeDevice made = make(text, profile, settings_for(text, profile, settings));
   if (!made.strings)
     throw DeviceError(text + ": takes a force; it has no strings, and no encoders");

@@ -34,8 +34,8 @@ std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
 
 /// Makes a device that takes volts and gives counts of the strings. Throws DeviceError as above,
 /// and for a device that takes a force, which has no strings.
-std::unique_ptr<Device> make_device(const std::string& spec, const Profile& profile,
-                                    const BoardSettings& settings = {});
+std::unique_ptr<StringDevice> make_device(const std::string& spec, const Profile& profile,
+                                          const BoardSettings& settings = {});
 
 /// Those of a board behind which everything is simulated: no thread and no guardian. The simulated
 /// user begins at the centre, from which the profile's home offsets are counted.

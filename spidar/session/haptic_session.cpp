@@ -71,7 +71,7 @@ struct HapticSession::Impl {
 HapticSession::HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings)
     : impl_(std::make_unique<Impl>(std::move(grip), settings)) {}
 
-HapticSession::HapticSession(const Profile& profile, std::unique_ptr<Device> device,
+HapticSession::HapticSession(const Profile& profile, std::unique_ptr<StringDevice> device,
                              const SessionSettings& settings)
     : HapticSession(std::make_unique<StringGrip>(profile, std::move(device)), settings) {}
 

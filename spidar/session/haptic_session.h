@@ -33,7 +33,7 @@ class HapticSession {
   explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
   /// Makes a session with a grip on the strings of this device. Throws std::invalid_argument when
   /// the profile has fewer than six strings.
-  HapticSession(const Profile& profile, std::unique_ptr<Device> device,
+  HapticSession(const Profile& profile, std::unique_ptr<StringDevice> device,
                 const SessionSettings& settings = {});
   /// Ramps to rest, then to zero, and closes the device, within some 60 ms. Without a thread, the
   /// ticks of the ramp run immediately, a millisecond apart in the loop's time.

@@ -28,7 +28,7 @@ struct GripModel {
   static constexpr double kMostDelay_s = 0.05;
 };
 
-struct GripState {
+struct DynamicState {
   Pose pose;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
@@ -52,10 +52,10 @@ class GripDynamics {
   /// the position of the hand is given. The grip's origin stays within limit_m() of the
   /// centre: at the limit it stops, losing its outward velocity.
   void advance(const StringVector& target_N, const Pose& hand, double dt_s,
-               GripState& state) const noexcept;
+               DynamicState& state) const noexcept;
 
   /// Wrench of the strings on the grip.
-  Wrench string_wrench(const GripState& state) const noexcept;
+  Wrench string_wrench(const DynamicState& state) const noexcept;
 
   /// Longest substep, seconds.
   double max_step_s() const noexcept { return max_step_s_; }
@@ -65,7 +65,7 @@ class GripDynamics {
 
  private:
   void substep(const StringVector& target_N, const Pose& hand, double h_s, double lag_decay,
-               GripState& state) const noexcept;
+               DynamicState& state) const noexcept;
 
   StringGeometry geometry_;
   GripModel model_;

@@ -123,13 +123,13 @@ struct SimulatedDevice::Impl {
   Pose hand;
   HandLead lead;
   LedHand led_hand;
-  GripState state;
+  DynamicState state;
   DelayedTensions delayed;
   // Shared.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
   Seqlock<HandLead> lead_shared;
-  std::atomic<ExchangeStatus> fault{ExchangeStatus::kOk};
+  std::atomic<LinkFault> fault{LinkFault::kNone};
   std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
   SpscRing<FeltState, 4096> history;
@@ -148,9 +148,9 @@ SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripMo
 SimulatedDevice::~SimulatedDevice() = default;
 
 void SimulatedDevice::open() {
-  const ExchangeStatus fault = impl_->fault.load();
-  if (fault != ExchangeStatus::kOk)
-    throw DeviceError("sim: cannot be opened: a fault is simulated; end it with set_fault(kOk)");
+  const LinkFault fault = impl_->fault.load();
+  if (fault != LinkFault::kNone)
+    throw DeviceError("sim: cannot be opened: a fault is simulated; end it with set_fault(kNone)");
   impl_->time_ns = 0;
   impl_->last_ns = impl_->clock();
   impl_->state = {};
@@ -160,17 +160,17 @@ void SimulatedDevice::open() {
   impl_->publish();
 }
 
-ExchangeStatus SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
-  if (!impl_->open) return ExchangeStatus::kLost;
-  const ExchangeStatus fault = impl_->fault.load(std::memory_order_relaxed);
-  if (fault == ExchangeStatus::kLost) {
+LinkFault SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& reading) noexcept {
+  if (!impl_->open) return LinkFault::kGone;
+  const LinkFault fault = impl_->fault.load(std::memory_order_relaxed);
+  if (is_lost(fault)) {
     impl_->release();
     return fault;
   }
   impl_->advance(impl_->elapsed_ns());
-  if (fault != ExchangeStatus::kTimeout) impl_->put_out(volts);
+  if (fault != LinkFault::kTimeout) impl_->put_out(volts);
   impl_->publish();
-  if (fault == ExchangeStatus::kOk) impl_->read_counters(reading);
+  if (fault == LinkFault::kNone) impl_->read_counters(reading);
   return fault;
 }
 
@@ -200,7 +200,7 @@ void SimulatedDevice::lead_hand(const std::optional<Eigen::Vector3d>& to_m) noex
   impl_->lead_shared.store(lead);
 }
 
-void SimulatedDevice::set_fault(ExchangeStatus fault) noexcept {
+void SimulatedDevice::set_fault(LinkFault fault) noexcept {
   impl_->fault.store(fault);
 }
 

@@ -41,7 +41,7 @@ using SimulatedClock = std::function<int64_t()>;
 /// An exchange takes no time, and its voltages act until the next one. Like a real board, the
 /// device holds the voltages when the host stops sending: with kClock the strings keep pulling
 /// while time passes, with kFixedStep time stands still between exchanges.
-class SimulatedDevice final : public Device {
+class SimulatedDevice final : public StringDevice {
  public:
   enum class Time {
     kFixedStep,  ///< each exchange is 1 ms after the last: deterministic
@@ -59,8 +59,8 @@ class SimulatedDevice final : public Device {
   /// set.
   void open() override;
 
-  /// kLost when not open. Voltages that are not finite or have the wrong sign count as zero.
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
+  /// kGone when not open. Voltages that are not finite or have the wrong sign count as zero.
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
   /// Continues the simulation at zero volts until the motor lag has decayed, for at most 50 ms.
   /// Then the power is off and the tensions are zero.
@@ -77,10 +77,10 @@ class SimulatedDevice final : public Device {
   /// position that is not finite is ignored. Any thread.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
-  /// Makes every exchange return this status until it is called with kOk. Time goes on meanwhile.
-  /// With kTimeout the volts do not reach the motors, with kBadReply they do; kLost closes the
-  /// device. Any thread.
-  void set_fault(ExchangeStatus fault) noexcept;
+  /// Makes every exchange return this fault until it is called with kNone. Time goes on meanwhile.
+  /// With kTimeout the volts do not reach the motors, with other faults they do; one with which it
+  /// is_lost() closes the device. Any thread.
+  void set_fault(LinkFault fault) noexcept;
 
   /// Adds an offset to the encoder of `string` (0 … count − 1), as lost pulses or a slack string
   /// do. Any thread. Throws std::out_of_range.

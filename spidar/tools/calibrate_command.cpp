@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "spidar/as_text.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/samples.h"
 #include "spidar/conformance/conformance_report.h"
@@ -63,7 +64,7 @@ class Bench {
     device_ = std::move(simulated);
   }
 
-  Device& device() { return *device_; }
+  StringDevice& device() { return *device_; }
 
   void move_hand(double time_s) {
     if (hand_) hand_->set_hand(hand_in_motion(geometry_, time_s));
@@ -71,7 +72,7 @@ class Bench {
 
  private:
   StringGeometry geometry_;
-  std::unique_ptr<Device> device_;
+  std::unique_ptr<StringDevice> device_;
   SimulatedDevice* hand_ = nullptr;
 };
 
@@ -140,7 +141,7 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
 
 std::string how(const CalibrateOptions& options) {
   return options.centre ? "spidarctl calibrate: grip held at the centre"
-                        : "spidarctl calibrate: grip moved for " + shown(options.move_s()) + " s";
+                        : "spidarctl calibrate: grip moved for " + as_text(options.move_s()) + " s";
 }
 
 std::string triple(const Eigen::Vector3d& value, const char* pattern) {

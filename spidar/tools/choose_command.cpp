@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "spidar/as_text.h"
 #include "spidar/conformance/encoder_signs.h"
 #include "spidar/conformance/hold.h"
 #include "spidar/session/device_factory.h"
@@ -44,7 +45,7 @@ bool move_by_hand(ChosenDevice& chosen, HandMoves& moves) {
   for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side)
     whole = read_when_there(hold,
                             std::to_string(side + 1) + " of 6: from the centre, pull the grip " +
-                                shown(1e3 * moves.distance_m) + " mm " +
+                                as_text(1e3 * moves.distance_m) + " mm " +
                                 HandMoves::kSides[side].name + ", hold it there",
                             moves.counts[side + 1]);
   return whole;

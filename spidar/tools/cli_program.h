@@ -11,13 +11,14 @@
 #include <iostream>
 #include <string>
 
+#include "spidar/as_text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
 
 /// A finite number; CLI::Range takes NaN, too. `unit` is for the message: " s".
 inline CLI::Validator number(double least, double most, const std::string& unit = "") {
-  const std::string range = "a number from " + shown(least) + " to " + shown(most) + unit;
+  const std::string range = "a number from " + as_text(least) + " to " + as_text(most) + unit;
   const auto check = [least, most, range](const std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);

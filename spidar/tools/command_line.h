@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -35,13 +34,6 @@ inline int status_after_printing(const std::string& program, int status) {
   if (errno != EPIPE)
     std::cerr << program << ": what is printed cannot be written; is the disk full?\n";
   return status == kDone ? kFailed : status;
-}
-
-/// A number as a person writes it: with up to six digits, without zeros at the end.
-inline std::string shown(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
 }
 
 }  // namespace spidar

@@ -92,8 +92,8 @@ struct ChosenDevice {
   /// allows no tension.
   Profile profile;
   // One of these, not open yet.
-  std::unique_ptr<Device> device;  ///< that has strings
-  std::unique_ptr<Grip> grip;      ///< that has none
+  std::unique_ptr<StringDevice> device;  ///< that has strings
+  std::unique_ptr<Grip> grip;            ///< that has none
 
   const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };

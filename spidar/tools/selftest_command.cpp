@@ -109,7 +109,7 @@ bool is_confirmed(const SelftestOptions& options, const std::string& device) {
                   question + "? The grip will move; hold it loosely at the centre.");
 }
 
-DelayTest shake(Device& device, const Profile& profile) {
+DelayTest shake(StringDevice& device, const Profile& profile) {
   std::cerr << formatted(
       "Hold the grip loosely at the centre, and still. It is shaken along the line of sight with "
       "up "

@@ -161,8 +161,8 @@ const std::vector<Stop> kStops = {
        p.loop->set_limits(limits);
      }},
     {"closing (to motors at zero)", [](Player& p) { p.loop->begin_close(); }, true},
-    {"device lost (to motors at zero)",
-     [](Player& p) { p.simulated.set_fault(ExchangeStatus::kLost); }, true},
+    {"device lost (to motors at zero)", [](Player& p) { p.simulated.set_fault(LinkFault::kGone); },
+     true},
 };
 
 void print_stops(const std::string& profile) {

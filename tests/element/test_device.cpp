@@ -109,7 +109,7 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   push_next();
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
-  device().set_fault(ExchangeStatus::kLost);
+  device().set_fault(LinkFault::kGone);
   tick(2);
   for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
   ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once a frame";
@@ -117,26 +117,26 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   EXPECT_TRUE(h->errors().empty());
 
   EXPECT_FALSE(loop().reopen()) << "the fault stands";
-  device().set_fault(ExchangeStatus::kOk);
+  device().set_fault(LinkFault::kNone);
   EXPECT_TRUE(loop().reopen());
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
   EXPECT_EQ(h->engine().output().snapshot()->last.device, DeviceState::kRunning);
 
-  device().set_fault(ExchangeStatus::kLost);
+  device().set_fault(LinkFault::kGone);
   tick(2);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
   EXPECT_EQ(h->warnings().size(), 2u) << "lost a second time";
 
   const auto reopen = [&] {
-    device().set_fault(ExchangeStatus::kOk);
+    device().set_fault(LinkFault::kNone);
     EXPECT_TRUE(loop().reopen());
     tick(300);
   };
   reopen();
   EXPECT_EQ(push_next(), GST_FLOW_OK);
   EXPECT_EQ(h->warnings().size(), 2u);
-  device().set_fault(ExchangeStatus::kLost);
+  device().set_fault(LinkFault::kGone);
   tick(2);
   reopen();
   EXPECT_EQ(push_next(), GST_FLOW_OK);
@@ -150,7 +150,7 @@ TEST_F(DeviceTest, ALossIsAnErrorIfRequested) {
   push_next();
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
-  device().set_fault(ExchangeStatus::kLost);
+  device().set_fault(LinkFault::kGone);
   tick(2);
   EXPECT_EQ(push_next(), GST_FLOW_ERROR);
   EXPECT_EQ(h->errors().size(), 1u);

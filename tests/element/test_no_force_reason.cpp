@@ -108,7 +108,7 @@ TEST_F(ForceLimitTest, TheDeviceDoesNotAnswer) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
-  device().set_fault(ExchangeStatus::kLost);
+  device().set_fault(LinkFault::kGone);
   show_moved(2, 2);
   expect_of_device("device-lost");
 }

@@ -78,7 +78,7 @@ spidar::MotorVolts all_strings() {
     _exit(0);
   }
   spidar::DeviceReading reading;
-  while (device->exchange(all_strings(), reading) != spidar::ExchangeStatus::kLost) {
+  while (!is_lost(device->exchange(all_strings(), reading))) {
   }
   for (;;) pause();
 }
@@ -87,7 +87,7 @@ spidar::MotorVolts all_strings() {
 [[noreturn]] void push(const char* profile) {
   const auto grip = spidar::make_grip("ff", spidar::load_profile(profile));
   grip->open();
-  while (grip->exchange(spidar::test::told(1)) != spidar::ExchangeStatus::kLost) {
+  while (!is_lost(grip->exchange(spidar::test::told(1)))) {
   }
   for (;;) pause();
 }

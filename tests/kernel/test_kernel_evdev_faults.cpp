@@ -43,7 +43,7 @@ TEST_F(KernelEvdevFaults, OpenLeavesItAtRestAndCloseErasesItsEffects) {
   device->close();
   EXPECT_TRUE(stick.at_rest());
   EXPECT_FALSE(stick.has_effects());
-  EXPECT_EQ(device->exchange({}), ExchangeStatus::kLost);
+  EXPECT_EQ(device->exchange({}), LinkFault::kGone);
 }
 
 TEST_F(KernelEvdevFaults, ForcesBeyondFullLevelAreCutAndWhatIsNoNumberPushesNowhere) {
@@ -55,7 +55,7 @@ TEST_F(KernelEvdevFaults, ForcesBeyondFullLevelAreCutAndWhatIsNoNumberPushesNowh
   const auto until = [&](double right_N, const auto& reached) {
     wait_for([&] {
       for (const auto& device : {of_stick.get(), of_pad.get()}) {
-        EXPECT_EQ(device->exchange(told(right_N)), ExchangeStatus::kOk);
+        EXPECT_EQ(device->exchange(told(right_N)), LinkFault::kNone);
       }
       return reached();
     });
@@ -103,7 +103,7 @@ TEST_F(KernelEvdevFaults, OpenSaysWhatIsWrong) {
   EXPECT_FALSE(stick.has_effects());
   stick.upload_error = 0;
   device->open();
-  EXPECT_EQ(device->exchange({}), ExchangeStatus::kOk);
+  EXPECT_EQ(device->exchange({}), LinkFault::kNone);
 }
 
 }  // namespace

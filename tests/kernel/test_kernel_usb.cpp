@@ -88,7 +88,7 @@ TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
     const auto string = static_cast<size_t>(done) % kMaxStrings;
     volts.volt[string] = 0.001 * (done % 1000);
     bench.count[string] += 7;
-    ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk) << "exchange " << done;
+    ASSERT_EQ(device->exchange(volts, reading), LinkFault::kNone) << "exchange " << done;
     for (size_t i = 0; i < kMaxStrings; ++i) {
       ASSERT_EQ(bench.digit[i], dac.digit(volts.volt[i])) << "exchange " << done;
       ASSERT_EQ(reading.count[i], bench.count[i]) << "exchange " << done;
@@ -119,7 +119,7 @@ TEST(KernelFalcon, TakesItsFirmwareAndExchanges) {
   command.wrench.force_N.x() = 1;
   for (int done = 0; done < 1000; ++done) {
     bench.count[1] = 20 * done;
-    ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk) << "exchange " << done;
+    ASSERT_EQ(grip->exchange(command), LinkFault::kNone) << "exchange " << done;
     // Half a count of each encoder, at some 60 mm/rad.
     ASSERT_NEAR(grip->reading().pose.position_m.y(), 2e-5 * done, 5e-5) << "exchange " << done;
   }

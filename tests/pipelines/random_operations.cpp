@@ -113,7 +113,7 @@ void step_frame(TormentedPlayer& player, RandomSource&) {
   player.reaches(GST_STATE_PAUSED);
 }
 
-void unplug(TormentedPlayer& player, ExchangeStatus fault) {
+void unplug(TormentedPlayer& player, LinkFault fault) {
   if (SimulatedDevice* device = player.device()) device->set_fault(fault);
 }
 
@@ -199,10 +199,10 @@ std::vector<Operation> other_operations() {
       {"seek without flush", 3, [](Player& p, Random& r) { append(p, r, 0); }},
       {"segment seek without flush", 2,
        [](Player& p, Random& r) { append(p, r, GST_SEEK_FLAG_SEGMENT); }},
-      {"unplug", 1, [](Player& p, Random&) { unplug(p, ExchangeStatus::kLost); }},
-      {"time-outs", 1, [](Player& p, Random&) { unplug(p, ExchangeStatus::kTimeout); }},
-      {"bad replies", 1, [](Player& p, Random&) { unplug(p, ExchangeStatus::kBadReply); }},
-      {"plug in", 8, [](Player& p, Random&) { unplug(p, ExchangeStatus::kOk); }},
+      {"unplug", 1, [](Player& p, Random&) { unplug(p, LinkFault::kGone); }},
+      {"time-outs", 1, [](Player& p, Random&) { unplug(p, LinkFault::kTimeout); }},
+      {"bad replies", 1, [](Player& p, Random&) { unplug(p, LinkFault::kWrongReply); }},
+      {"plug in", 8, [](Player& p, Random&) { unplug(p, LinkFault::kNone); }},
       {"lost pulses", 1,
        [](Player& p, Random& r) {
          if (SimulatedDevice* device = p.device()) {

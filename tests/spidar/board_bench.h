@@ -32,12 +32,12 @@ struct BoardBench {
         kind.attach(kind.board, profile, transport_to(kind.emulate(recorded))));
   }
 
-  std::unique_ptr<BoardDevice> device(bool threaded = false,
-                                      CountZero count_zero = CountZero::kFirstOpen) {
+  std::unique_ptr<StringLink> device(bool threaded = false,
+                                     CountZero count_zero = CountZero::kFirstOpen) {
     BoardSettings settings;
     settings.threaded = threaded;
     settings.count_zero = count_zero;
-    return std::make_unique<BoardDevice>(board(), settings);
+    return std::make_unique<StringLink>(board(), settings);
   }
 
   const DeviceKind& kind;

@@ -37,8 +37,8 @@ struct ForceBench {
     settings.threaded = threaded;
     return settings;
   }
-  std::unique_ptr<LinkedForce> linked(bool threaded = false) {
-    return std::make_unique<LinkedForce>(board(), settings(threaded));
+  std::unique_ptr<ForceLink> linked(bool threaded = false) {
+    return std::make_unique<ForceLink>(board(), settings(threaded));
   }
   std::unique_ptr<ForceGrip> grip() {
     return std::make_unique<ForceGrip>(board(), settings(false));

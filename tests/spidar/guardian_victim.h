@@ -46,10 +46,10 @@ void wait_for(const Condition& condition) {
 /// Exchanges until the condition holds. Opens the device again when it is lost: on a busy machine,
 /// the guardian may have found that this process stood still.
 template <typename Condition>
-void exchange_until(Device& device, const MotorVolts& volts, const Condition& condition) {
+void exchange_until(StringDevice& device, const MotorVolts& volts, const Condition& condition) {
   DeviceReading reading;
   wait_for([&] {
-    if (device.exchange(volts, reading) == ExchangeStatus::kLost) device.open();
+    if (is_lost(device.exchange(volts, reading))) device.open();
     return condition();
   });
 }

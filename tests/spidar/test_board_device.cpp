@@ -75,14 +75,14 @@ class EmulatedExample final : public EmulatedBoard {
 
 TEST(ExampleBoard, IsABoard) {
   BoardBench bench("sh4");
-  BoardDevice device(std::make_unique<ExampleBoard>(
-                         "example", bench.profile,
-                         bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
-                     {CountZero::kFirstOpen, false, false});
+  StringLink device(std::make_unique<ExampleBoard>(
+                        "example", bench.profile,
+                        bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
+                    {CountZero::kFirstOpen, false, false});
   device.open();
   bench.motors.count[6] = -9;
   DeviceReading reading;
-  ASSERT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kOk);
+  ASSERT_EQ(device.exchange(all_volts(1), reading), LinkFault::kNone);
   EXPECT_EQ(bench.motors.digit[7], 415);
   EXPECT_EQ(reading.count[6], -9);
   device.close();
@@ -116,23 +116,23 @@ class HeldTransport final : public Transport {
   bool held_ = false;
 };
 
-TEST(BoardDevice, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
+TEST(StringLink, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
   BoardBench bench("sh4");
   auto transport = std::make_unique<HeldTransport>(
       bench.transport_to(std::make_unique<EmulatedSh4>(bench.recorded)));
   HeldTransport& wire = *transport;
-  BoardDevice device(std::make_unique<Sh4Board>("sh4", bench.profile, std::move(transport)), {});
+  StringLink device(std::make_unique<Sh4Board>("sh4", bench.profile, std::move(transport)), {});
   device.open();
   DeviceReading reading;
   wire.hold(true);
-  EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
-  EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
+  EXPECT_EQ(device.exchange(all_volts(1), reading), LinkFault::kTimeout);
+  EXPECT_EQ(device.exchange(all_volts(1), reading), LinkFault::kTimeout);
   // Three requests are one under way and two that wait; a fourth has no room.
   for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(device.exchange(all_volts(1), reading), ExchangeStatus::kTimeout);
+    EXPECT_EQ(device.exchange(all_volts(1), reading), LinkFault::kTimeout);
   bench.motors.count[0] = 7;
   wire.hold(false);
-  while (device.exchange(all_volts(1), reading) != ExchangeStatus::kOk) {
+  while (device.exchange(all_volts(1), reading) != LinkFault::kNone) {
   }
   EXPECT_EQ(reading.count[0], 7);
   EXPECT_GE(device.health().late_replies, 1u);

@@ -40,7 +40,7 @@ TEST_P(Boards, VoltsBecomeDigitsAndCountsComeBack) {
   MotorVolts volts;
   for (size_t i = 0; i < kMaxStrings; ++i) volts.volt[i] = 0.25 * static_cast<double>(i);
   DeviceReading reading;
-  ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
+  ASSERT_EQ(device->exchange(volts, reading), LinkFault::kNone);
   // 415 digits per volt nominally (4095 at 9.867 V); 4096 at 3.3 V on the UART boards.
   const double per_V = is_uart ? 4096 / 3.3 : 4095 / 9.867;
   for (size_t i = 0; i < kMaxStrings; ++i) {
@@ -59,7 +59,7 @@ TEST_P(Boards, VoltsBeyondTheConverterAreCut) {
   volts.volt[2] = std::numeric_limits<double>::quiet_NaN();
   volts.volt[3] = std::numeric_limits<double>::infinity();
   DeviceReading reading;
-  ASSERT_EQ(device->exchange(volts, reading), ExchangeStatus::kOk);
+  ASSERT_EQ(device->exchange(volts, reading), LinkFault::kNone);
   EXPECT_EQ(motors.digit[0], 4095);
   EXPECT_EQ(motors.digit[1], is_uart ? -4095 : 0);
   EXPECT_EQ(motors.digit[2], 0);
@@ -75,17 +75,17 @@ TEST_P(Boards, CloseRampsToZero) {
   device->close();
   ASSERT_GT(motors.history.size(), before);
   EXPECT_TRUE(motors.all_zero());
-  ASSERT_GE(motors.history.size(), before + BoardDevice::kRamp_ms);
+  ASSERT_GE(motors.history.size(), before + StringLink::kRamp_ms);
   const int full = motors.history[before - 1];
   for (size_t i = before; i < motors.history.size(); ++i) {
     // A twentieth a step, and half a digit of rounding at both ends.
-    EXPECT_LE(motors.history[i - 1] - motors.history[i], full / BoardDevice::kRamp_ms + 1) << i;
+    EXPECT_LE(motors.history[i - 1] - motors.history[i], full / StringLink::kRamp_ms + 1) << i;
     EXPECT_LE(motors.history[i], motors.history[i - 1]) << i;
   }
   const int updates = motors.updates;
   device->close();
   EXPECT_EQ(motors.updates, updates);
-  EXPECT_EQ(device->exchange(all_volts(1), reading), ExchangeStatus::kLost);
+  EXPECT_EQ(device->exchange(all_volts(1), reading), LinkFault::kGone);
 }
 
 TEST_P(Boards, DestructionRampsToZeroToo) {
@@ -109,15 +109,12 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
                                 LinkFault::kBusError, LinkFault::kStall, LinkFault::kGone}) {
     wire->fault = fault;
     const uint64_t before = device->health().count(fault);
-    const ExchangeStatus expected = fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout
-                                    : fault == LinkFault::kGone  ? ExchangeStatus::kLost
-                                                                 : ExchangeStatus::kBadReply;
-    EXPECT_EQ(exchange(), expected) << to_string(fault);
+    EXPECT_EQ(exchange(), fault);
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
     wire->fault = LinkFault::kNone;
     if (fault == LinkFault::kGone) device->open();
-    EXPECT_EQ(exchange(), ExchangeStatus::kOk) << "after " << to_string(fault);
+    EXPECT_EQ(exchange(), LinkFault::kNone) << "after " << to_string(fault);
   }
 }
 
@@ -127,12 +124,13 @@ TEST_P(Boards, GarbageIsNotTakenForCounts) {
   wire->fault = LinkFault::kWrongReply;
   DeviceReading reading;
   reading.count.fill(42);
-  EXPECT_EQ(device->exchange(all_volts(1), reading), ExchangeStatus::kBadReply);
+  const LinkFault fault = device->exchange(all_volts(1), reading);
   EXPECT_EQ(reading.count[0], 42);
   // Which check finds it depends on what the packets repeat: the D/A, a header, or nothing.
   const LinkFault expected = GetParam() == "sh4" ? LinkFault::kWrongEcho
                              : is_uart           ? LinkFault::kWrongReply
                                                  : LinkFault::kCounterJump;
+  EXPECT_EQ(fault, expected);
   EXPECT_EQ(device->health().last_fault, expected);
 }
 
@@ -145,16 +143,16 @@ TEST_P(Boards, CountsGoOnOverWrapsAndJumpsAreRefused) {
   for (int i = 1; i <= 100; ++i) {
     motors.count[0] = 32000 + 1000 * i;
     motors.count[1] = -32000 - 1000 * i;
-    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     ASSERT_EQ(reading.count[0], 1000 * i);
     ASSERT_EQ(reading.count[1], -1000 * i);
   }
   motors.count[0] += 20000;
-  EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kBadReply);
+  EXPECT_EQ(device->exchange({}, reading), LinkFault::kCounterJump);
   EXPECT_EQ(device->health().last_fault, LinkFault::kCounterJump);
   EXPECT_EQ(reading.count[0], 100000);
   motors.count[0] -= 20000;
-  EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+  EXPECT_EQ(device->exchange({}, reading), LinkFault::kNone);
 }
 
 TEST_P(Boards, CountsAreZeroedByPolicyOnly) {
@@ -167,15 +165,15 @@ TEST_P(Boards, CountsAreZeroedByPolicyOnly) {
     const auto device = this->device(false, c.policy);
     DeviceReading reading;
     device->open();
-    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], c.first);
     wire->fault = LinkFault::kGone;
-    EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kLost);
+    EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
     EXPECT_THROW(device->open(), DeviceError);
     motors.count[3] = 550;  // moved meanwhile
     wire->fault = LinkFault::kNone;
     device->open();
-    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], c.again);
   }
 }
@@ -187,7 +185,7 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     DeviceReading reading;
     device->open();
     wire->fault = LinkFault::kGone;
-    EXPECT_EQ(device->exchange({}, reading), ExchangeStatus::kLost);
+    EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
     wire->fault = LinkFault::kNone;
     motors.count[3] = 3;  // began anew
     for (int attempt = 0; attempt < 2; ++attempt) {
@@ -202,7 +200,7 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     // Had it its power after all, nothing is lost.
     motors.count[3] = 5100;
     device->open();
-    ASSERT_EQ(device->exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], policy == CountZero::kNever ? 5100 : 100);
   }
 }

@@ -105,12 +105,12 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
   const Profile profile = load_profile("spidar-gcc");
   const auto never = [](double) { return true; };
   FakeDevice lost;
-  lost.log().answer = ExchangeStatus::kLost;
+  lost.log().answer = LinkFault::kGone;
   EXPECT_THROW(record_counts(lost, profile, {1, 0.001}, never), DeviceError);
   EXPECT_EQ(lost.log().closed, 1);
 
   FakeDevice silent;
-  silent.log().answer = ExchangeStatus::kTimeout;
+  silent.log().answer = LinkFault::kTimeout;
   EXPECT_THROW(record_counts(silent, profile, {1, 0.001}, never), DeviceError);
   EXPECT_EQ(silent.log().closed, 1);
 

@@ -61,15 +61,15 @@ struct StoppedTime {
 DelayTest measure(const std::string& board, const Profile& profile, const GripModel& model,
                   uint32_t seed) {
   StoppedTime time;
-  std::unique_ptr<Device> device;
+  std::unique_ptr<StringDevice> device;
   if (board == "sim") {
     device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock, model,
                                                time.clock());
   } else {
     AnyBoard simulated =
         simulated_board(kind_of(board.substr(4)), board, profile, {model, time.clock()});
-    device = std::make_unique<BoardDevice>(std::get<std::unique_ptr<Board>>(std::move(simulated)),
-                                           settings_of_simulation());
+    device = std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(simulated)),
+                                          settings_of_simulation());
   }
   DelayTestSettings settings;
   settings.seed = seed;
@@ -206,8 +206,8 @@ TEST(Delay, StopsAtAnyFault) {
     std::function<void(Watched&)> happen;
   };
   const Fault faults[] = {
-      {"does not answer", [](Watched& w) { w.sim.set_fault(ExchangeStatus::kLost); }},
-      {"does not answer", [](Watched& w) { w.sim.set_fault(ExchangeStatus::kTimeout); }},
+      {"does not answer", [](Watched& w) { w.sim.set_fault(LinkFault::kGone); }},
+      {"does not answer", [](Watched& w) { w.sim.set_fault(LinkFault::kTimeout); }},
       {"string 3", [](Watched& w) { w.sim.set_count_error(3, 400); }},
       {"pose of the grip was lost",
        [](Watched& w) {

@@ -26,7 +26,7 @@ TEST(FalconGrip, TakesForcesAndGivesPositionsInAllAxes) {
     for (size_t axis = 0; axis < 3; ++axis)
       bench.motors.count[axis] = static_cast<int>(1000 * at_mm[static_cast<Eigen::Index>(axis)]);
     // The force is that for the place of the answer before.
-    for (int i = 0; i < 2; ++i) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
     // Half a count of each encoder is 0.018 degrees, at some 60 mm/rad.
     EXPECT_LT((1000 * grip->reading().pose.position_m - at_mm).norm(), 0.05) << at_mm.transpose();
     for (size_t axis = 0; axis < 3; ++axis)
@@ -53,7 +53,7 @@ TEST(FalconGrip, GivesItsLargestForceEverywhere) {
     GripCommand command = told(1);
     command.wrench.force_N =
         2 * most_N * Eigen::Vector3d(across * std::cos(way), out, across * std::sin(way));
-    for (int again = 0; again < 2; ++again) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    for (int again = 0; again < 2; ++again) ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
     const Eigen::Vector3d delivered =
         1e-3 * Eigen::Vector3d(bench.motors.digit[0], bench.motors.digit[1], bench.motors.digit[2]);
     ASSERT_LT((delivered - command.wrench.force_N / 2).norm(), 6e-3 * bench.rounding())
@@ -72,7 +72,7 @@ TEST(FalconGrip, ReachesTheWholeRoomThatItStates) {
       at_m[axis] = (corner >> axis & 1 ? 1 : -1) * half_m[static_cast<size_t>(axis)];
       bench.motors.count[static_cast<size_t>(axis)] = static_cast<int>(1e6 * at_m[axis]);
     }
-    ASSERT_EQ(grip->exchange(told(0)), ExchangeStatus::kOk);
+    ASSERT_EQ(grip->exchange(told(0)), LinkFault::kNone);
     // Half a count of each encoder, at some 80 mm/rad here.
     EXPECT_LT((grip->reading().pose.position_m - at_m).norm(), 6e-5) << at_m.transpose();
   }
@@ -112,15 +112,15 @@ TEST(FalconGrip, WithoutItsZeroHasNoPositionAndNoForce) {
   grip->open();
   EXPECT_NE(grip->description().find("push it all the way in"), std::string::npos);
   for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
-    ASSERT_EQ(grip->exchange(told(2)), ExchangeStatus::kOk);
+    ASSERT_EQ(grip->exchange(told(2)), LinkFault::kNone);
   EXPECT_TRUE(bench.motors.all_zero());
   EXPECT_EQ(grip->reading().trouble, PoseTrouble::kNotHomed);
   EXPECT_EQ(grip->reading().buttons, 5u);
   bench.motors.inputs = 0x70;
   for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
-    ASSERT_EQ(grip->exchange(told(0)), ExchangeStatus::kOk);
+    ASSERT_EQ(grip->exchange(told(0)), LinkFault::kNone);
   EXPECT_TRUE(grip->reading().knows_pose());
-  ASSERT_EQ(grip->exchange(told(2)), ExchangeStatus::kOk);
+  ASSERT_EQ(grip->exchange(told(2)), LinkFault::kNone);
   EXPECT_NEAR(bench.motors.digit[0], 2000, bench.rounding());
 }
 

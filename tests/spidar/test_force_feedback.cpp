@@ -216,7 +216,7 @@ TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
     device->open();
     // Until the thread that sets levels has shown the position twice, so it has done an update.
     const auto read_m = [&] {
-      wait_for([&] { return device->exchange({}) == ExchangeStatus::kOk; });
+      wait_for([&] { return device->exchange({}) == LinkFault::kNone; });
       return device->reading().pose.position_m;
     };
     for (const int at : {1000, -1000}) {

@@ -23,11 +23,11 @@ class ForceBoards : public testing::TestWithParam<std::string>, public ForceBenc
   ForceBoards() : ForceBench(GetParam()) {}
 
   /// Until every axis could be set; returns the worst status.
-  ExchangeStatus exchange(LinkedForce& device, const ForceOutput& output, int times = 2) {
-    ExchangeStatus worst = ExchangeStatus::kOk;
+  LinkFault exchange(ForceLink& device, const ForceOutput& output, int times = 2) {
+    LinkFault worst = LinkFault::kNone;
     for (int i = 0; i < times * cycles(); ++i) {
-      const ExchangeStatus status = device.exchange(output, reading);
-      if (status != ExchangeStatus::kOk) worst = status;
+      const LinkFault status = device.exchange(output, reading);
+      if (status != LinkFault::kNone) worst = status;
     }
     return worst;
   }
@@ -48,9 +48,9 @@ TEST_P(ForceBoards, ForcesThatAreNoNumbersPushNowhere) {
   const auto device = linked();
   device->open();
   for (const double value : {kNan, kInfinity, -kInfinity}) {
-    ASSERT_EQ(exchange(*device, pushing(1, 1)), ExchangeStatus::kOk);
+    ASSERT_EQ(exchange(*device, pushing(1, 1)), LinkFault::kNone);
     ASSERT_FALSE(motors.all_zero());
-    ASSERT_EQ(exchange(*device, pushing(value, value)), ExchangeStatus::kOk);
+    ASSERT_EQ(exchange(*device, pushing(value, value)), LinkFault::kNone);
     EXPECT_TRUE(motors.all_zero()) << value;
   }
 }
@@ -72,7 +72,7 @@ TEST_P(ForceBoards, CloseEndsAtRest) {
     const int updates = motors.updates;
     device->close();
     EXPECT_EQ(motors.updates, updates);
-    EXPECT_EQ(device->exchange(pushing(1), reading), ExchangeStatus::kLost);
+    EXPECT_EQ(device->exchange(pushing(1), reading), LinkFault::kGone);
   }
 }
 
@@ -96,16 +96,12 @@ TEST_P(ForceBoards, EveryFaultIsNamedCountedAndForgotten) {
   for (const LinkFault fault : faults) {
     wire->fault = fault;
     const uint64_t before = device->health().count(fault);
-    const ExchangeStatus expected = fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout
-                                    : fault == LinkFault::kGone  ? ExchangeStatus::kLost
-                                                                 : ExchangeStatus::kBadReply;
-    EXPECT_EQ(exchange(*device, pushing(1), 1), expected) << to_string(fault);
+    EXPECT_EQ(exchange(*device, pushing(1), 1), fault);
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
     wire->fault = LinkFault::kNone;
     if (fault == LinkFault::kGone) device->open();
-    EXPECT_EQ(exchange(*device, pushing(1), 1), ExchangeStatus::kOk)
-        << "after " << to_string(fault);
+    EXPECT_EQ(exchange(*device, pushing(1), 1), LinkFault::kNone) << "after " << to_string(fault);
   }
 }
 
@@ -156,18 +152,18 @@ TEST(ForceGrip, GivesNeitherTorqueNorWhatTheDeviceCannotGive) {
   GripCommand command = told(3, 4);
   command.wrench.force_N.z() = 2;
   command.wrench.torque_Nm = {0.1, 0.1, 0.1};
-  for (int i = 0; i < bench.cycles(); ++i) ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  for (int i = 0; i < bench.cycles(); ++i) ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
   const Wrench delivered = grip->reading().delivered;
   EXPECT_TRUE(delivered.force_N.isApprox(Eigen::Vector3d(0.9, 1.2, 0), 1e-12));
   EXPECT_TRUE(delivered.torque_Nm.isZero(0));
   EXPECT_EQ(bench.motors.digit[0], 900);
   EXPECT_EQ(bench.motors.digit[1], 1200);
   command.power = 0.5;
-  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
   EXPECT_TRUE(grip->reading().delivered.force_N.isApprox(Eigen::Vector3d(0.9, 1.2, 0), 1e-12))
       << "half of 5 N is still too much";
   command.power = 0.1;
-  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
   EXPECT_TRUE(grip->reading().delivered.force_N.isApprox(Eigen::Vector3d(0.3, 0.4, 0), 1e-12));
 }
 
@@ -266,7 +262,7 @@ TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
   EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.5");
   GripCommand command = told(0.1, 0.2);
   command.wrench.force_N.z() = -0.3;
-  ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+  ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
   const StringGeometry room = with_room(bench.profile.geometry, grip->abilities().half_room_m);
   EXPECT_TRUE(half_room_m(room).isApproxToConstant(0.07, 1e-12));
   EXPECT_EQ(half_room_m(with_room(bench.profile.geometry, {})),
@@ -288,7 +284,7 @@ TEST(ForceGrip, TheStickHasAVelocity) {
   for (int ms = 0; ms < 400; ++ms) {
     bench.motors.count[0] = std::min(std::max(0, 50 * (ms - 100)), ff::Position::kFull);
     command.now_ns += kTick_ns;
-    ASSERT_EQ(grip->exchange(command), ExchangeStatus::kOk);
+    ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
     fastest_m_s = std::max(fastest_m_s, grip->reading().motion.velocity().linear_m_s.x());
   }
   const double reach_m = grip->reading().pose.position_m.x();

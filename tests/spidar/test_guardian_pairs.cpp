@@ -158,7 +158,7 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "under a sanitizer, the guardian has ten times as long to answer";
 #else
-  static_assert(kBeat_ms + kAnswer_ms + BoardDevice::kTransfer_ns / 1'000'000 <= 100);
+  static_assert(kBeat_ms + kAnswer_ms + StringLink::kTransfer_ns / 1'000'000 <= 100);
 #endif
   plug(0, UsbKind::kSh4);
   Victim victim("usb", kUsbProfile);
@@ -267,7 +267,7 @@ TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
   const auto device = make_device("usb", load_profile(kUsbProfile));
   device->open();
   DeviceReading reading;
-  wait_for([&] { return device->exchange({}, reading) == ExchangeStatus::kOk; });
+  wait_for([&] { return device->exchange({}, reading) == LinkFault::kNone; });
   EXPECT_FALSE(is_held());
   exchange_until(*device, one_volt(), [&] { return !port.at_rest() && !text_of(held).empty(); });
   EXPECT_NE(text_of(held).find("--what=sleep:handle-lid-switch --mode=block"), std::string::npos);

@@ -260,7 +260,7 @@ TEST(HapticLoop, ALimitThatIsLoweredWhileTheDeviceDoesNotAnswer) {
   Limited driver(3, 0.05);
   driver.set(0, 0);
   for (int i = 0; i < 30; ++i) {
-    driver.log().answer = i % 10 < 5 ? ExchangeStatus::kTimeout : ExchangeStatus::kOk;
+    driver.log().answer = i % 10 < 5 ? LinkFault::kTimeout : LinkFault::kNone;
     driver.check("tick " + std::to_string(i));
   }
   EXPECT_EQ(driver.last.commanded.stacked().norm(), 0);

@@ -112,7 +112,7 @@ TEST(HapticLoopDevice, LostAndBack) {
   push(driver);
   driver.run(100 * kMs);
   driver.log().present = false;
-  driver.log().answer = ExchangeStatus::kLost;
+  driver.log().answer = LinkFault::kGone;
   EXPECT_EQ(driver.tick().device, DeviceState::kLost);
   EXPECT_TRUE(driver.loop->lost());
   const size_t exchanges = driver.log().volts.size();
@@ -125,7 +125,7 @@ TEST(HapticLoopDevice, LostAndBack) {
   EXPECT_TRUE(driver.loop->lost());
 
   driver.log().present = true;
-  driver.log().answer = ExchangeStatus::kOk;
+  driver.log().answer = LinkFault::kNone;
   EXPECT_TRUE(driver.loop->reopen());
   driver.tick(300 * kMs);
   EXPECT_LT(largest_volt(driver.log().last_volts), 0.05);  // power and wrench from zero again
@@ -138,7 +138,7 @@ TEST(HapticLoopDevice, LostAndBack) {
 TEST(HapticLoopDevice, NothingToReleaseWhenLost) {
   LoopDriver driver;
   driver.open();
-  driver.log().answer = ExchangeStatus::kLost;
+  driver.log().answer = LinkFault::kGone;
   driver.tick();
   EXPECT_FALSE(driver.loop->released());
   driver.loop->begin_close();
@@ -146,14 +146,14 @@ TEST(HapticLoopDevice, NothingToReleaseWhenLost) {
 }
 
 TEST(HapticLoopDevice, SomeErrorsInARowAreALoss) {
-  for (const ExchangeStatus error : {ExchangeStatus::kTimeout, ExchangeStatus::kBadReply}) {
+  for (const LinkFault error : {LinkFault::kTimeout, LinkFault::kWrongReply}) {
     LoopDriver driver;
     driver.open();
     for (int round = 0; round < 3; ++round) {
       driver.log().answer = error;
       for (int i = 0; i < HapticLoop::kMaxErrors - 1; ++i) driver.tick();
       EXPECT_FALSE(driver.loop->lost());
-      driver.log().answer = ExchangeStatus::kOk;
+      driver.log().answer = LinkFault::kNone;
       driver.tick();
     }
     driver.log().answer = error;

@@ -122,9 +122,9 @@ TEST(HapticSession, WithItsThread) {
     ASSERT_TRUE(wait_for(pushes));
 
     log->present = false;
-    log->answer = ExchangeStatus::kLost;
+    log->answer = LinkFault::kGone;
     ASSERT_TRUE(wait_for([&] { return last().device == DeviceState::kLost; }));
-    log->answer = ExchangeStatus::kOk;
+    log->answer = LinkFault::kNone;
     log->present = true;
     ASSERT_TRUE(wait_for(pushes));
     EXPECT_EQ(loop.snapshot().counters.times_lost, 1u);
@@ -143,7 +143,7 @@ TEST(HapticSession, EndsWithDeviceLost) {
   {
     HapticSession session(load_profile(kDefaultProfile), std::make_unique<FakeDevice>(log));
     log->present = false;
-    log->answer = ExchangeStatus::kLost;
+    log->answer = LinkFault::kGone;
     ASSERT_TRUE(
         wait_for([&] { return session.loop().snapshot().last.device == DeviceState::kLost; }));
   }

@@ -124,7 +124,7 @@ class Round {
         return device_.shift(string, counts(random_.uniform(-0.02, 0.02)));
       case kLink:
         link_ms_ = std::max(link_ms_, 1 + random_.some(kLongestLink_ms));
-        return device_.set_link(first_way ? ExchangeStatus::kTimeout : ExchangeStatus::kBadReply);
+        return device_.set_link(first_way ? LinkFault::kTimeout : LinkFault::kWrongReply);
       case kStall:
         stall_ms_ = std::max(stall_ms_, 1 + random_.some(kLongestStall_ms));
         return;
@@ -151,7 +151,7 @@ class Round {
       }
       if (loop_->lost()) device_.hold();
     }
-    if (link_ms_ > 0 && --link_ms_ == 0) device_.set_link(ExchangeStatus::kOk);
+    if (link_ms_ > 0 && --link_ms_ == 0) device_.set_link(LinkFault::kNone);
     measure();
   }
 

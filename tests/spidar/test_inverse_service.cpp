@@ -41,7 +41,7 @@ std::string open_error(Grip& grip) {
 template <typename Condition>
 void exchange_until(Grip& grip, const GripCommand& command, const Condition& condition) {
   wait_for([&] {
-    if (grip.exchange(command) == ExchangeStatus::kLost) open_error(grip);
+    if (is_lost(grip.exchange(command))) open_error(grip);
     return condition();
   });
 }
@@ -58,7 +58,7 @@ std::unique_ptr<Grip> pulling(InverseService& service) {
   const auto grip = make(spec);
   grip->open();
   for (;;) {
-    if (grip->exchange(told(1)) != ExchangeStatus::kLost) continue;
+    if (!is_lost(grip->exchange(told(1)))) continue;
     grip->close();
     grip->open();
   }
@@ -163,8 +163,8 @@ TEST(InverseService, AnUnpluggedDeviceIsLostUntilItIsBack) {
   InverseService service;
   const auto grip = pulling(service);
   service.plug({InverseService::device("B")});
-  ExchangeStatus status = ExchangeStatus::kOk;
-  wait_for([&] { return (status = grip->exchange(told(1))) == ExchangeStatus::kLost; });
+  LinkFault status = LinkFault::kNone;
+  wait_for([&] { return (status = grip->exchange(told(1))) == LinkFault::kGone; });
   EXPECT_EQ(grip->health().last_fault, LinkFault::kGone);
   EXPECT_NE(open_error(*grip), "") << "the other one is not taken instead";
   service.plug({InverseService::device("B"), InverseService::device("049D")});
@@ -178,7 +178,7 @@ TEST(InverseService, ItMayEndAndComeBack) {
   grip->open();
   exchange_until(*grip, told(1), [&] { return service->pulls(); });
   service.reset();
-  wait_for([&] { return grip->exchange(told(1)) == ExchangeStatus::kLost; });
+  wait_for([&] { return grip->exchange(told(1)) == LinkFault::kGone; });
   EXPECT_NE(open_error(*grip), "");
   service = std::make_unique<InverseService>(port);
   EXPECT_EQ(open_error(*grip), "");
@@ -194,7 +194,7 @@ TEST(InverseService, SigpipeIsLeftToTheProcess) {
   grip->open();
   exchange_until(*grip, told(1), [&] { return service->pulls(); });
   service.reset();  // and what is sent after that does not end this process
-  wait_for([&] { return grip->exchange(told(1)) == ExchangeStatus::kLost; });
+  wait_for([&] { return grip->exchange(told(1)) == LinkFault::kGone; });
   grip->close();
   EXPECT_EQ(std::signal(SIGPIPE, before), SIG_DFL);
 }
@@ -217,7 +217,7 @@ TEST(InverseService, ZeroIsSentToOneThatDoesNotAnswerWhenItIsClosed) {
   const auto grip = pulling(service);
   service.mute = true;
   wait_for([&] {
-    return grip->exchange(told(1)) == ExchangeStatus::kLost ||
+    return grip->exchange(told(1)) == LinkFault::kGone ||
            grip->health().count(LinkFault::kTimeout) >= 3;
   });
   grip->close();

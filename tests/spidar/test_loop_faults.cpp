@@ -287,7 +287,7 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
 }
 
 TEST(Slew, GoesOnFromWhatTheBoardAcknowledged) {
-  for (const ExchangeStatus error : {ExchangeStatus::kTimeout, ExchangeStatus::kBadReply}) {
+  for (const LinkFault error : {LinkFault::kTimeout, LinkFault::kWrongReply}) {
     LoopDriver driver;
     driver.open();
     driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
@@ -298,7 +298,7 @@ TEST(Slew, GoesOnFromWhatTheBoardAcknowledged) {
     for (int round = 0; round < 20; ++round) {
       driver.log().answer = error;
       driver.run((HapticLoop::kMaxErrors - 1) * kMs);
-      driver.log().answer = ExchangeStatus::kOk;
+      driver.log().answer = LinkFault::kNone;
       const TickRecord record = driver.tick();
       const StringVector now_N = tensions_N(driver.log().last_volts, driver.profile);
       for (int i = 0; i < driver.profile.geometry.count; ++i)

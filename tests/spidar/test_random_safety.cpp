@@ -114,12 +114,12 @@ class Round {
       const int string = random_.some(real_.geometry.count);
       simulated_.set_count_error(string, random_.chance(0.5) ? 0 : random_.some(2000) - 1000);
     }
-    if (fault_ticks_ > 0 && --fault_ticks_ == 0) simulated_.set_fault(ExchangeStatus::kOk);
+    if (fault_ticks_ > 0 && --fault_ticks_ == 0) simulated_.set_fault(LinkFault::kNone);
     if (fault_ticks_ == 0 && random_.chance(0.002)) {
       fault_ticks_ = 1 + random_.some(25);
-      simulated_.set_fault(random_.chance(0.05)  ? ExchangeStatus::kLost
-                           : random_.chance(0.5) ? ExchangeStatus::kTimeout
-                                                 : ExchangeStatus::kBadReply);
+      simulated_.set_fault(random_.chance(0.05)  ? LinkFault::kGone
+                           : random_.chance(0.5) ? LinkFault::kTimeout
+                                                 : LinkFault::kWrongReply);
     }
     if (loop_->lost() && fault_ticks_ == 0 && random_.chance(0.05)) {
       watch_.restart();
@@ -150,7 +150,7 @@ class Round {
     loop_->tick(now_ns_, now_ns_);
     EXPECT_EQ(allocations, before) << where_ << ": a tick allocates";
     SeamWatch::Tick seen;
-    seen.acknowledged = device_.status() == ExchangeStatus::kOk && !loop_->lost();
+    seen.acknowledged = device_.status() == LinkFault::kNone && !loop_->lost();
     // A device that does not answer keeps what it was told; ramps count two milliseconds at most.
     if (!playing_ && seen.acknowledged) rest_in_ns_ -= std::min(passed_ms, 2) * kMs;
     seen.told_N = tensions_N(device_.volts(), real_);
@@ -164,7 +164,7 @@ class Round {
   /// Off within 100 ms of time in which the device answers.
   void close() {
     stop(kRest_ns);
-    simulated_.set_fault(ExchangeStatus::kOk);
+    simulated_.set_fault(LinkFault::kNone);
     loop_->begin_close();
     int ticks = 0;
     while (!loop_->released()) {

@@ -17,7 +17,7 @@ TEST_F(SimulatedDeviceTest, CountsAreZeroAtTheCentreAndSignedAsTheProfileSays) {
   device.open();
   DeviceReading reading;
   reading.count.fill(77);
-  ASSERT_EQ(device.exchange({}, reading), ExchangeStatus::kOk);
+  ASSERT_EQ(device.exchange({}, reading), LinkFault::kNone);
   for (const int32_t count : reading.count) EXPECT_EQ(count, 0);
 
   // To the right: strings of the left side (0, 1, 4, 5) are paid out.
@@ -41,7 +41,7 @@ TEST_F(SimulatedDeviceTest, CountsAreWithinHalfACountOfTheLengths) {
   for (int tick = 0; tick < 5000; ++tick) {
     if (tick % 50 == 0) device.set_hand(hand_at(random));
     DeviceReading reading;
-    ASSERT_EQ(device.exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(device.exchange({}, reading), LinkFault::kNone);
     const StringVector change_m = string_lengths_m(profile.geometry, device.felt().pose) - home_m;
     for (int i = 0; i < profile.geometry.count; ++i) {
       const StringDrive& drive = profile.drives[static_cast<size_t>(i)];

@@ -26,9 +26,9 @@ TEST_F(SimulatedDeviceTest, SilentHostLeavesTheStringsPulling) {
   EXPECT_NEAR(before.tension_N[0], 2.0, step_N(profile, 0) / 2 * (1 + 1e-9));
 
   // Nothing arrives for half a second: the last volts stand.
-  device.set_fault(ExchangeStatus::kTimeout);
+  device.set_fault(LinkFault::kTimeout);
   for (int tick = 0; tick < 500; ++tick)
-    ASSERT_EQ(device.exchange({}, reading), ExchangeStatus::kTimeout);
+    ASSERT_EQ(device.exchange({}, reading), LinkFault::kTimeout);
   const FeltState after = device.felt();
   EXPECT_EQ(after.time_ns - before.time_ns, 500'000'000);
   EXPECT_NEAR(after.tension_N[0], before.tension_N[0], 1e-12);
@@ -40,28 +40,28 @@ TEST_F(SimulatedDeviceTest, FaultsAnswerAsToldUntilTheyEnd) {
   const MotorVolts volts = volts_for(profile, StringVector::Constant(1.0));
   DeviceReading reading;
 
-  device.set_fault(ExchangeStatus::kBadReply);
+  device.set_fault(LinkFault::kWrongReply);
   reading.count.fill(77);
   for (int tick = 0; tick < 2; ++tick)
-    EXPECT_EQ(device.exchange(volts, reading), ExchangeStatus::kBadReply);
+    EXPECT_EQ(device.exchange(volts, reading), LinkFault::kWrongReply);
   EXPECT_EQ(reading.count[0], 77) << "written although the reply was bad";
   EXPECT_GT(device.felt().tension_N[0], 0.9) << "the volts arrive, only the reply is bad";
 
-  device.set_fault(ExchangeStatus::kOk);
-  EXPECT_EQ(device.exchange(volts, reading), ExchangeStatus::kOk);
+  device.set_fault(LinkFault::kNone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
   EXPECT_NE(reading.count[0], 77);
 
-  device.set_fault(ExchangeStatus::kLost);
-  EXPECT_EQ(device.exchange(volts, reading), ExchangeStatus::kLost);
+  device.set_fault(LinkFault::kGone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone);
   EXPECT_TRUE(device.felt().tension_N.isZero(0));
   EXPECT_THROW(device.open(), DeviceError);
   device.close();
 
-  device.set_fault(ExchangeStatus::kOk);
-  EXPECT_EQ(device.exchange(volts, reading), ExchangeStatus::kLost) << "lost until opened again";
+  device.set_fault(LinkFault::kNone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone) << "lost until opened again";
   device.open();
   EXPECT_EQ(device.felt().time_ns, 0);
-  EXPECT_EQ(device.exchange(volts, reading), ExchangeStatus::kOk);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
 }
 
 TEST_F(SimulatedDeviceTest, ClosingRelaxesTheMotorsAndEverythingFeltIsKept) {
@@ -77,7 +77,7 @@ TEST_F(SimulatedDeviceTest, ClosingRelaxesTheMotorsAndEverythingFeltIsKept) {
   device.close();
   device.close();
   EXPECT_TRUE(device.felt().tension_N.isZero(0));
-  EXPECT_EQ(device.exchange({}, reading), ExchangeStatus::kLost);
+  EXPECT_EQ(device.exchange({}, reading), LinkFault::kGone);
 
   // Tensions rise while it is open, then fall without a step down: a lag of 2 ms keeps e^(−1/2) =
   // 61 % from one millisecond to the next, until next to nothing is left.

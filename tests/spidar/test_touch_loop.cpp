@@ -115,7 +115,7 @@ TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
       if (what == 0) driver->loop->cancel_scheduled();
       if (what == 1) driver->pause();
       if (what == 2) driver->play(n * kMs);
-      driver->log().answer = what == 3 ? ExchangeStatus::kTimeout : ExchangeStatus::kOk;
+      driver->log().answer = what == 3 ? LinkFault::kTimeout : LinkFault::kNone;
       put_grip(*driver, pose);
       const TickRecord record = driver->tick();
       rows[k++] = row_of(record);
@@ -209,9 +209,9 @@ TEST(TouchLoop, NothingIsTouchedWithoutAPose) {
   hand.hold(0, 0, -0.005);
   EXPECT_GT(hand.run(1000).commanded.force_N.z(), 0.5);
   // Replies that are missing: not so many that the device is lost, but the pose is.
-  hand.device.set_fault(ExchangeStatus::kTimeout);
+  hand.device.set_fault(LinkFault::kTimeout);
   EXPECT_FALSE(hand.run(HapticLoop::kMaxErrors - 1).contact.has_surface);
-  hand.device.set_fault(ExchangeStatus::kOk);
+  hand.device.set_fault(LinkFault::kNone);
   bool rested = false;
   for (int n = 0; n < 1000; ++n) {
     const bool at_rest = hand.tick().commanded.stacked().norm() == 0;
@@ -232,10 +232,10 @@ TEST(TouchLoop, ALostDeviceComesBackWithoutAKick) {
   hand.play(0);
   hand.hold(0, 0, -0.005);
   EXPECT_GT(hand.run(1000).commanded.force_N.z(), 0.5);
-  hand.device.set_fault(ExchangeStatus::kLost);
+  hand.device.set_fault(LinkFault::kGone);
   hand.tick();
   ASSERT_TRUE(hand.loop->lost());
-  hand.device.set_fault(ExchangeStatus::kOk);
+  hand.device.set_fault(LinkFault::kNone);
   ASSERT_TRUE(hand.loop->reopen());
   // The hand itself takes the grip from the centre to where it is held, at up to 0.1 m/s.
   Hand untouched;

@@ -34,7 +34,7 @@ MotorVolts all_volts(double volt) {
 class UartLines : public testing::Test {
  protected:
   /// Guarded by nobody, and exchanging on this thread.
-  std::unique_ptr<Device> device(const std::string& spec) const {
+  std::unique_ptr<StringDevice> device(const std::string& spec) const {
     BoardSettings settings;
     settings.guardian = false;
     settings.threaded = false;
@@ -42,7 +42,7 @@ class UartLines : public testing::Test {
   }
 
   /// The line's thread is a scheduler away: a slow machine may miss deadlines, not answers.
-  static void exchange_until(Device& board, double volt, ExchangeStatus wanted,
+  static void exchange_until(StringDevice& board, double volt, LinkFault wanted,
                              DeviceReading& reading) {
     while (board.exchange(all_volts(volt), reading) != wanted) {
     }
@@ -62,7 +62,7 @@ TEST_F(UartLines, OneBoardOfEightMotors) {
   DeviceReading reading;
   for (int i = 1; i <= 100; ++i) {
     first.count[7] = 500 * i;
-    exchange_until(*board, -1.0, ExchangeStatus::kOk, reading);
+    exchange_until(*board, -1.0, LinkFault::kNone, reading);
   }
   EXPECT_EQ(reading.count[7], 50'000);
   // Bit for bit: −1 V is −1241.2 digits.
@@ -109,9 +109,9 @@ TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
     const size_t at = two_lines ? 1 : 5;  // motor 5 of all
     last.count[at] = 0;
     DeviceReading reading;
-    exchange_until(*board, 0.5, ExchangeStatus::kOk, reading);
+    exchange_until(*board, 0.5, LinkFault::kNone, reading);
     last.count[at] = -77;
-    exchange_until(*board, 0.5, ExchangeStatus::kOk, reading);
+    exchange_until(*board, 0.5, LinkFault::kNone, reading);
     EXPECT_EQ(reading.count[5], -77) << two_lines;
     EXPECT_EQ(last.digit[at], static_cast<int>(std::lround(0.5 * 4096 / 3.3)));
   }
@@ -123,10 +123,10 @@ TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
   board->open();
   DeviceReading reading;
   line.set_silent(true);
-  exchange_until(*board, 1, ExchangeStatus::kTimeout, reading);
+  exchange_until(*board, 1, LinkFault::kTimeout, reading);
   EXPECT_GE(board->health().count(LinkFault::kTimeout), 1u);
   line.set_silent(false);
-  exchange_until(*board, 1, ExchangeStatus::kOk, reading);
+  exchange_until(*board, 1, LinkFault::kNone, reading);
 }
 
 TEST_F(UartLines, AHangUpIsAnUnplug) {
@@ -135,10 +135,10 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   const auto board = device("uart:" + line->path() + "," + survivor->path());
   board->open();
   DeviceReading reading;
-  exchange_until(*board, 1, ExchangeStatus::kOk, reading);
+  exchange_until(*board, 1, LinkFault::kNone, reading);
   EXPECT_FALSE(second.all_zero());
   line.reset();
-  exchange_until(*board, 1, ExchangeStatus::kLost, reading);
+  exchange_until(*board, 1, LinkFault::kGone, reading);
   EXPECT_FALSE(second.all_zero());
   // The boards of the line that is left are taken down slowly.
   const int full = second.digit[0];
@@ -148,7 +148,7 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   survivor.reset();
   const std::vector<int>& put_out = second.history;
   for (size_t i = 1; i < put_out.size(); ++i)
-    EXPECT_LE(put_out[i - 1] - put_out[i], full / BoardDevice::kRamp_ms + 1) << i;
+    EXPECT_LE(put_out[i - 1] - put_out[i], full / StringLink::kRamp_ms + 1) << i;
 }
 
 TEST_F(UartLines, OpenSaysWhatIsWrong) {

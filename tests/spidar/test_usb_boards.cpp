@@ -41,7 +41,7 @@ std::string opening(Opened& device) {
 }
 
 /// Exchanges until the answer is as given, however slow the machine is.
-void exchange_until(Device& device, ExchangeStatus wanted, DeviceReading& reading) {
+void exchange_until(StringDevice& device, LinkFault wanted, DeviceReading& reading) {
   while (device.exchange(all_volts(1), reading) != wanted) {
   }
 }
@@ -57,7 +57,8 @@ class UsbBoards : public testing::Test {
     settings.threaded = threaded;
     return settings;
   }
-  std::unique_ptr<Device> device(const std::string& spec = "usb", bool threaded = true) const {
+  std::unique_ptr<StringDevice> device(const std::string& spec = "usb",
+                                       bool threaded = true) const {
     return make_device(spec, profile, unguarded(threaded));
   }
 
@@ -132,7 +133,7 @@ TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
     ASSERT_EQ(opening(*board), "") << c.spec;
     EXPECT_EQ(board->description(), c.description);
     DeviceReading reading;
-    ASSERT_EQ(board->exchange(all_volts(1), reading), ExchangeStatus::kOk) << c.spec;
+    ASSERT_EQ(board->exchange(all_volts(1), reading), LinkFault::kNone) << c.spec;
     for (size_t port = 0; port < 3; ++port)
       EXPECT_EQ(bus().port[port].at_rest(), port != c.port) << c.spec << " port " << port;
   }
@@ -172,7 +173,7 @@ TEST_P(EachUsbBoard, ExchangesTenThousandTimes) {
   DeviceReading reading;
   for (int i = 1; i <= 10'000; ++i) {
     port.count[5] = 20 * i;
-    ASSERT_EQ(board->exchange(all_volts(1e-3 * (i % 1000)), reading), ExchangeStatus::kOk) << i;
+    ASSERT_EQ(board->exchange(all_volts(1e-3 * (i % 1000)), reading), LinkFault::kNone) << i;
     ASSERT_EQ(reading.count[5], 20 * i);
   }
   EXPECT_EQ(port.digit[0], 0);  // 10 000 is 0 of a thousand
@@ -193,10 +194,7 @@ TEST_P(EachUsbBoard, EveryFaultIsNamedAndPasses) {
     port.fault = fault;
     // Of three in a row, so that the board is reset as well.
     for (int i = 0; i < 3; ++i) {
-      const ExchangeStatus status = board->exchange(all_volts(1), reading);
-      EXPECT_EQ(status,
-                fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout : ExchangeStatus::kBadReply)
-          << to_string(fault);
+      EXPECT_EQ(board->exchange(all_volts(1), reading), fault);
     }
     EXPECT_EQ(board->health().count(fault), 3u) << to_string(fault);
     EXPECT_EQ(board->health().last_fault, fault);
@@ -204,7 +202,7 @@ TEST_P(EachUsbBoard, EveryFaultIsNamedAndPasses) {
     port.fault = LinkFault::kNone;
     // A reply that was under way when the fault ended may still be in the board.
     int tries = 0;
-    while (board->exchange(all_volts(1), reading) != ExchangeStatus::kOk) ASSERT_LT(++tries, 3);
+    while (board->exchange(all_volts(1), reading) != LinkFault::kNone) ASSERT_LT(++tries, 3);
   }
 }
 
@@ -214,12 +212,12 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
     const auto board = device();
     ASSERT_EQ(opening(*board), "");
     DeviceReading reading;
-    exchange_until(*board, ExchangeStatus::kOk, reading);
+    exchange_until(*board, LinkFault::kNone, reading);
     // In flight for as long as the board says nothing.
     bus().port[1].fault = LinkFault::kTimeout;
-    exchange_until(*board, ExchangeStatus::kTimeout, reading);
+    exchange_until(*board, LinkFault::kTimeout, reading);
     unplug(1, first);
-    exchange_until(*board, ExchangeStatus::kLost, reading);
+    exchange_until(*board, LinkFault::kGone, reading);
     EXPECT_GE(board->health().count(LinkFault::kGone), 1u);
     EXPECT_NE(opening(*board).find("no CyVerse USB 2.0"), std::string::npos);
 
@@ -227,7 +225,7 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
     again.count[0] = 12;
     ASSERT_EQ(opening(*board), "");
     EXPECT_TRUE(again.at_rest());
-    exchange_until(*board, ExchangeStatus::kOk, reading);
+    exchange_until(*board, LinkFault::kNone, reading);
     EXPECT_EQ(reading.count[0], 12);
     board->close();
     EXPECT_TRUE(again.at_rest());
@@ -244,7 +242,7 @@ TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
     const auto board = make_device("usb", calibrated, unguarded(false));
     board->open();
     DeviceReading reading;
-    ASSERT_EQ(board->exchange({}, reading), ExchangeStatus::kOk);
+    ASSERT_EQ(board->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[0], offsets ? 600 : 0);
   }
 }
@@ -259,7 +257,7 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   UsbPort& right = plug(1, UsbKind::kMouse);
   ASSERT_EQ(opening(*mouse), "");
   EXPECT_EQ(mouse->description(), "at 1-2: SPIDAR-mouse");
-  for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(told(1)), ExchangeStatus::kOk);
+  for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(told(1)), LinkFault::kNone);
   EXPECT_FALSE(right.at_rest());
   EXPECT_TRUE(other.at_rest());
   mouse->close();

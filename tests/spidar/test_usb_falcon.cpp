@@ -113,7 +113,7 @@ TEST_F(UsbFalcon, IsListedAndFoundByPathOrSerial) {
   const auto by_serial = grip("falcon:F1"), by_path = grip("falcon:1-3");
   EXPECT_EQ(opening(*by_serial), "");
   EXPECT_EQ(opening(*by_path), "");
-  for (int i = 0; i < 2; ++i) ASSERT_EQ(by_path->exchange(told(1)), ExchangeStatus::kOk);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(by_path->exchange(told(1)), LinkFault::kNone);
   EXPECT_FALSE(second.at_rest());
   EXPECT_TRUE(bus().port[0].at_rest());
   clear_bus();
@@ -129,13 +129,11 @@ TEST_F(UsbFalcon, EveryFaultIsNamedAndPasses) {
   for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kShort,
                                 LinkFault::kBabble, LinkFault::kBusError, LinkFault::kWrongReply}) {
     port.fault = fault;
-    ASSERT_EQ(falcon->exchange(told(1)),
-              fault == LinkFault::kTimeout ? ExchangeStatus::kTimeout : ExchangeStatus::kBadReply)
-        << to_string(fault);
+    ASSERT_EQ(falcon->exchange(told(1)), fault);
     EXPECT_EQ(falcon->health().count(fault), 1u) << to_string(fault);
     port.fault = LinkFault::kNone;
     port.count[0] = moved_um += 3000;
-    ASSERT_EQ(falcon->exchange(told(1)), ExchangeStatus::kOk) << to_string(fault);
+    ASSERT_EQ(falcon->exchange(told(1)), LinkFault::kNone) << to_string(fault);
     EXPECT_NEAR(falcon->reading().pose.position_m.x(), 1e-6 * moved_um, 5e-5) << to_string(fault);
   }
 }

@@ -199,16 +199,16 @@ TEST(Wiring, LostDeviceEndsTheTest) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
   int ticks = 0;
-  const auto fail_at = [&](ExchangeStatus fault) {
+  const auto fail_at = [&](LinkFault fault) {
     ticks = 0;
     return [&, fault] {
       if (++ticks == 300) device.set_fault(fault);
       return true;
     };
   };
-  EXPECT_THROW(ask_wiring(device, profile, fail_at(ExchangeStatus::kLost)), DeviceError);
-  device.set_fault(ExchangeStatus::kOk);
-  EXPECT_THROW(ask_wiring(device, profile, fail_at(ExchangeStatus::kTimeout)), DeviceError);
+  EXPECT_THROW(ask_wiring(device, profile, fail_at(LinkFault::kGone)), DeviceError);
+  device.set_fault(LinkFault::kNone);
+  EXPECT_THROW(ask_wiring(device, profile, fail_at(LinkFault::kTimeout)), DeviceError);
 }
 
 }  // namespace spidar::test::wiring_test

@@ -27,7 +27,7 @@ bool without_pauses() {
 
 /// A hand that trembles by 0.1 mm at 8 to 12 Hz and, at random times, every `mean_s` on average,
 /// goes 1 to 3 mm from the centre in any direction, within some 40 ms.
-class UnrulyHand final : public Device {
+class UnrulyHand final : public StringDevice {
  public:
   UnrulyHand(const Profile& profile, const std::string& faults, unsigned seed, double mean_s)
       : random_(seed), pause_s_(1 / mean_s) {
@@ -38,7 +38,7 @@ class UnrulyHand final : public Device {
   }
 
   void open() override { device_->open(); }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     if (++ms_ >= next_ms_) {
       next_ms_ = ms_ + pause_ms();
       std::normal_distribution<double> normal;
@@ -61,7 +61,7 @@ class UnrulyHand final : public Device {
   std::mt19937 random_;
   std::exponential_distribution<double> pause_s_;
   SimulatedDevice* sim_ = nullptr;
-  std::unique_ptr<Device> device_;
+  std::unique_ptr<StringDevice> device_;
   int ms_ = 0, next_ms_ = 0;
   Eigen::Vector3d to_m_ = Eigen::Vector3d::Zero(), at_m_ = Eigen::Vector3d::Zero();
 };

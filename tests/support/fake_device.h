@@ -17,8 +17,8 @@ namespace spidar::test {
 struct FakeDeviceLog {
   /// Whether the device is present, so that open() works.
   std::atomic<bool> present{true};
-  /// Answer of every exchange; kLost also closes.
-  std::atomic<ExchangeStatus> answer{ExchangeStatus::kOk};
+  /// Answer of every exchange; kGone also closes.
+  std::atomic<LinkFault> answer{LinkFault::kNone};
   std::array<int32_t, kMaxStrings> count{};  ///< counts of the encoders
 
   std::atomic<bool> is_open{false};
@@ -31,7 +31,7 @@ struct FakeDeviceLog {
   static constexpr size_t kMemory = 20'000;
 };
 
-class FakeDevice final : public Device {
+class FakeDevice final : public StringDevice {
  public:
   explicit FakeDevice(std::shared_ptr<FakeDeviceLog> log = std::make_shared<FakeDeviceLog>())
       : log_(std::move(log)) {
@@ -44,13 +44,13 @@ class FakeDevice final : public Device {
     ++log_->opened;
   }
 
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
-    if (!log_->is_open) return ExchangeStatus::kLost;
-    const ExchangeStatus answer = log_->answer;
-    if (answer == ExchangeStatus::kLost) log_->is_open = false;
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    if (!log_->is_open) return LinkFault::kGone;
+    const LinkFault answer = log_->answer;
+    if (answer == LinkFault::kGone) log_->is_open = false;
     log_->last_volts = volts;
     if (log_->volts.size() < FakeDeviceLog::kMemory) log_->volts.push_back(volts);
-    if (answer == ExchangeStatus::kOk) reading.count = log_->count;
+    if (answer == LinkFault::kNone) reading.count = log_->count;
     return answer;
   }
 

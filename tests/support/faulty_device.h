@@ -13,7 +13,7 @@
 
 namespace spidar::test {
 
-class FaultyDevice final : public Device {
+class FaultyDevice final : public StringDevice {
  public:
   FaultyDevice(SimulatedDevice& inner, const Profile& profile) : inner_(inner), profile_(profile) {}
 
@@ -22,8 +22,8 @@ class FaultyDevice final : public Device {
   void stop_encoder(int string) { stopped_ |= 1u << string; }
   /// Its encoder counts so much more from now on.
   void shift(int string, int32_t counts) { move(static_cast<size_t>(string), counts); }
-  /// kOk: works again.
-  void set_link(ExchangeStatus link) { link_ = link; }
+  /// kNone: works again.
+  void set_link(LinkFault link) { link_ = link; }
 
   /// A millisecond in which nobody talks to the board.
   void hold() {
@@ -32,24 +32,24 @@ class FaultyDevice final : public Device {
   }
   /// Zero volts from now on, if the link works.
   void zero() {
-    if (link_ != ExchangeStatus::kTimeout) volts_ = {};
+    if (link_ != LinkFault::kTimeout) volts_ = {};
   }
   /// What acts at the strings when the motors have followed.
   StringVector told_N() const { return tensions_N(acting(), profile_); }
 
   void open() override {
-    if (link_ != ExchangeStatus::kOk) throw DeviceError("sim: the link is down");
+    if (link_ != LinkFault::kNone) throw DeviceError("sim: the link is down");
     inner_.close();
     inner_.open();
     open_ = true;
     closing_ = false;
     volts_ = {};
   }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
-    if (link_ != ExchangeStatus::kTimeout) volts_ = volts;
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    if (link_ != LinkFault::kTimeout) volts_ = volts;
     DeviceReading read;
-    const ExchangeStatus status = pass(read);
-    if (link_ != ExchangeStatus::kOk) return link_;
+    const LinkFault status = pass(read);
+    if (link_ != LinkFault::kNone) return link_;
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
     reading = last_;
@@ -67,8 +67,8 @@ class FaultyDevice final : public Device {
     return volts;
   }
 
-  ExchangeStatus pass(DeviceReading& reading) {
-    if (!open_) return ExchangeStatus::kLost;
+  LinkFault pass(DeviceReading& reading) {
+    if (!open_) return LinkFault::kGone;
     if (closing_) zero();
     // A free motor winds at 1 m/s while it has a voltage.
     for (size_t i = 0; i < kMaxStrings; ++i) {
@@ -90,7 +90,7 @@ class FaultyDevice final : public Device {
   unsigned stopped_ = 0;
   bool open_ = false;
   bool closing_ = false;
-  ExchangeStatus link_ = ExchangeStatus::kOk;
+  LinkFault link_ = LinkFault::kNone;
   MotorVolts volts_;
   DeviceReading last_;
   std::array<int32_t, kMaxStrings> error_{};

@@ -17,9 +17,9 @@ namespace spidar::test {
 /// `faults` are separated by semicolons; channels count from zero: `swap-motors:I,J`,
 /// `swap-encoders:I,J`, `swap-strings:I,J` (both), `reverse-motor:I`, `reverse-encoder:I`,
 /// `cut-motor:I`, `cut-encoder:I`.
-class MiswiredDevice final : public Device {
+class MiswiredDevice final : public StringDevice {
  public:
-  MiswiredDevice(std::unique_ptr<Device> device, const std::string& faults)
+  MiswiredDevice(std::unique_ptr<StringDevice> device, const std::string& faults)
       : device_(std::move(device)) {
     for (size_t i = 0; i < channel_.size(); ++i) channel_[i] = {i, i, 1, 1};
     std::istringstream in(faults);
@@ -27,13 +27,13 @@ class MiswiredDevice final : public Device {
   }
 
   void open() override { device_->open(); }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     MotorVolts wired;
     for (size_t i = 0; i < channel_.size(); ++i)
       wired.volt[channel_[i].motor] = channel_[i].motor_sign * volts.volt[i];
     DeviceReading right;
-    const ExchangeStatus status = device_->exchange(wired, right);
-    if (status != ExchangeStatus::kOk) return status;
+    const LinkFault status = device_->exchange(wired, right);
+    if (status != LinkFault::kNone) return status;
     reading = right;
     for (size_t i = 0; i < channel_.size(); ++i)
       reading.count[i] = channel_[i].encoder_sign * right.count[channel_[i].encoder];
@@ -63,7 +63,7 @@ class MiswiredDevice final : public Device {
     }
   }
 
-  const std::unique_ptr<Device> device_;
+  const std::unique_ptr<StringDevice> device_;
   std::array<Channel, kMaxStrings> channel_;
 };
 

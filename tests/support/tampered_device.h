@@ -13,10 +13,10 @@
 
 namespace spidar::test {
 
-class TamperedDevice final : public Device {
+class TamperedDevice final : public StringDevice {
  public:
   /// `inner` must outlive it.
-  explicit TamperedDevice(Device& inner) : inner_(inner) {}
+  explicit TamperedDevice(StringDevice& inner) : inner_(inner) {}
 
   /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
@@ -24,20 +24,20 @@ class TamperedDevice final : public Device {
   /// Volts of the last exchange.
   const MotorVolts& volts() const { return volts_; }
   /// Of the last exchange.
-  ExchangeStatus status() const { return status_; }
+  LinkFault status() const { return status_; }
 
   void open() override {
     volts_ = {};
     inner_.open();
   }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     DeviceReading read;
     status_ = inner_.exchange(volts, read);
     // After a garbled answer the board has received the volts; one that is gone releases the
     // motors.
-    if (status_ != ExchangeStatus::kTimeout) volts_ = volts;
-    if (status_ == ExchangeStatus::kLost) volts_ = {};
-    if (status_ != ExchangeStatus::kOk) return status_;
+    if (status_ != LinkFault::kTimeout) volts_ = volts;
+    if (status_ == LinkFault::kGone) volts_ = {};
+    if (status_ != LinkFault::kNone) return status_;
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
     reading = last_;
@@ -50,10 +50,10 @@ class TamperedDevice final : public Device {
   const std::string& name() const noexcept override { return inner_.name(); }
 
  private:
-  Device& inner_;
+  StringDevice& inner_;
   unsigned stopped_ = 0;
   MotorVolts volts_;
-  ExchangeStatus status_ = ExchangeStatus::kLost;
+  LinkFault status_ = LinkFault::kGone;
   DeviceReading last_;
 };
 

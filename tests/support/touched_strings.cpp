@@ -30,12 +30,12 @@ GripModel model_of(const Hand& hand, const StringTouch& touch) {
 }
 
 /// The simulated device; records its encoder readings.
-class ReadDevice final : public Device {
+class ReadDevice final : public StringDevice {
  public:
   explicit ReadDevice(SimulatedDevice& device) : device_(device) {}
   void open() override { device_.open(); }
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
-    const ExchangeStatus status = device_.exchange(volts, reading);
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    const LinkFault status = device_.exchange(volts, reading);
     last_ = reading;
     return status;
   }
@@ -49,12 +49,12 @@ class ReadDevice final : public Device {
 };
 
 /// Simulates only the drives; the encoder readings come from the device of another loop.
-class ShadowDevice final : public Device {
+class ShadowDevice final : public StringDevice {
  public:
   ShadowDevice(const Profile& profile, const ReadDevice& of, double lag_s)
       : profile_(profile), of_(of), kept_(std::exp(-kTick_s / lag_s)) {}
   void open() override {}
-  ExchangeStatus exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     tension_N_ = target_N_ + kept_ * (tension_N_ - target_N_);
     const double step_V = profile_.dac_max_V / static_cast<double>((1 << profile_.dac_bits) - 1);
     for (int i = 0; i < profile_.geometry.count; ++i) {
@@ -65,7 +65,7 @@ class ShadowDevice final : public Device {
                                drive.max_tension_N);
     }
     reading = of_.last();
-    return ExchangeStatus::kOk;
+    return LinkFault::kNone;
   }
   void close() noexcept override {}
   const std::string& name() const noexcept override { return name_; }
