@@ -34,9 +34,10 @@ ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0 unless it is told anot
 PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, "
            "`gst_preset_load_preset()`), which set motion, controller, filter, gains and largest force. GStreamer finds "
            "them where its own data are, and in `GST_PRESET_PATH`. In a launch line, a preset replaces what the line sets, "
-           "`max-force`, too, wherever it stands.\n")
-CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only. "
-           "*Controllable* means that a `GstControlSource` can drive it.\n")
+           "wherever it stands, but it never raises a `max-force` that was set lower. `spidar-feel` and `examples/play.sh` take "
+           "`preset=film`.\n")
+CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only; or *in "
+           "NULL*: then only there. Later a warning says so, and it stays as it was. *Controllable* means that a `GstControlSource` can drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
          "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
@@ -86,7 +87,7 @@ def access_text(spec):
         return "controllable"
     if spec.flags & Gst.PARAM_MUTABLE_PLAYING:
         return ""
-    return "in READY"
+    return "in READY" if spec.flags & Gst.PARAM_MUTABLE_READY else "in NULL"
 
 
 def property_lines(spec):
@@ -146,7 +147,8 @@ def json_fields(value, prefix=""):
 
 
 def play(pipeline):
-    """Messages and statistics of the element `m` while a pipeline plays: {name: type} of the fields of each."""
+    """Messages, by their names, and statistics of the element `m` while a pipeline plays: {name: type} of the fields of
+    each."""
     playing = Gst.parse_launch(pipeline)
     bus, messages, stats = playing.get_bus(), {}, {}
     element = playing.get_by_name("m")
@@ -158,7 +160,8 @@ def play(pipeline):
         if message.type == Gst.MessageType.EOS:
             break
         if message.src == element:
-            messages |= fields_of(message.get_structure())
+            found = message.get_structure()
+            messages[found.get_name()] = messages.get(found.get_name(), {}) | fields_of(found)
     stats |= fields_of(element.get_property("stats"))
     playing.set_state(Gst.State.NULL)
     return messages, stats
@@ -213,7 +216,8 @@ def observed(fields):
         more, touching = play(f"{ball} ! spidarmotion name=m touch=luma trace={lines} ! fakesink sync=true")
         # A film without motion has a reason.
         still, unfelt = play("videotestsrc num-buffers=5 pattern=black ! spidarmotion name=m ! fakesink sync=true")
-        messages, stats = messages | more | still, stats | touching | unfelt
+        device, stats = messages["spidar-device"], stats | touching | unfelt
+        messages = messages["spidar-motion"] | more["spidar-motion"] | still["spidar-motion"]
         track = "audiotestsrc num-buffers=2 wave=silence ! audio/x-raw,format=F32LE,rate=1000,channels=6,channel-mask=(bitmask)0x3f"
         _, track_stats = play(f"{track} ! spidarsink accept-unmarked=true name=m")
         header = Path(csv).read_text(encoding="utf-8").split("\n")[0].split(",")
@@ -228,13 +232,18 @@ def observed(fields):
               "frame is analysed, which behind a queue is up to a second before the frame is shown. Use it at its "
               "`running-time`, as [motion_messages.py](../../examples/motion_messages.py) and "
               "[gtk_arrow.py](../../examples/gtk_arrow.py) do. A star stands for x, y and z:", "",
-              *field_list(fields, "message", messages, messages), "", "## Fields of `stats`",
+              *field_list(fields, "message", messages, messages), "",
+              "When the device is opened, cannot be opened, is lost or comes back, an element message `spidar-device`. Warnings "
+              "and errors say the same to people; their codes are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
+              "its profile, its firmware) or `OPEN_READ_WRITE` of `GST_RESOURCE_ERROR`, and `WRITE` when it is lost:", "",
+              *field_list(fields, "device-message", device, device), "", "## Fields of `stats`",
               *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
               "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *field_list(fields, "trace", shorter(header)),
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
               *field_list(fields, "json", fullest), *haptic]
     of_track = {name: kind for name, kind in track_stats.items() if name not in fields.tables["stats.device"]}
-    sink = ["", "## Fields of `stats`", *stats_lists(fields, of_track, {"stats.track": "Of the track:"}), "",
+    sink = ["", "## Messages", "", "`spidar-device`, as [spidarmotion](spidarmotion.md#messages) posts it.",
+            "", "## Fields of `stats`", *stats_lists(fields, of_track, {"stats.track": "Of the track:"}), "",
             "Of the device: those of [spidarmotion](spidarmotion.md#fields-of-stats).", "",
             "## Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]
     return {"spidarmotion": motion, "spidarsink": sink}

@@ -6,18 +6,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 #include "core/grip/string_geometry.h"
+#include "spidar/device_error.h"
 
 namespace spidar {
-
-/// A device that cannot be opened. what() says which, why, and what to do.
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What a link says of an exchange.
 enum class LinkFault : uint8_t {

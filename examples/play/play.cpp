@@ -68,7 +68,9 @@ Options parse(CLI::App& app, int argc, char** argv) {
   app.add_flag("--window", options.window, "The debug window in place of a window for the video");
   app.add_option("--window-png", options.window_png,
                  "The same, saved as a picture after five seconds of the video, or at its end");
-  app.footer("After -- come properties of spidarmotion, NAME=VALUE: gst-inspect-1.0 spidarmotion");
+  app.footer(
+      "After -- come properties of spidarmotion, NAME=VALUE (gst-inspect-1.0 spidarmotion), and\n"
+      "preset=paper, film or gentle");
   char** const end =
       std::find_if(argv, argv + argc, [](const char* word) { return std::string(word) == "--"; });
   app.allow_extras();
@@ -174,6 +176,10 @@ int play(const Options& options) {
   prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   for (const std::string& text : options.properties) {
+    if (const auto preset = spidar::preset_of(text)) {
+      spidar::load_preset(filter, *preset);
+      continue;
+    }
     const spidar::TypedProperty property(G_OBJECT(filter), text);
     g_object_set_property(G_OBJECT(filter), property.name().c_str(), property.value());
   }

@@ -61,7 +61,9 @@ static void set_properties(GstElement* motion, const char* properties) {
     gchar* value = strchr(*line, '=');
     if (!value) continue;
     *value++ = '\0';
-    if (g_object_class_find_property(G_OBJECT_GET_CLASS(motion), *line))
+    if (strcmp(*line, "preset") == 0)
+      gst_preset_load_preset(GST_PRESET(motion), value);
+    else if (g_object_class_find_property(G_OBJECT_GET_CLASS(motion), *line))
       gst_util_set_object_arg(G_OBJECT(motion), *line, value);
     else
       GST_WARNING_OBJECT(motion, "spidarmotion has no property %s", *line);
@@ -72,6 +74,10 @@ static void set_properties(GstElement* motion, const char* properties) {
 /// The video continues: an error of the device becomes a warning in the player. Players may hide
 /// warnings and information, so they are also printed on standard error.
 static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
+    gst_element_post_message(GST_ELEMENT(self), gst_message_ref(message));
+    return;
+  }
   GError* error = nullptr;
   gchar* details = nullptr;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
@@ -81,11 +87,10 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   else
     gst_message_parse_info(message, &error, &details);
   g_printerr("spidar-feel: %s\n", error->message);
-  const char* text = details ? details : "";
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO)
-    GST_ELEMENT_INFO(self, RESOURCE, SETTINGS, ("%s", error->message), ("%s", text));
-  else
-    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_READ_WRITE, ("%s", error->message), ("%s", text));
+  // With its own code and place.
+  const auto message_of = GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO ? gst_message_new_info
+                                                                        : gst_message_new_warning;
+  gst_element_post_message(GST_ELEMENT(self), message_of(GST_OBJECT(self), error, details));
   g_clear_error(&error);
   g_free(details);
 }
@@ -106,8 +111,8 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   const bool opened =
       gst_element_set_state(motion.get(), GST_STATE_READY) != GST_STATE_CHANGE_FAILURE;
   g_object_set(motion.get(), "on-device-error", while_playing, nullptr);
-  const auto kinds =
-      static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING | GST_MESSAGE_INFO);
+  const auto kinds = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING |
+                                                 GST_MESSAGE_INFO | GST_MESSAGE_ELEMENT);
   while (GstMessage* message = gst_bus_pop_filtered(bus.get(), kinds)) {
     pass_on(self, message);
     gst_message_unref(message);

@@ -27,11 +27,14 @@
 namespace spidar {
 namespace {
 
-void check_one(GObject* element, const std::string& text) {
-  const TypedProperty property(element, text);
-  const std::string name = property.name();
-  if (name == "device" || name == "profile")
-    g_object_set_property(element, name.c_str(), property.value());
+/// Sets it, or loads the preset.
+void take(GstElement* element, const std::string& text) {
+  if (const auto preset = preset_of(text)) {
+    load_preset(element, *preset);
+    return;
+  }
+  const TypedProperty property(G_OBJECT(element), text);
+  g_object_set_property(G_OBJECT(element), property.name().c_str(), property.value());
 }
 
 std::string string_property(GObject* element, const char* name) {
@@ -55,13 +58,13 @@ void check_device(GObject* element) {
   }
 }
 
-/// `properties` are of the form NAME=VALUE; `element` is a spidarmotion in the state NULL. Sets its
-/// `device` and `profile`, and no other property. Opens no device, so one that is not plugged in is
-/// no error. Throws PropertyError, which says what is wrong and what would be right, for an unknown
-/// property, a value that the property does not take, a name that no device has, and a profile that
-/// cannot be read or does not suit the device.
+/// `properties` are of the form NAME=VALUE, or preset=NAME; `element` is a spidarmotion in the
+/// state NULL. Opens no device, so one that is not plugged in is no error. Throws PropertyError,
+/// which says what is wrong and what would be right, for an unknown property, a value that the
+/// property does not take, a name that no device has, and a profile that cannot be read or does not
+/// suit the device.
 void check_properties(GstElement* element, const std::vector<std::string>& properties) {
-  for (const std::string& property : properties) check_one(G_OBJECT(element), property);
+  for (const std::string& property : properties) take(element, property);
   check_device(G_OBJECT(element));
 }
 
@@ -81,6 +84,7 @@ constexpr const char* kHelp =
 
 Runs PROGRAM, a player that uses GStreamer, so that the video it plays is felt on a SPIDAR or on a
 force-feedback joystick. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
+preset=NAME stands for those of a preset: paper, film or gentle.
 
   spidar-feel totem film.mp4
   spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4

@@ -20,6 +20,7 @@ struct _GstSpidarMotion {
 
   GMutex setting;                        // what is set reaches the engine in the order it was set
   spidar::MotionProperties* properties;  // object lock
+  double largest_set_N;                  // object lock: max-force by others than presets
   gboolean opened;                       // object lock: READY or above
   spidar::MotionEngine* engine;
   spidar::MotionDisplay* display;

@@ -4,46 +4,66 @@
 #pragma once
 
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include <gst/gst.h>
 
 #include "plugin/gobject/category.h"
 #include "spidar/device.h"
-#include "spidar/profiles/profile_file.h"
-#include "spidar/session/profile_choice.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar {
 
+inline GstResourceError resource_error(DeviceTrouble trouble) {
+  switch (trouble) {
+    case DeviceTrouble::kAbsent:
+      return GST_RESOURCE_ERROR_NOT_FOUND;
+    case DeviceTrouble::kBusy:
+      return GST_RESOURCE_ERROR_BUSY;
+    case DeviceTrouble::kForbidden:
+      return GST_RESOURCE_ERROR_NOT_AUTHORIZED;
+    case DeviceTrouble::kSettings:
+      return GST_RESOURCE_ERROR_SETTINGS;
+    case DeviceTrouble::kFailed:
+      break;
+  }
+  return GST_RESOURCE_ERROR_OPEN_READ_WRITE;
+}
+
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
-/// A profile that is wrong or missing is RESOURCE/SETTINGS, a device that cannot be used is
-/// RESOURCE/OPEN_READ_WRITE, anything else is LIBRARY/FAILED. `details` are the debug text.
+/// A device that cannot be used is RESOURCE with the code of its trouble, a wrong profile or number
+/// RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of the
+/// source that found it, or `place` where the exception does not say, and ends with `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
-                           const std::string& details) {
-  GQuark domain = GST_RESOURCE_ERROR;
-  gint code = GST_RESOURCE_ERROR_SETTINGS;
-  if (!dynamic_cast<const ProfileError*>(&error) && !dynamic_cast<const NoProfile*>(&error)) {
-    const bool is_device = dynamic_cast<const DeviceError*>(&error) != nullptr;
-    domain = is_device ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR;
-    code = is_device ? static_cast<gint>(GST_RESOURCE_ERROR_OPEN_READ_WRITE)
-                     : static_cast<gint>(GST_LIBRARY_ERROR_FAILED);
+                           const std::string& details, Place place) {
+  const auto* const device = dynamic_cast<const DeviceError*>(&error);
+  const bool is_setting = dynamic_cast<const ProfileError*>(&error) != nullptr ||
+                          dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
+  const GQuark domain = device || is_setting ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR;
+  gint code = GST_LIBRARY_ERROR_FAILED;
+  if (is_setting) code = GST_RESOURCE_ERROR_SETTINGS;
+  if (device) {
+    code = resource_error(device->trouble());
+    place = device->place();
   }
   // As the macros of GStreamer that post a message also log it.
   GST_CAT_WARNING_OBJECT(category_of(element), element, "%s: %s",
                          kind == GST_MESSAGE_ERROR ? "error" : "warning", error.what());
   gst_element_message_full(element, kind, domain, code, g_strdup(error.what()),
-                           g_strdup(details.c_str()), __FILE__, GST_FUNCTION, __LINE__);
+                           g_strdup(details.c_str()), place.file, place.function, place.line);
 }
 
 /// Calls `function`. When it throws, posts the exception as an error and returns false. `doing`
 /// completes "while …" in the debug text.
 template <typename Function>
-bool guarded(GstElement* element, const char* doing, Function&& function) {
+bool guarded(GstElement* element, const char* doing, Function&& function,
+             Place place = Place::here()) {
   try {
     function();
     return true;
   } catch (const std::exception& error) {
-    post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing);
+    post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing, place);
     return false;
   }
 }

@@ -32,20 +32,33 @@ std::string why_lost(const HapticSession& session) {
 
 }  // namespace
 
-bool DeviceWarnings::check_refused(const std::exception& refusal, OnDeviceError policy) const {
+void DeviceWarnings::post(const char* state, const std::string& device,
+                          const std::string& why) const {
+  GST_INFO_OBJECT(element_, "device %s: %s: %s", device.c_str(), state, why.c_str());
+  GstStructure* const what =
+      gst_structure_new("spidar-device", "state", G_TYPE_STRING, state, "device", G_TYPE_STRING,
+                        device.c_str(), "reason", G_TYPE_STRING, why.c_str(), nullptr);
+  gst_element_post_message(element_, gst_message_new_element(GST_OBJECT(element_), what));
+}
+
+bool DeviceWarnings::check_refused(const std::string& device, const std::exception& refusal,
+                                   OnDeviceError policy, Place place) const {
+  post("refused", device, refusal.what());
   if (policy == OnDeviceError::kError) {
-    post_exception(element_, GST_MESSAGE_ERROR, refusal, "on-device-error=error");
+    post_exception(element_, GST_MESSAGE_ERROR, refusal, "on-device-error=error", place);
     return false;
   }
   post_exception(element_, GST_MESSAGE_WARNING, refusal,
                  what_ +
                      " goes on without force. The device is opened again in the next change from "
-                     "NULL to READY.");
+                     "NULL to READY.",
+                 place);
   return true;
 }
 
 void DeviceWarnings::check_opened(const HapticSession* session) const {
   if (!session) return;
+  post("opened", session->grip().name(), session->opened());
   const GripAbilities can = session->grip().abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
@@ -158,12 +171,13 @@ bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   state_ = state;
   times_lost_ = loop.counters.times_lost;
   if (state == before && !lost_since) return true;
-  if (state != DeviceState::kLost && !lost_since) {
-    if (before == DeviceState::kLost) GST_INFO_OBJECT(element_, "the device is back");
-    return true;
-  }
+  const std::string device = session ? session->grip().name() : "";
+  if (before == DeviceState::kLost) post("back", device, "");
+  if (state != DeviceState::kLost && !lost_since) return true;
   const std::string text = why_lost(*session);
-  GST_INFO_OBJECT(element_, "the device is lost: %s", text.c_str());
+  post("lost", device, text);
+  // It was away for less than a frame.
+  if (state != DeviceState::kLost) post("back", device, "");
   if (policy == OnDeviceError::kError) {
     GST_ELEMENT_ERROR(element_, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));
     return false;

@@ -22,10 +22,11 @@ class DeviceWarnings {
   DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
-  /// The device cannot be opened. False when the stream is not to begin.
-  bool check_refused(const std::exception& refusal, OnDeviceError policy) const;
-  /// Posts an information message if a device that was just opened renders only a part of what is
-  /// to be seen in the picture.
+  /// `device` cannot be opened. False when the stream is not to begin.
+  bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
+                     Place place = Place::here()) const;
+  /// A device was just opened. Posts an information message, too, if it renders only a part of what
+  /// is to be seen in the picture.
   void check_opened(const HapticSession* session) const;
   /// The element begins: everything may be said again.
   void start();
@@ -37,6 +38,8 @@ class DeviceWarnings {
   void end_haptic_trace(HapticSession* session);
 
  private:
+  /// Posts the message `spidar-device`: `state` is opened, refused, lost or back.
+  void post(const char* state, const std::string& device, const std::string& why) const;
   void check_strings(const HapticSession& session);
   void check_pose(const HapticSession& session);
 

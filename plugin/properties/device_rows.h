@@ -15,7 +15,7 @@ Property<Settings> profile_row() {
       {"profile", "Profile",
        "Geometry and motors of the device: name of a shipped profile, or a .toml file. Motors of "
        "a real board get no force without one"},
-      kReady, KEPT_IN(profile));
+      kNull, KEPT_IN(profile));
 }
 
 /// `Settings` has the member on_device_error.
@@ -41,7 +41,7 @@ Property<Settings> haptic_trace_row() {
       {"haptic-trace", "Haptic trace",
        "Write one CSV line for each millisecond with forces, string tensions and pose to this "
        "file. Opened in the change from NULL to READY"},
-      kReady, KEPT_IN(haptic_trace));
+      kNull, KEPT_IN(haptic_trace));
 }
 
 }  // namespace spidar

@@ -220,7 +220,7 @@ MotionRow device_row() {
       {"device", "Device",
        "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, or 'none' "
        "(analysis only). Opened in the change from NULL to READY"},
-      kReady, KEPT_IN(device));
+      kNull, KEPT_IN(device));
 }
 
 /// From `ts-offset` to `track`: what an application asks of the element as a whole.

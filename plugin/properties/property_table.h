@@ -15,6 +15,8 @@
 namespace spidar {
 
 constexpr auto kReadOnly = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
+/// Is read when the element begins: can be changed in NULL only.
+constexpr auto kNull = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS);
 /// Can be changed in READY and below.
 constexpr auto kReady =
     static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS | GST_PARAM_MUTABLE_READY);
@@ -194,19 +196,42 @@ void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* 
     if (std::strcmp(effect.property, spec->name) == 0) effect.follow(element, value);
 }
 
+/// Whether the element has read the property already. Object lock.
+inline bool is_too_late(GstElement* element, const GParamSpec* spec) {
+  if (spec->flags & GST_PARAM_MUTABLE_PLAYING) return false;
+  const GstState last = spec->flags & GST_PARAM_MUTABLE_READY ? GST_STATE_READY : GST_STATE_NULL;
+  return GST_STATE(element) > last || GST_STATE_NEXT(element) > last;
+}
+
+inline void warn_of_late(GstElement* element, const GParamSpec* spec) {
+  const bool is_ready = spec->flags & GST_PARAM_MUTABLE_READY;
+  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
+                      ("%s is set too late, and stays as it was: it can be changed in %s only.",
+                       spec->name, is_ready ? "NULL and READY" : "NULL"),
+                      ("The element has read it already."));
+}
+
 /// GObjectClass::set_property of an element with `properties`, under its object lock, and the mutex
-/// `setting`, so that the effects of settings come in the order in which they were made.
+/// `setting`, so that the effects of settings come in the order in which they were made. A setting
+/// that would have no effect any more is not taken, with a warning.
 template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
                   GParamSpec* spec) {
   g_mutex_lock(&element->setting);
+  GValue before = G_VALUE_INIT;
+  g_value_init(&before, G_PARAM_SPEC_VALUE_TYPE(spec));
   GST_OBJECT_LOCK(element);
-  const bool known = table.set(*element->properties, id, value);
+  const bool late = is_too_late(GST_ELEMENT(element), spec);
+  const bool known = late ? table.get(*element->properties, id, &before)
+                          : table.set(*element->properties, id, value);
   GST_OBJECT_UNLOCK(element);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
-  follow_property(effects, element, spec, value);
+  if (!late) follow_property(effects, element, spec, value);
   g_mutex_unlock(&element->setting);
+  if (late && g_param_values_cmp(spec, &before, value) != 0)
+    warn_of_late(GST_ELEMENT(element), spec);
+  g_value_unset(&before);
 }
 
 /// GObjectClass::get_property of such an element, with `stats` for the statistics.

@@ -2,8 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/properties/typed_property.h"
 
+#include <algorithm>
 #include <locale>
+#include <numeric>
 #include <sstream>
+#include <vector>
 
 namespace spidar {
 namespace {
@@ -50,6 +53,38 @@ std::string unit(GParamSpec* property) {
   return blurb ? std::string(". ") + blurb : std::string();
 }
 
+/// How many letters must be added, left out or replaced (V. I. Levenshtein, 1966).
+size_t edits(const std::string& from, const std::string& to) {
+  std::vector<size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < from.size(); ++i) {
+    size_t diagonal = row[0]++;
+    for (size_t j = 0; j < to.size(); ++j) {
+      const size_t replaced = diagonal + (from[i] != to[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// "; did you mean max-force?" for a word that is nearly a property that can be set.
+std::string meant(GObject* element, const std::string& name) {
+  guint count = 0;
+  GParamSpec** const all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+  std::string nearest;
+  // A third of the letters may be wrong.
+  size_t fewest = std::max<size_t>(1, name.size() / 3) + 1;
+  for (guint i = 0; i < count; ++i) {
+    if (!(all[i]->flags & G_PARAM_WRITABLE)) continue;
+    const size_t needed = edits(name, all[i]->name);
+    if (needed < fewest) nearest = all[i]->name;
+    fewest = std::min(fewest, needed);
+  }
+  g_free(all);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
 }  // namespace
 
 TypedProperty::TypedProperty(GObject* element, const std::string& text) {
@@ -60,8 +95,8 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
   if (!is_property && equals == std::string::npos)
     throw PropertyError(text + ": is not PROPERTY=VALUE, such as max-force=2");
   if (!is_property)
-    throw PropertyError("spidarmotion has no property \"" + name +
-                        "\" that can be set; gst-inspect-1.0 spidarmotion lists them");
+    throw PropertyError("spidarmotion has no property \"" + name + "\" that can be set" +
+                        meant(element, name) + "; gst-inspect-1.0 spidarmotion lists them");
   if (equals == std::string::npos) {
     throw PropertyError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
                         values_of(property_) + unit(property_));
@@ -82,6 +117,25 @@ std::string TypedProperty::canonical_value() const {
   const std::string result = text ? text : "";
   g_free(text);
   return result;
+}
+
+std::optional<std::string> preset_of(const std::string& text) {
+  const std::string begin = "preset=";
+  if (text.compare(0, begin.size(), begin) != 0) return std::nullopt;
+  return text.substr(begin.size());
+}
+
+void load_preset(GstElement* element, const std::string& name) {
+  if (gst_preset_load_preset(GST_PRESET(element), name.c_str())) return;
+  gchar** const names = gst_preset_get_preset_names(GST_PRESET(element));
+  gchar* const known = names ? g_strjoinv(", ", names) : nullptr;
+  const std::string list = known ? known : "";
+  g_free(known);
+  g_strfreev(names);
+  throw PropertyError("there is no preset \"" + name + "\"; " +
+                      (list.empty() ? "none is found: GST_PRESET_PATH names the folder of "
+                                      "GstSpidarMotion.prs"
+                                    : "known are " + list));
 }
 
 }  // namespace spidar

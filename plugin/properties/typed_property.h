@@ -3,6 +3,7 @@
 /// Properties of spidarmotion as a user types them: NAME=VALUE.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -36,5 +37,11 @@ class TypedProperty {
   GParamSpec* property_;
   GValue value_ = G_VALUE_INIT;
 };
+
+/// The name in `preset=NAME`; nothing if `text` is not that.
+std::optional<std::string> preset_of(const std::string& text);
+
+/// Loads a preset of `element`. Throws PropertyError, which names those that there are.
+void load_preset(GstElement* element, const std::string& name);
 
 }  // namespace spidar

@@ -30,7 +30,7 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
                      "Haptic device: 'sim' (simulated SPIDAR), or one that 'spidarctl list' "
                      "prints. Opened in "
                      "the change from NULL to READY"},
-                    kReady, KEPT_IN(device)),
+                    kNull, KEPT_IN(device)),
       profile_row<SinkProperties>(),
       SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,
                       20, kControllable, KEPT_IN(max_force_N)),

@@ -242,7 +242,7 @@ static bool open_device(GstSpidarSink* self) {
     self->queue->connect(&self->output->session()->loop());
     return true;
   } catch (const std::exception& refusal) {
-    return self->warnings->check_refused(refusal, properties.on_device_error);
+    return self->warnings->check_refused(properties.device, refusal, properties.on_device_error);
   }
 }
 

@@ -39,9 +39,12 @@ inline int64_t soon_ns() noexcept {
 }
 
 /// "usb:1-2: does not answer: stall"
-inline std::string no_answer(const std::string& board, LinkFault fault) {
-  return board + ": does not answer as it should: " + to_string(fault) +
-         "; switch it off and on, and check cable and supply";
+inline DeviceError no_answer(const std::string& board, LinkFault fault,
+                             Place place = Place::here()) {
+  return DeviceError(board + ": does not answer as it should: " + to_string(fault) +
+                         "; switch it off and on, and check cable and supply",
+                     fault == LinkFault::kGone ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed,
+                     place);
 }
 
 /// Tries the first exchange up to three times, because it may first receive data that an earlier

@@ -30,7 +30,7 @@ void CyverseBoard::open() {
       *transport_);
   if (fault != LinkFault::kNone) {
     transport_->close();
-    throw DeviceError(no_answer(name_, fault));
+    throw no_answer(name_, fault);
   }
   counts_.open(readout.counter, kMaxStrings);
   rotary_ = readout.rotary;

@@ -34,14 +34,16 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
     text = read_regular_file(path, size_t{1} << 20);
   } catch (const std::runtime_error& error) {
     throw DeviceError(name + ": has not got its firmware (" + to_string(answer) + "). " + path +
-                      ": " + error.what() +
-                      "; SPIDAR_FALCON_FIRMWARE names the file, which is "
-                      "firmware/nvent_firmware.bin in the sources of libnifalcon");
+                          ": " + error.what() +
+                          "; SPIDAR_FALCON_FIRMWARE names the file, which is "
+                          "firmware/nvent_firmware.bin in the sources of libnifalcon",
+                      DeviceTrouble::kSettings);
   }
   const std::vector<uint8_t> firmware(text.begin(), text.end());
   if (firmware.empty() || firmware.size() > kMostFirmware)
     throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
-                      " bytes and is no firmware of a Falcon, which has some 8 kB");
+                          " bytes and is no firmware of a Falcon, which has some 8 kB",
+                      DeviceTrouble::kSettings);
   return firmware;
 }
 
@@ -134,7 +136,7 @@ void FalconBoard::begin() {
     fault = load(read_firmware(name_, fault));
     if (fault == LinkFault::kNone) fault = start();
   }
-  if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
   see();
 }
 

@@ -37,7 +37,8 @@ class Inverse3Board final : public ForceBoard {
         *transport_);
     if (fault == LinkFault::kGone)
       refuse("Haply's service knows no Inverse3" + (wanted().empty() ? "" : " " + wanted()) +
-             ": plug it in, and wait until its light is steady");
+                 ": plug it in, and wait until its light is steady",
+             DeviceTrouble::kAbsent);
     if (fault != LinkFault::kNone)
       refuse(std::string("Haply's service does not answer as it should: ") + to_string(fault) +
              "; version 3.1 or later is needed");
@@ -122,9 +123,10 @@ class Inverse3Board final : public ForceBoard {
   }
   /// After it was lost, the same device is looked for: another hand may hold another one.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
-  [[noreturn]] void refuse(const std::string& why) {
+  [[noreturn]] void refuse(const std::string& why, DeviceTrouble trouble = DeviceTrouble::kFailed,
+                           Place place = Place::here()) {
     close();
-    throw DeviceError(name_ + ": " + why);
+    throw DeviceError(name_ + ": " + why, trouble, place);
   }
 
   const std::string name_;

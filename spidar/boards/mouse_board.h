@@ -35,9 +35,10 @@ class MouseBoard final : public ForceBoard {
     if (fault != LinkFault::kNone) {
       transport_->close();
       throw DeviceError(name_ +
-                        ": the device with the id 04d8:003f is no SPIDAR-mouse: asked for its "
-                        "state, the answer is " +
-                        to_string(fault) + "; that id is shared by many devices, unplug others");
+                            ": the device with the id 04d8:003f is no SPIDAR-mouse: asked for its "
+                            "state, the answer is " +
+                            to_string(fault) + "; that id is shared by many devices, unplug others",
+                        DeviceTrouble::kAbsent);
     }
     mouse::encode_start(out_);
     transport_->exchange({out_}, {}, soon_ns());

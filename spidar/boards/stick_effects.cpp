@@ -62,8 +62,9 @@ StickEffects::StickEffects(std::string name, std::unique_ptr<Transport> transpor
 
 void StickEffects::open() {
   if (ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    throw DeviceError(name_ +
-                      ": its driver has not returned from a call yet; plug the device in again");
+    throw DeviceError(
+        name_ + ": its driver has not returned from a call yet; plug the device in again",
+        DeviceTrouble::kBusy);
   transport_->open();
   try {
     const LinkFault fault = open_exchange(
@@ -71,7 +72,7 @@ void StickEffects::open() {
           return transport_->exchange({ff::kDescribe}, bytes_of(description_), deadline_ns).fault;
         },
         *transport_);
-    if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+    if (fault != LinkFault::kNone) throw no_answer(name_, fault);
     begin_effects();
     start_updates();
   } catch (...) {
@@ -89,7 +90,7 @@ void StickEffects::start_updates() {
   ff::Position position;
   const LinkFault fault =
       transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
-  if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
   place_.start(position, now_ns());
   updated_.start(now_ns());
   cycled_ns_ = now_ns();
@@ -109,9 +110,11 @@ void StickEffects::start_updates() {
 void StickEffects::begin_effects() {
   const std::string device = name_ + ": \"" + description_.name.data() + "\" ";
   if (!description_.constant && !description_.rumble)
-    throw DeviceError(device +
-                      "has no force feedback (neither FF_CONSTANT nor FF_RUMBLE); spidarctl list "
-                      "names devices that have");
+    throw DeviceError(
+        device +
+            "has no force feedback (neither FF_CONSTANT nor FF_RUMBLE); spidarctl list "
+            "names devices that have",
+        DeviceTrouble::kSettings);
   if (description_.effects == 0)
     throw DeviceError(device + "has no room for an effect; another driver may help");
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
@@ -121,7 +124,10 @@ void StickEffects::begin_effects() {
     Transfer transfer = upload(i, 0);
     if (transfer.fault == LinkFault::kNone) transfer = play(i);
     if (transfer.fault != LinkFault::kNone)
-      throw DeviceError(device + "does not take an effect: " + reason(transfer));
+      throw DeviceError(device + "does not take an effect: " + reason(transfer),
+                        transfer.error == ENOMEM || transfer.error == ENOSPC
+                            ? DeviceTrouble::kBusy
+                            : DeviceTrouble::kFailed);
   }
 }
 

@@ -68,18 +68,19 @@ void UartBoard::open() {
       if (motors_ >= strings_) break;
     }
     if (motors_ < strings_ || motors_ > kMaxStrings)
-      throw DeviceError(name_ + ": " + std::to_string(stations_.size()) +
-                        " motor boards answer, with " + std::to_string(motors_) +
-                        " motors; the profile has " + std::to_string(strings_) +
-                        " strings: name the lines of all boards (uart:PATH,PATH), and check their "
-                        "supply");
+      throw DeviceError(
+          name_ + ": " + std::to_string(stations_.size()) + " motor boards answer, with " +
+              std::to_string(motors_) + " motors; the profile has " + std::to_string(strings_) +
+              " strings: name the lines of all boards (uart:PATH,PATH), and check their "
+              "supply",
+          stations_.empty() ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed);
     std::array<uint32_t, kMaxStrings> raw{};
     LinkFault fault = LinkFault::kTimeout;
     for (int attempt = 0; attempt < 3 && fault != LinkFault::kNone; ++attempt) {
       if (attempt > 0) recover();
       fault = exchange_all({}, raw, monotonic_now_ns() + 10 * kEnquiry_ns);
     }
-    if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+    if (fault != LinkFault::kNone) throw no_answer(name_, fault);
     counts_.open(raw, motors_);
   } catch (...) {
     close();

@@ -33,18 +33,39 @@ std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   return named.empty() ? all : named;
 }
 
-void UsbSearch::open(const Open& open, const std::function<void()>& close) const {
-  const std::vector<Candidate> found = candidates();
+/// The same, of which there is at least one.
+std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
+  std::vector<Candidate> found = candidates();
   if (found.empty()) {
     std::string names;
     for (const BoardKind* kind : kinds_)
       names += (names.empty() ? "no " : " or ") + std::string(kind->title) + " (" +
                kind->usb.text() + ")";
-    throw DeviceError(name_ + ": " + names + " is plugged in");
+    throw DeviceError(name_ + ": " + names + " is plugged in", DeviceTrouble::kAbsent);
   }
+  return found;
+}
+
+/// Whether the id tells which it is.
+bool UsbSearch::is_clear(const std::vector<Candidate>& found) const {
   const UsbDeviceInfo& first = found.front().device;
   const bool by_name = !id_.empty() && (first.path == id_ || first.serial == id_);
-  if (found.size() == 1 && (by_name || id_.empty()))
+  return found.size() == 1 && (by_name || id_.empty());
+}
+
+/// Whether only the boards themselves tell.
+bool UsbSearch::is_to_ask(const std::vector<Candidate>& found) const {
+  return found.front().kind->usb.shared || rotary_of(id_) >= 0;
+}
+
+void UsbSearch::require_one() const {
+  const std::vector<Candidate> found = plugged_in();
+  if (!is_clear(found) && !is_to_ask(found)) open_matching(found, {}, {});
+}
+
+void UsbSearch::open(const Open& open, const std::function<void()>& close) const {
+  const std::vector<Candidate> found = plugged_in();
+  if (is_clear(found))
     open(found.front());
   else
     open_matching(found, open, close);
@@ -55,11 +76,10 @@ void UsbSearch::open(const Open& open, const std::function<void()>& close) const
 void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& open,
                               const std::function<void()>& close) const {
   const int wanted = rotary_of(id_);
-  const bool ask = found.front().kind->usb.shared || wanted >= 0;
   std::string listed, trouble;
   for (const Candidate& candidate : found) {
     listed += std::string(" ") + candidate.kind->device + ":" + candidate.device.path;
-    if (!ask) continue;
+    if (!is_to_ask(found)) continue;
     try {
       const int rotary = open(candidate);
       if (rotary == wanted) return;
@@ -73,7 +93,8 @@ void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& o
       id_.empty()
           ? "there are several boards, name one of"
           : "no board has the bus path, serial number or rotary switch " + id_ + "; there are";
-  throw DeviceError(name_ + ": " + what + listed + trouble);
+  throw DeviceError(name_ + ": " + what + listed + trouble,
+                    id_.empty() ? DeviceTrouble::kSettings : DeviceTrouble::kAbsent);
 }
 
 template <typename BoardType>
@@ -98,10 +119,12 @@ void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
     if (kind.known != candidate.kind) continue;
     if (kind.known->has_strings() && profile_board_ != "unknown" &&
         profile_board_ != kind.known->profile_board)
-      throw DeviceError(
-          name_ + ": the board at " + candidate.device.path + " is a " + kind.known->title +
-          ", and profile \"" + profile_name_ + "\" is for boards of the kind " + profile_board_ +
-          "; spidarctl info usb:" + candidate.device.path + " lists the profiles that fit");
+      throw DeviceError(name_ + ": the board at " + candidate.device.path + " is a " +
+                            kind.known->title + ", and profile \"" + profile_name_ +
+                            "\" is for boards of the kind " + profile_board_ +
+                            "; spidarctl info usb:" + candidate.device.path +
+                            " lists the profiles that fit",
+                        DeviceTrouble::kSettings);
     kind.transport->select(candidate.device);
     kind.board->open();
     used_ = &kind;

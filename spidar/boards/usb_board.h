@@ -52,8 +52,13 @@ class UsbSearch {
   /// Opens the device that is meant. `close` closes one that was opened and is another. Throws
   /// DeviceError, which lists what there is.
   void open(const Open& open, const std::function<void()>& close) const;
+  /// Throws as open() would before it opens anything.
+  void require_one() const;
 
  private:
+  std::vector<Candidate> plugged_in() const;
+  bool is_clear(const std::vector<Candidate>& found) const;
+  bool is_to_ask(const std::vector<Candidate>& found) const;
   std::vector<Candidate> candidates() const;
   void open_matching(const std::vector<Candidate>& found, const Open& open,
                      const std::function<void()>& close) const;

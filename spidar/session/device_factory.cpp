@@ -39,7 +39,8 @@ auto simulating(const std::string& text, const Profile& profile, const Make& mak
   try {
     return make();
   } catch (const std::invalid_argument& error) {
-    throw DeviceError(text + ": cannot simulate profile \"" + profile.name + "\": " + error.what());
+    throw DeviceError(text + ": cannot simulate profile \"" + profile.name + "\": " + error.what(),
+                      DeviceTrouble::kSettings);
   }
 }
 
@@ -49,8 +50,9 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   if (name.device == "sim" && name.has_end) {
     const DeviceKind* const kind = simulated_kind(name);
     if (!kind)
-      throw DeviceError("unknown simulated board \"" + name.rest +
-                        "\"; known are: " + simulated_names());
+      throw DeviceError(
+          "unknown simulated board \"" + name.rest + "\"; known are: " + simulated_names(),
+          DeviceTrouble::kSettings);
     return simulating(text, profile, [&] { return simulated_board(*kind, text, profile); });
   }
   const auto kinds = kinds_called(name.device);
@@ -58,7 +60,8 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
     // Only an element, which analyses pictures, does without a device: this is not asked about it.
     const bool is_none = text == "none";
     throw DeviceError((is_none ? "\"none\" is no device" : "unknown device \"" + text + "\"") +
-                      "; known are: " + known_names(!is_none));
+                          "; known are: " + known_names(!is_none),
+                      DeviceTrouble::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());
@@ -119,7 +122,8 @@ std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile
                                           const BoardSettings& settings) {
   MadeDevice made = make(text, profile, settings_for(text, profile, settings));
   if (!made.strings)
-    throw DeviceError(text + ": takes a force; it has no strings, and no encoders");
+    throw DeviceError(text + ": takes a force; it has no strings, and no encoders",
+                      DeviceTrouble::kSettings);
   return std::move(made.strings);
 }
 

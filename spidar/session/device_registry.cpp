@@ -70,7 +70,9 @@ AnyBoard make_uart(const std::string& name, const std::string& paths, const Prof
   std::vector<std::unique_ptr<Transport>> lines;
   for (size_t begin = 0; begin <= paths.size();) {
     const size_t end = std::min(paths.find(',', begin), paths.size());
-    if (end == begin) throw DeviceError(name + ": a path is empty; write uart:/dev/ttyUSB0");
+    if (end == begin)
+      throw DeviceError(name + ": a path is empty; write uart:/dev/ttyUSB0",
+                        DeviceTrouble::kSettings);
     const std::string path = paths.substr(begin, end - begin);
     lines.push_back(std::make_unique<TtyTransport>("uart:" + path, path, uart_motor::kBaud));
     begin = end + 1;
@@ -132,12 +134,14 @@ AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
     const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
     at = end;
     if (path.empty())
-      throw DeviceError(name + ": the path is empty; write ff:/dev/input/eventN," + option);
+      throw DeviceError(name + ": the path is empty; write ff:/dev/input/eventN," + option,
+                        DeviceTrouble::kSettings);
     if (!take_option(option, axes, options))
       throw DeviceError(name + ": \"" + option + "\" is not known; write ff:" + path +
-                        ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +
-                        ",gain=50 for 50 % of the device's strength, or ff:" + path +
-                        ",flip=x if it pushes to the wrong side");
+                            ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" +
+                            path + ",gain=50 for 50 % of the device's strength, or ff:" + path +
+                            ",flip=x if it pushes to the wrong side",
+                        DeviceTrouble::kSettings);
   }
   return std::unique_ptr<ForceBoard>(std::make_unique<ForceFeedbackBoard>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),
@@ -173,9 +177,11 @@ AnyBoard make_inverse3(const std::string& name, const std::string& rest, const P
   int port = inverse3::kPort;
   if (comma != std::string::npos) port = option_value(rest.substr(comma + 1), "port=", kLastPort);
   if (port == 0 || comma == 0)
-    throw DeviceError(
-        name + ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
-        "port of Haply's service, " + std::to_string(inverse3::kPort) + " unless it was changed");
+    throw DeviceError(name +
+                          ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
+                          "port of Haply's service, " + std::to_string(inverse3::kPort) +
+                          " unless it was changed",
+                      DeviceTrouble::kSettings);
   return std::unique_ptr<ForceBoard>(std::make_unique<Inverse3Board>(
       name, rest.substr(0, comma),
       std::make_unique<WebSocketTransport>(

@@ -3,13 +3,18 @@
 #include "spidar/session/profile_choice.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
+#include <unistd.h>
 
 #include <toml++/toml.h>
 
+#include "spidar/boards/usb_board.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/session/device_registry.h"
 
 namespace spidar {
 namespace {
@@ -31,6 +36,23 @@ std::string without_profile(const BoardInfo& board) {
          ". Name yours (profile=NAME, spidarctl --profile NAME), or confirm it once: spidarctl "
          "choose " +
          board.device + " --profile NAME";
+}
+
+/// Throws DeviceError for a board that is not there, whose profile is not the question then.
+void require_plugged_in(const std::string& device) {
+  const DeviceName name(device);
+  const auto kinds = kinds_called(name.device);
+  if (kinds.empty()) return;
+  if (kinds[0]->usb.vendor != 0)
+    return UsbSearch(BoardKinds(kinds.begin(), kinds.end()), device, name.rest).require_one();
+  std::istringstream paths(name.rest);
+  for (std::string path; std::getline(paths, path, ',');) {
+    if (access(path.c_str(), F_OK) == 0) continue;
+    const int error = errno;
+    throw DeviceError(device + ": " + path + ": " + std::strerror(error) +
+                          "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…",
+                      trouble_of(error));
+  }
 }
 
 /// Whether profiles of this board's kind are for that board. A CyVerse board that is not plugged in
@@ -57,7 +79,8 @@ std::string misfit(const BoardInfo& board, const Profile& profile) {
 
 }  // namespace
 
-NoProfile::NoProfile(const BoardInfo& board) : DeviceError(without_profile(board)) {}
+NoProfile::NoProfile(const BoardInfo& board, Place place)
+    : DeviceError(without_profile(board), DeviceTrouble::kSettings, place) {}
 
 std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   std::vector<std::string> fitting;
@@ -93,12 +116,16 @@ Profile profile_for(const std::string& device, const std::string& named) {
   const BoardInfo board = board_info(device);
   // Its error says how such a board is named.
   if (board.name.empty()) make_device(device, load_profile(kDefaultProfile));
-  if (named.empty() && board.profile.empty()) throw NoProfile(board);
+  if (named.empty() && board.profile.empty()) {
+    require_plugged_in(device);
+    throw NoProfile(board);
+  }
   Profile profile = load_profile(named.empty() ? board.profile : named);
   const std::string why = misfit(board, profile);
   // None fits a board whose name is not right.
   if (!why.empty())
-    throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board));
+    throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board),
+                      DeviceTrouble::kSettings);
   return profile;
 }
 
@@ -147,15 +174,18 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 
 void require_serial(const BoardInfo& board, const std::string& profile) {
   if (board.path.empty())
-    throw DeviceError(board.device +
-                      ": no such board is plugged in, or it is one of several; name it by its bus "
-                      "path or serial number, which spidarctl list prints");
+    throw DeviceError(
+        board.device +
+            ": no such board is plugged in, or it is one of several; name it by its bus "
+            "path or serial number, which spidarctl list prints",
+        DeviceTrouble::kAbsent);
   if (board.serial.empty())
     throw DeviceError(
         board.device +
-        ": has no serial number by which its profile could be remembered; name it each "
-        "time: profile=" +
-        profile);
+            ": has no serial number by which its profile could be remembered; name it each "
+            "time: profile=" +
+            profile,
+        DeviceTrouble::kSettings);
 }
 
 void remember_profile(const BoardInfo& board, const std::string& profile) {

@@ -76,7 +76,7 @@ EvdevTransport::~EvdevTransport() {
   close();
 }
 
-void EvdevTransport::fail(const std::string& path, const std::string& what) {
+void EvdevTransport::fail(const std::string& path, const std::string& what, Place place) {
   const int error = errno;
   close();
   std::string advice;
@@ -86,7 +86,8 @@ void EvdevTransport::fail(const std::string& path, const std::string& what) {
     advice = "; spidarctl list names the devices that are plugged in";
   if (error == ENOTTY) advice = "; it is no input device, write ff:/dev/input/eventN";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
-  throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice);
+  throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice,
+                    trouble_of(error), place);
 }
 
 void EvdevTransport::open() {
@@ -95,9 +96,11 @@ void EvdevTransport::open() {
   if (path.empty()) {
     const std::vector<EvdevInfo> devices = list_force_feedback();
     if (devices.empty())
-      throw DeviceError(name_ +
-                        ": no joystick, wheel or gamepad with force feedback is plugged in, or the "
-                        "kernel has no driver for it");
+      throw DeviceError(
+          name_ +
+              ": no joystick, wheel or gamepad with force feedback is plugged in, or the "
+              "kernel has no driver for it",
+          DeviceTrouble::kAbsent);
     path = devices.front().path;
   }
   file_ = uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
@@ -132,7 +135,8 @@ void EvdevTransport::find_axes(const std::string& path, const EvdevTraits& trait
   if (axes_ != 2 || (right_axis_ >= 0 && up_axis_ >= 0)) return;
   close();
   throw DeviceError(name_ + ": \"" + traits.name.data() +
-                    "\" does not have two axes (ABS_X and ABS_Y); write ff:" + path + ",axes=1");
+                        "\" does not have two axes (ABS_X and ABS_Y); write ff:" + path + ",axes=1",
+                    DeviceTrouble::kSettings);
 }
 
 ff::Description EvdevTransport::describe() const noexcept {

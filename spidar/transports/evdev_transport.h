@@ -33,7 +33,8 @@ class EvdevTransport final : public Transport {
   void close() noexcept override;
 
  private:
-  [[noreturn]] void fail(const std::string& path, const std::string& what);
+  [[noreturn]] void fail(const std::string& path, const std::string& what,
+                         Place place = Place::here());
   void find_axes(const std::string& path, const EvdevTraits& traits);
   void find_buttons(const EvdevTraits& traits);
   LinkFault send(ByteView packet, MutableBytes reply, size_t& received) noexcept;

@@ -14,9 +14,11 @@ WebSocketTransport::WebSocketTransport(std::string name, uint16_t port, std::str
 WebSocketTransport::~WebSocketTransport() = default;
 
 void WebSocketTransport::open() {
-  throw DeviceError(name_ +
-                    ": this build of gst-spidar cannot reach services: install libwebsockets-dev "
-                    "and build it with -Dwebsockets=enabled");
+  throw DeviceError(
+      name_ +
+          ": this build of gst-spidar cannot reach services: install libwebsockets-dev "
+          "and build it with -Dwebsockets=enabled",
+      DeviceTrouble::kSettings);
 }
 
 Transfer WebSocketTransport::exchange(std::initializer_list<ByteView>, MutableBytes,

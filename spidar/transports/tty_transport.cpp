@@ -86,7 +86,7 @@ TtyTransport::~TtyTransport() {
   close();
 }
 
-void TtyTransport::fail(const std::string& what) {
+void TtyTransport::fail(const std::string& what, Place place) {
   const int error = errno;
   close();
   std::string advice;
@@ -97,7 +97,8 @@ void TtyTransport::fail(const std::string& what) {
   if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
-  throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice);
+  throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice, trouble_of(error),
+                    place);
 }
 
 void TtyTransport::open() {

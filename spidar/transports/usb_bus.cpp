@@ -54,7 +54,8 @@ UsbContext make_usb_context() {
   const int error = libusb_init(&context);
   if (error != LIBUSB_SUCCESS)
     throw DeviceError(std::string("usb: cannot be used: ") + libusb_strerror(error) +
-                      "; is there a USB on this machine (/dev/bus/usb)?");
+                          "; is there a USB on this machine (/dev/bus/usb)?",
+                      DeviceTrouble::kAbsent);
   return UsbContext(context);
 }
 

@@ -61,6 +61,20 @@ extern "C" void LIBUSB_CALL mark_done(libusb_transfer* transfer) {
   *static_cast<int*>(transfer->user_data) = 1;
 }
 
+DeviceTrouble trouble_of_usb(int error) noexcept {
+  switch (error) {
+    case LIBUSB_ERROR_ACCESS:
+      return DeviceTrouble::kForbidden;
+    case LIBUSB_ERROR_BUSY:
+      return DeviceTrouble::kBusy;
+    case LIBUSB_ERROR_NO_DEVICE:
+    case LIBUSB_ERROR_NOT_FOUND:
+      return DeviceTrouble::kAbsent;
+    default:
+      return DeviceTrouble::kFailed;
+  }
+}
+
 /// Advice for an error in opening or claiming.
 std::string advice(int error) {
   switch (error) {
@@ -163,8 +177,9 @@ void UsbTransport::open() {
   const std::string file = device_.device_file();
   if (!handle_) {
     close();
-    throw DeviceError(name_ + ": cannot open " + file + ": " + libusb_strerror(error) +
-                      advice(error));
+    throw DeviceError(
+        name_ + ": cannot open " + file + ": " + libusb_strerror(error) + advice(error),
+        trouble_of_usb(error));
   }
   if (setting < 0) {
     close();
@@ -178,8 +193,9 @@ void UsbTransport::open() {
     error = libusb_set_interface_alt_setting(handle_, kInterface, setting);
   if (error != LIBUSB_SUCCESS) {
     close();
-    throw DeviceError(name_ + ": cannot claim " + file + ": " + libusb_strerror(error) +
-                      advice(error));
+    throw DeviceError(
+        name_ + ": cannot claim " + file + ": " + libusb_strerror(error) + advice(error),
+        trouble_of_usb(error));
   }
 }
 

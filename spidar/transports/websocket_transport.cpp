@@ -197,8 +197,9 @@ void WebSocketTransport::open() {
   auto connection = std::make_unique<Connection>(port_);
   if (!connection->wait_until_open(deadline_ns))
     throw DeviceError(name_ + ": no service answers at " + at +
-                      (connection->error().empty() ? "" : " (" + connection->error() + ")") + "; " +
-                      cure_);
+                          (connection->error().empty() ? "" : " (" + connection->error() + ")") +
+                          "; " + cure_,
+                      DeviceTrouble::kAbsent);
   if (!connection->receive(deadline_ns))
     throw DeviceError(name_ + ": the service at " + at + " does not say what is plugged in; " +
                       cure_);
@@ -229,7 +230,8 @@ void WebSocketTransport::recover() noexcept {
 }
 
 std::optional<LastWill> WebSocketTransport::last_will() const {
-  if (!connection_ || connection_->gone()) throw DeviceError(name_ + ": the service has ended");
+  if (!connection_ || connection_->gone())
+    throw DeviceError(name_ + ": the service has ended", DeviceTrouble::kAbsent);
   LastWill will;
   will.wire = LastWill::Wire::kSocket;
   will.file = connection_->file();

@@ -21,7 +21,11 @@ class Command(track_case.TrackCase):
                 ("", 2, "no PROGRAM given"), ("max-force=2", 2, "spidar-feel max-force=2 -- PROGRAM"),
                 ("max-force=2 true", 2, "spidar-feel max-force=2 -- PROGRAM"), ("max-force=2 --", 2, "no PROGRAM given"),
                 ("--dance", 2, "--dance is no option"),
-                ("max-farce=2 -- true", 2, 'spidarmotion has no property "max-farce"'),
+                ("max-farce=2 -- true", 2, 'spidarmotion has no property "max-farce" that can be set; did you mean max-force?'),
+                ("filter-cutof=2 -- true", 2, 'no property "filter-cutof" that can be set; gst-inspect'),
+                ("filter-min-cutof=2 -- true", 2, "did you mean filter-min-cutoff?"),
+                ("preset=gentel -- true", 2, 'there is no preset "gentel"; known are film, gentle, paper'),
+                ("preset=gentle max-force=.5 -- true", 0, ""),
                 ("stats=2 -- true", 2, 'spidarmotion has no property "stats" that can be set'),
                 ("max-force=much -- true", 2,
                  'max-force: "much" is not a number from 0 to 20. Largest force on the grip, in newtons'),
@@ -50,7 +54,7 @@ class Command(track_case.TrackCase):
                 ("profile=nope", 'unknown profile "nope"; known are spidar-g, '),
                 ("profile=nope.toml", "nope.toml: it cannot be read: No such file or directory"),
                 ("device=none profile=nope", 'unknown profile "nope"'),
-                ("device=usb", "usb: the motors get no force: no board is plugged in whose profile is"),
+                ("device=usb", "usb: no CyVerse USB 2.0 SH4 (0cec:0205) or CyVerse USB 2.0 Simple (0cec:0203) is plugged in"),
                 ("device=usb profile=spidar-gcc", 'usb: profile "spidar-gcc" is for boards of the kind ahs')):
             text = self.feel(properties + " -- echo plays", 2)
             self.assertTrue(text.startswith("spidar-feel: "), text)

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/filter/spidar_motion_private.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wav_track.h"
@@ -45,13 +46,16 @@ void refuse_allocation(GstElement* element) {
   gst_object_unref(pad);
 }
 
-/// The property `track` for the first stream, for the second one, …
+/// What the property `track` is for the first stream, for the second one, …
 void set_tracks(GstElement* element, std::vector<std::string>& tracks) {
   GstPad* pad = gst_element_get_static_pad(element, "sink");
   const auto probe = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
     auto& left = *static_cast<std::vector<std::string>*>(user);
     if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_STREAM_START) {
-      g_object_set(GST_PAD_PARENT(sink_pad), "track", left.at(0).c_str(), nullptr);
+      GstElement* const motion = GST_PAD_PARENT(sink_pad);
+      GST_OBJECT_LOCK(motion);
+      GST_SPIDAR_MOTION(motion)->properties->track = left.at(0);
+      GST_OBJECT_UNLOCK(motion);
       left.erase(left.begin());
     }
     return GST_PAD_PROBE_OK;

@@ -42,6 +42,17 @@ class Inspected(gst_case.GstCase):
         self.assertTrue(element.load_preset("film"))
         self.assertEqual(values(), new)
 
+    def test_a_preset_never_raises_a_force_that_somebody_set_lower(self):
+        element = Gst.ElementFactory.make("spidarmotion")
+        for wanted, loaded in ((.5, {"paper": .5, "gentle": .5, "film": .5}), (2, {"paper": 2, "gentle": 1, "film": 2}),
+                               (20, {"paper": 3, "gentle": 1, "film": 3})):
+            element.set_property("max-force", wanted)
+            for name, left in loaded.items():
+                self.assertTrue(element.load_preset(name))
+                self.assertEqual(element.get_property("max-force"), left, (wanted, name))
+        for line in ("max-force=.5 @preset=film", "@preset=film max-force=.5"):
+            self.assertEqual(Gst.parse_launch(f"spidarmotion {line}").get_property("max-force"), .5, line)
+
 
 class Extract(gst_case.GstCase):
     def test_sinks_that_wait_for_each_other_are_told_of(self):

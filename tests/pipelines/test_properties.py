@@ -95,7 +95,7 @@ class Properties(ElementCase):
         for properties, said in (("device=telepathy", "telepathy"), ("profile=spidar-zzz", "spidar-zzz"),
                                  (f"profile={broken}", "broken.toml"),
                                  # A board without a profile, and one that is not there.
-                                 (f"device=uart:{self.path('line')}", "get no force"),
+                                 (f"device=uart:{self.path('line')}", "No such file"),
                                  (f"device=uart:{self.path('line')} profile=spidar-g6x4", str(self.path("line")))):
             self.assertIn(said, self.error_at_ready(properties))
             self.open(properties, 32, 32)
@@ -130,6 +130,32 @@ class Properties(ElementCase):
                       "touch-stiffness": 300, "touch-friction": .1, "touch-texture": 2, "motion-share": .4}
             element = make(" ".join(f"{name}={str(value).lower()}" for name, value in wanted.items()))
             self.assertEqual(self.values(element, wanted), list(wanted.values()))
+
+    def test_what_was_read_already_stays_with_a_warning(self):
+        late = {"device": "ff", "profile": "spidar-g6c", "haptic-trace": "/b", "trace": "/a.csv", "track": "auto"}
+        self.open("device=none")
+        self.push(2)
+        before = self.values(self.element, late)
+        for name, value in late.items():
+            self.element.set_property(name, value)
+            warning = self.warnings()
+            self.assertEqual(len(warning), 1, name)
+            self.assertTrue(warning[0].startswith(name + " is set too late, and stays as it was: it can be changed in NULL"))
+        self.assertEqual(self.values(self.element, late), before)
+        # The same value changes nothing.
+        self.element.set_property("device", "none")
+        self.element.set_property("max-force", 1)
+        self.assertEqual(self.warnings(), [])
+        # In READY, what is not read yet can be set.
+        self.element.get_parent().set_state(Gst.State.READY)
+        for name, value in late.items():
+            self.element.set_property(name, value)
+        self.assertEqual(self.values(self.element, late), before[:3] + ["/a.csv", "auto"])
+        self.assertEqual(len(self.warnings()), 3)
+        self.element.get_parent().set_state(Gst.State.NULL)
+        for name, value in late.items():
+            self.element.set_property(name, value)
+        self.assertEqual(self.values(self.element, late), list(late.values()))
 
     def test_they_are_few_and_each_is_explained_in_a_line(self):
         element = make()

@@ -24,6 +24,14 @@ class Pipelines(bus_case.BusCase):
         self.assertNotEqual(pipeline.set_state(Gst.State.PLAYING), Gst.StateChangeReturn.FAILURE)
         return pipeline
 
+    @staticmethod
+    def next_device(pipeline):
+        """State and name of the next message about the device, and whether it says why."""
+        while True:
+            message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.ELEMENT).get_structure()
+            if message.get_name() == "spidar-device":
+                return message.get_value("state"), message.get_value("device"), message.get_value("reason") != ""
+
     def next_warning(self, pipeline):
         """The text of the next warning; "eos" at the end."""
         message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, gst_case.ENDS | Gst.MessageType.WARNING)
@@ -38,6 +46,61 @@ class Pipelines(bus_case.BusCase):
         while frames:
             message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.ELEMENT)
             frames -= message.get_structure().get_name() == "spidar-motion"
+
+
+class Refused(Pipelines):
+    """What a program is told of a device that cannot be opened."""
+
+    def refusal(self, element):
+        """Of spidarmotion or spidarsink in READY: code, text and debug text of the warning, and the message."""
+        element.set_bus(Gst.Bus.new())
+        self.assertEqual(element.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
+        element.set_state(Gst.State.NULL)
+        message = element.get_bus().pop_filtered(Gst.MessageType.ELEMENT).get_structure()
+        error, debug = element.get_bus().pop_filtered(Gst.MessageType.WARNING).parse_warning()
+        self.assertEqual(error.domain, "gst-resource-error-quark")
+        self.assertEqual((message.get_name(), message.get_value("state"), message.get_value("reason")),
+                         ("spidar-device", "refused", error.message))
+        self.assertEqual(message.get_value("device"), element.get_property("device"))
+        return error.code, error.message, debug
+
+    def test_kinds_of_trouble_have_codes_of_their_own_and_their_place(self):
+        absent, settings = Gst.ResourceError.NOT_FOUND, Gst.ResourceError.SETTINGS
+        no_board = "usb: no CyVerse USB 2.0 SH4 (0cec:0205) or CyVerse USB 2.0 Simple (0cec:0203) is plugged in"
+        for device, code, said, place in (
+                ("ff", absent, "is plugged in", "evdev_transport.cpp"),
+                ("ff:/dev/input/event99", absent, "No such file", "evdev_transport.cpp"),
+                ("ff:/dev/null", settings, "it is no input device", "evdev_transport.cpp"),
+                ("falcon", absent, "is plugged in", "usb_board.cpp"), ("mouse", absent, "is plugged in", "usb_board.cpp"),
+                ("usb", absent, no_board, "usb_board.cpp"), ("usb:7", absent, "is plugged in", "usb_board.cpp"),
+                ("inverse3:1,port=1", absent, "no service answers", "websocket_transport.cpp"),
+                ("uart:/dev/ttyUSB9", absent, "uart:/dev/ttyUSB9: /dev/ttyUSB9: No such file", "profile_choice.cpp"),
+                ("telepathy", settings, "known are", "device_factory.cpp"), ("ff:", settings, "known are", "device_factory.cpp")):
+            for name in ("spidarmotion", "spidarsink"):
+                with self.subTest(device=device, element=name):
+                    element = Gst.ElementFactory.make(name)
+                    element.set_property("device", device)
+                    found, text, debug = self.refusal(element)
+                    if "-Dwebsockets=enabled" in text:
+                        continue
+                    self.assertEqual(found, code, text)
+                    self.assertIn(said, text)
+                    self.assertNotIn("Profiles that fit", text)
+                    self.assertIn(place, debug.split("(")[0])
+
+    def test_boards_that_are_there_are_told_from_those_that_are_not(self):
+        bus.bus_plug(0, Usb.SH4)
+        element = Gst.parse_launch(f"spidarmotion device=usb {PROFILE}")
+        holder = Gst.parse_launch(f"spidarmotion device=usb {PROFILE}")
+        self.assertEqual(holder.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
+        self.assertEqual(self.refusal(element)[0], Gst.ResourceError.BUSY)
+        holder.set_state(Gst.State.NULL)
+        self.assertEqual(self.refusal(Gst.parse_launch("spidarmotion device=usb"))[0], Gst.ResourceError.SETTINGS)
+        bus.bus_plug(1, Usb.SIMPLE)
+        code, text, _ = self.refusal(Gst.parse_launch("spidarmotion device=usb"))
+        self.assertEqual(code, Gst.ResourceError.SETTINGS)
+        self.assertIn("there are several boards, name one of usb:1-1 usb:1-2", text)
+        self.assertEqual(bus.bus_updates(1), 0)
 
 
 class Boards(Pipelines):
@@ -83,7 +146,7 @@ class Boards(Pipelines):
         bus.bus_plug(0, Usb.SIMPLE)
         for device, said in (("usb", "usb:1-1: the motors get no force: no profile is named.* spidar-g6c, "),
                              (f"usb:7 {PROFILE}", "usb:7")):
-            for sink in (f"spidarmotion device={device} ! fakesink", "fakesink audiotestsrc num-buffers=3 ! "
+            for sink in (f"spidarmotion device={device} ! fakesink", "fakesink audiotestsrc wave=silence num-buffers=3 ! "
                          f"audio/x-raw,rate=1000,channels=6,channel-mask=(bitmask)0 ! spidarsink accept-unmarked=true device={device}"):
                 pipeline = self.start(SHORT + sink)
                 self.assertRegex(self.next_warning(pipeline), said)
@@ -130,6 +193,14 @@ class Joysticks(Pipelines):
         self.assertEqual((bus.evdev_hanging(0), bus.evdev_uploads(0)), (1, uploads), "all that time, one upload")
         bus.evdev_hang(0, False)
         wait_for(lambda: bus.evdev_at_rest(0))
+
+    def test_messages_say_that_it_is_opened_lost_and_back(self):
+        pipeline = self.play()
+        self.assertEqual(self.next_device(pipeline), ("opened", "ff", True))
+        bus.evdev_unplug(0)
+        self.assertEqual(self.next_device(pipeline), ("lost", "ff", True))
+        bus.evdev_plug(1, Evdev.STICK)
+        self.assertEqual(self.next_device(pipeline), ("back", "ff", False))
 
     def test_one_that_is_pulled_out_and_put_back(self):
         pipeline = self.play()

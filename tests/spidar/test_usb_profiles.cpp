@@ -41,11 +41,19 @@ void expect_contains(const std::string& text, const std::string& part) {
 TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
   plug(0, UsbKind::kSh4, "A1");
   plug(1, UsbKind::kSimple);
-  for (const std::string device :
-       {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "usb", "uart:/dev/ttyUSB0"}) {
+  for (const std::string device : {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "uart:/dev/null"}) {
     EXPECT_EQ(board_info(device).profile, "") << device;
     EXPECT_THROW(profile_for(device, ""), NoProfile) << device;
     EXPECT_EQ(profile_for(device, "spidar-g6x").name, "spidar-g6x") << device;
+  }
+  // Which board it is, and whether there is one, comes before its profile.
+  for (const char* const device : {"usb", "usb:1-9", "uart:/dev/null,/dev/no-such-line"}) {
+    try {
+      profile_for(device, "");
+      ADD_FAILURE() << device;
+    } catch (const DeviceError& error) {
+      EXPECT_EQ(std::string(error.what()).find("profile"), std::string::npos) << error.what();
+    }
   }
   // The pages list these for the SH4 and the Simple board.
   const std::string of_sh4 = NoProfile(board_info("usb:1-1")).what();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Why a device cannot be opened, and where in the source that was found.
+#pragma once
+
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+
+namespace spidar {
+
+/// A line of the source. As a default argument, `Place::here()` is the line of the call.
+struct Place {
+  const char* file;
+  const char* function;
+  int line;
+
+  static constexpr Place here(const char* file = __builtin_FILE(),
+                              const char* function = __builtin_FUNCTION(),
+                              int line = __builtin_LINE()) {
+    return {file, function, line};
+  }
+};
+
+/// What kind of trouble it is, for programs. The text is for people.
+enum class DeviceTrouble {
+  kFailed,     ///< it is there, but does not work as it should
+  kAbsent,     ///< it is not plugged in, or what it is reached by does not run
+  kBusy,       ///< somebody else uses it
+  kForbidden,  ///< this user may not open it
+  kSettings,   ///< its name, its profile or its setting up is wrong
+};
+
+/// That `error`, an errno, means.
+inline DeviceTrouble trouble_of(int error) noexcept {
+  switch (error) {
+    case EACCES:
+    case EPERM:
+      return DeviceTrouble::kForbidden;
+    case ENOENT:
+    case ENXIO:
+    case ENODEV:
+      return DeviceTrouble::kAbsent;
+    case EBUSY:
+    case EWOULDBLOCK:
+      return DeviceTrouble::kBusy;
+    case ENOTTY:  // the file is not of such a device
+      return DeviceTrouble::kSettings;
+    default:
+      return DeviceTrouble::kFailed;
+  }
+}
+
+/// A device that cannot be opened. what() says which, why, and what to do.
+class DeviceError : public std::runtime_error {
+ public:
+  explicit DeviceError(const std::string& what, DeviceTrouble trouble = DeviceTrouble::kFailed,
+                       Place place = Place::here())
+      : std::runtime_error(what), trouble_(trouble), place_(place) {}
+  DeviceTrouble trouble() const noexcept { return trouble_; }
+  const Place& place() const noexcept { return place_; }
+
+ private:
+  DeviceTrouble trouble_;
+  Place place_;
+};
+
+}  // namespace spidar
