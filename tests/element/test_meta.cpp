@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The meta on a frame, read as a C program reads it.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gtest/gtest.h>
 
+#include "plugin/filter/reports/matrix_transform.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
@@ -171,6 +174,87 @@ TEST_F(Meta, IsCopiedWithAFrameButNotWithAPartOfIt) {
   gst_buffer_unref(part);
   gst_buffer_unref(copy);
   gst_buffer_unref(out);
+}
+
+/// What videocrop and videoflip of GStreamer 1.28 do.
+class MappedMeta : public Meta {
+ protected:
+  void SetUp() override {
+    open("attach-meta=true");
+    gst_buffer_unref(push_next());
+    frame_ = push_next();
+    ASSERT_TRUE(read_motion_in_c(frame_, &before_));
+  }
+  void TearDown() override { gst_buffer_unref(frame_); }
+
+  /// The motion of the frame that is made from that part of it by `matrix`.
+  GstSpidarFrameMotion map(const GstVideoRectangle& part, int width, int height,
+                           const std::array<std::array<float, 3>, 3>& matrix) {
+    GstVideoInfo out;
+    gst_video_info_set_format(&out, GST_VIDEO_FORMAT_I420, static_cast<guint>(width),
+                              static_cast<guint>(height));
+    MatrixTransform data{&h->info(), part, &out, {0, 0, width, height}, {}};
+    for (size_t row = 0; row < 3; ++row)
+      std::copy(matrix[row].begin(), matrix[row].end(), data.matrix[row]);
+    GstBuffer* const to = gst_buffer_new();
+    GstCustomMeta* const meta = gst_buffer_get_custom_meta(frame_, GST_SPIDAR_MOTION_META_NAME);
+    const GstMetaInfo* const info = gst_meta_get_info(GST_SPIDAR_MOTION_META_NAME);
+    EXPECT_TRUE(info->transform_func(to, reinterpret_cast<GstMeta*>(meta), frame_,
+                                     matrix_transform(), &data));
+    GstSpidarFrameMotion motion{};
+    EXPECT_TRUE(read_motion_in_c(to, &motion));
+    EXPECT_EQ(motion.width, static_cast<guint>(width));
+    EXPECT_EQ(motion.height, static_cast<guint>(height));
+    tracks_ = tracks_of(to);
+    gst_buffer_unref(to);
+    return motion;
+  }
+
+  GstBuffer* frame_ = nullptr;
+  GstSpidarFrameMotion before_{};
+  std::vector<GstSpidarMotionTrack> tracks_;
+};
+
+TEST_F(MappedMeta, CroppingMovesPlacesAndNothingElse) {
+  const GstSpidarFrameMotion after =
+      map({30, 20, 280, 200}, 280, 200, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+  EXPECT_NEAR(after.velocity_x, before_.velocity_x, 1e-9);
+  EXPECT_NEAR(after.force_x, before_.force_x, 1e-9);
+  EXPECT_NEAR(after.force_y, before_.force_y, 1e-9);
+  EXPECT_NEAR(after.torque_z, before_.torque_z, 1e-9);
+  const auto before = tracks_of(frame_);
+  ASSERT_EQ(tracks_.size(), before.size());
+  EXPECT_GT(tracks_.size(), 20u);
+  for (size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NEAR(tracks_[i].to_x, before[i].to_x - 30, 1e-9);
+    EXPECT_NEAR(tracks_[i].from_y, before[i].from_y - 20, 1e-9);
+  }
+}
+
+TEST_F(MappedMeta, MirroringMirrorsDirectionsAndTurnsRotationsRound) {
+  const GstSpidarFrameMotion after =
+      map({0, 0, 320, 240}, 320, 240, {{{-1, 0, 320}, {0, 1, 0}, {0, 0, 1}}});
+  EXPECT_NEAR(after.velocity_x, -before_.velocity_x, 1e-9);
+  EXPECT_NEAR(after.velocity_y, before_.velocity_y, 1e-9);
+  EXPECT_GT(std::abs(before_.force_x), 0.01);
+  EXPECT_NEAR(after.force_x, -before_.force_x, 1e-9);
+  EXPECT_NEAR(after.force_y, before_.force_y, 1e-9);
+  EXPECT_NEAR(after.torque_z, -before_.torque_z, 1e-9);
+  EXPECT_NEAR(after.roll, -before_.roll, 1e-9);
+  // The centre of the first pixel is that of the last one then.
+  for (const auto& track : tracks_of(frame_)) EXPECT_GE(track.to_x, -0.5);
+  EXPECT_NEAR(tracks_[0].to_x, 319 - tracks_of(frame_)[0].to_x, 1e-9);
+}
+
+TEST_F(MappedMeta, TurningClockwiseTurnsTheForceAsMuch) {
+  const GstSpidarFrameMotion after =
+      map({0, 0, 320, 240}, 240, 320, {{{0, -1, 240}, {1, 0, 0}, {0, 0, 1}}});
+  EXPECT_NEAR(after.velocity_x, -before_.velocity_y, 1e-9);
+  EXPECT_NEAR(after.velocity_y, before_.velocity_x, 1e-9);
+  // To the right becomes down, and up becomes to the right.
+  EXPECT_NEAR(after.force_x, before_.force_y, 1e-9);
+  EXPECT_NEAR(after.force_y, -before_.force_x, 1e-9);
+  EXPECT_NEAR(after.torque_z, before_.torque_z, 1e-9);
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 
 #include <utility>
 
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <gst-spidar/gstspidarmotionmeta.h>
 
 #include "core/motion/objects/moving_object.h"
+#include "plugin/filter/reports/matrix_transform.h"
 #include "plugin/filter/reports/no_force_watch.h"
 
 namespace spidar {
@@ -74,34 +77,93 @@ void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
   set_motion(structure, m);
 }
 
-/// Copies the meta of `from` to `to`, whose picture is `scale_x` × `scale_y` times as large.
-bool copy_scaled(GstBuffer* to, GstBuffer* from, double scale_x, double scale_y, guint width,
-                 guint height) {
+/// A map of homogeneous coordinates, x right and y down, with (0, 0) at the top left corner.
+using PictureMap = Eigen::Matrix3d;
+
+/// `place` has (0, 0) at the centre of the first pixel.
+Eigen::Vector2d mapped(const PictureMap& map, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d half{0.5, 0.5};
+  return (map * (place + half).homogeneous()).hnormalized() - half;
+}
+
+/// How lengths and directions change where `place` is.
+Eigen::Matrix2d linear_at(const PictureMap& map, const Eigen::Vector2d& place) {
+  const Eigen::Vector3d to = map * place.homogeneous();
+  const Eigen::Vector2d at = to.hnormalized();
+  return (map.topLeftCorner<2, 2>() - at * map.row(2).head<2>()) / to.z();
+}
+
+/// The rotation or reflection that is nearest to `linear`, which is not singular: the orthogonal
+/// factor of its polar decomposition (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
+Eigen::Matrix2d turn_in(const Eigen::Matrix2d& linear) {
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+/// Lengths follow the map; force and torque keep their size, and are turned and mirrored with it.
+void map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
+  const Eigen::Matrix2d linear = linear_at(map, Eigen::Vector2d(m.width, m.height) / 2);
+  const Eigen::Vector2d velocity = linear * Eigen::Vector2d(m.velocity_x, m.velocity_y);
+  const Eigen::Matrix2d turn = turn_in(linear);
+  // y of force and torque points up. A torque is an axial vector.
+  const double side = turn.determinant();
+  const Eigen::Vector2d force = turn * Eigen::Vector2d(m.force_x, -m.force_y);
+  const Eigen::Vector2d torque = side * (turn * Eigen::Vector2d(m.torque_x, -m.torque_y));
+  m.velocity_x = velocity.x();
+  m.velocity_y = velocity.y();
+  m.force_x = force.x();
+  m.force_y = -force.y();
+  m.torque_x = torque.x();
+  m.torque_y = -torque.y();
+  m.torque_z *= side;
+  m.roll *= side;
+}
+
+/// Copies the meta of `from` to `to`, whose picture has been made from that of `from` by `map`.
+bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const GstVideoInfo& out) {
   GstSpidarFrameMotion motion;
   GArray* tracks = gst_buffer_get_spidar_tracks(from);
   if (!tracks || !gst_buffer_get_spidar_motion(from, &motion)) {
     g_clear_pointer(&tracks, g_array_unref);
     return false;
   }
-  motion.width = width;
-  motion.height = height;
-  motion.velocity_x *= scale_x;
-  motion.velocity_y *= scale_y;
-  std::vector<GstSpidarMotionTrack> scaled;
+  map_motion(map, motion);
+  motion.width = static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out));
+  motion.height = static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out));
+  std::vector<GstSpidarMotionTrack> moved;
   for (guint i = 0; i < tracks->len; ++i) {
     GstSpidarMotionTrack track = g_array_index(tracks, GstSpidarMotionTrack, i);
-    // The corner of the picture, at (−½, −½), stays in place.
-    for (gdouble* x : {&track.from_x, &track.to_x}) *x = (*x + 0.5) * scale_x - 0.5;
-    for (gdouble* y : {&track.from_y, &track.to_y}) *y = (*y + 0.5) * scale_y - 0.5;
-    scaled.push_back(track);
+    const Eigen::Vector2d before = mapped(map, {track.from_x, track.from_y});
+    const Eigen::Vector2d now = mapped(map, {track.to_x, track.to_y});
+    moved.push_back({track.id, before.x(), before.y(), now.x(), now.y(), track.object});
   }
   g_array_unref(tracks);
   GstStructure* structure = add_meta(to);
   set_values(structure, motion);
   gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, gst_buffer_repeats_spidar_motion(from),
                     nullptr);
-  set_tracks(structure, scaled);
+  set_tracks(structure, moved);
   return true;
+}
+
+PictureMap map_of(const GstVideoMetaTransform& scale) {
+  const GstVideoInfo &in = *scale.in_info, &out = *scale.out_info;
+  const Eigen::Vector3d factors(
+      static_cast<double>(GST_VIDEO_INFO_WIDTH(&out)) / GST_VIDEO_INFO_WIDTH(&in),
+      static_cast<double>(GST_VIDEO_INFO_HEIGHT(&out)) / GST_VIDEO_INFO_HEIGHT(&in), 1);
+  return factors.asDiagonal();
+}
+
+PictureMap map_of(const MatrixTransform& transform) {
+  const auto moved = [](double x, double y) {
+    PictureMap move = PictureMap::Identity();
+    move.topRightCorner<2, 1>() << x, y;
+    return move;
+  };
+  const Eigen::Map<const Eigen::Matrix<gfloat, 3, 3, Eigen::RowMajor>> inside(
+      &transform.matrix[0][0]);
+  const GstVideoRectangle &in = transform.in_rectangle, &out = transform.out_rectangle;
+  return moved(out.x, out.y) * inside.cast<double>() * moved(-in.x, -in.y);
 }
 
 gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark type, gpointer data,
@@ -120,13 +182,12 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark t
     return TRUE;
   }
   if (GST_VIDEO_META_TRANSFORM_IS_SCALE(type)) {
-    const auto* scale = static_cast<const GstVideoMetaTransform*>(data);
-    const GstVideoInfo &in = *scale->in_info, &out = *scale->out_info;
-    return copy_scaled(
-        to, from, static_cast<double>(GST_VIDEO_INFO_WIDTH(&out)) / GST_VIDEO_INFO_WIDTH(&in),
-        static_cast<double>(GST_VIDEO_INFO_HEIGHT(&out)) / GST_VIDEO_INFO_HEIGHT(&in),
-        static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out)),
-        static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out)));
+    const auto& scale = *static_cast<const GstVideoMetaTransform*>(data);
+    return copy_mapped(to, from, map_of(scale), *scale.out_info);
+  }
+  if (type == matrix_transform()) {
+    const auto& matrix = *static_cast<const MatrixTransform*>(data);
+    return copy_mapped(to, from, map_of(matrix), *matrix.out_info);
   }
   return FALSE;
 }
