@@ -49,7 +49,8 @@ void to_stored_pixels(Frame& frame, int width) {
   }
   for (MovingObject& object : frame.objects) {
     for (Eigen::Vector2d* along :
-         {&object.position_px, &object.size_px, &object.relative_px_s, &object.on_screen_px_s}) {
+         {&object.position_px, &object.size_px, &object.low_off_px, &object.high_off_px,
+          &object.relative_px_s, &object.on_screen_px_s}) {
       narrow(*along);
     }
     object.area_px2 *= share;

@@ -30,12 +30,10 @@ void remove_ours(GstBuffer* buffer) {
 /// The whole pixels of the frame that it touches; an object may reach over the edge.
 ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width, int height) {
   const Eigen::Vector2d middle_px =
-      Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height) + object.position_px;
+      Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height);
   const Eigen::Array2d size_px(width, height);
-  const Eigen::Array2d from_px =
-      (middle_px - object.size_px / 2).array().floor().max(0.0).min(size_px);
-  const Eigen::Array2d to_px =
-      (middle_px + object.size_px / 2).array().ceil().max(0.0).min(size_px);
+  const Eigen::Array2d from_px = (middle_px + object.drawn_low_px()).array().floor().max(0.0).min(size_px);
+  const Eigen::Array2d to_px = (middle_px + object.drawn_high_px()).array().ceil().max(0.0).min(size_px);
   return {kObjectName, from_px.x(), from_px.y(), (to_px - from_px).x(), (to_px - from_px).y()};
 }
 

@@ -69,8 +69,7 @@ std::vector<uint32_t> felt_objects(const FrameReport& report) {
 }
 
 ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible) {
-  const Eigen::Vector2d at_px = centre_px(visible) + object.position_px;
-  return {at_px - object.size_px / 2, at_px + object.size_px / 2};
+  return {centre_px(visible) + object.drawn_low_px(), centre_px(visible) + object.drawn_high_px()};
 }
 
 Eigen::Vector2d force_origin_px(const FrameReport& report) {

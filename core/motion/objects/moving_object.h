@@ -18,8 +18,14 @@ constexpr double kErrorSigmas = 2.4477;
 /// One object in one frame. Image frame I relative to the centre of the frame: x right, y down.
 struct MovingObject {
   uint32_t id = 0;  ///< constant while the object exists, never reused
-  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();    ///< of its middle
-  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();        ///< of the box around it
+  Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
+  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();      ///< of the box around its blocks
+  /// How far the corners of the box to draw around it, upper left and lower right, are from those
+  /// of this box, which jumps by whole blocks: they move as the object does.
+  Eigen::Vector2d low_off_px = Eigen::Vector2d::Zero(), high_off_px = Eigen::Vector2d::Zero();
+
+  Eigen::Vector2d drawn_low_px() const { return position_px - size_px / 2 + low_off_px; }
+  Eigen::Vector2d drawn_high_px() const { return position_px + size_px / 2 + high_off_px; }
   Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();  ///< velocity relative to the background
   Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity as seen on the screen
   double growth_1_s = 0;                                     ///< as in ImageMotion, relative to …

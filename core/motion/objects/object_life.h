@@ -39,12 +39,17 @@ struct ObjectLife {
   static constexpr double kRimShare = 0.5;
   /// Longer than what usually hides an object, and than most pauses in its motion.
   static constexpr double kForgotten_s = 0.5;
+  /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
+  /// with each frame of 25 a second, a tenth is left.
+  static constexpr double kBoxSettles_s = 0.4;
 
   uint32_t key = 0;     ///< in the order of creation, > 0
   MovingObject object;  ///< its id is 0 until it has been in a result
   Region region;        ///< in the last frame in which it was seen
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
   Expected expected;
+  /// Corners of the box that is drawn, in the field.
+  Eigen::Vector2d low_px = Eigen::Vector2d::Zero(), high_px = Eigen::Vector2d::Zero();
   State state = State::kSeen;
   double since_s = 0;  ///< for how long it has been at rest or hidden
   LayerEvidence evidence;
@@ -73,6 +78,25 @@ struct ObjectLife {
   bool has_left(double interval_s) const {
     const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
     return region.border_blocks > 0 && region.position_px.dot(on_screen_px) > 0;
+  }
+  /// The box to draw moves as the object does.
+  void move_box(double interval_s) {
+    const Eigen::Vector2d moved_px = velocity_px_s * interval_s + region.background_px;
+    low_px += moved_px;
+    high_px += moved_px;
+  }
+  /// It is then drawn towards the box around the blocks, from which it is never further away than a
+  /// block, because that is how well they tell where an edge is.
+  void draw_box_to(const Region& seen, double interval_s) {
+    const double newest = interval_s / (kBoxSettles_s + interval_s);
+    const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {
+      constexpr double kBlock = kBlock_px;
+      corner_px += newest * (seen_px - corner_px);
+      corner_px = corner_px.cwiseMax((seen_px.array() - kBlock).matrix())
+                      .cwiseMin((seen_px.array() + kBlock).matrix());
+    };
+    draw(low_px, seen.low_px);
+    draw(high_px, seen.high_px);
   }
   /// Moves the place at which it is expected on.
   void go_on_unseen(double interval_s) {

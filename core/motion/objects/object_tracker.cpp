@@ -139,6 +139,8 @@ void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
   const Region& region = life.region;
   object.position_px = frame.scale * region.position_px + frame.offset_px;
   object.size_px = frame.scale * (region.high_px - region.low_px);
+  object.low_off_px = frame.scale * (life.low_px - region.position_px) + object.size_px / 2;
+  object.high_off_px = frame.scale * (life.high_px - region.position_px) - object.size_px / 2;
   object.area_px2 = frame.scale * frame.scale * region.blocks * kBlockArea_px;
   object.relative_px_s = frame.scale * life.velocity_px_s;
   object.on_screen_px_s =
@@ -193,7 +195,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   const Eigen::Vector2d velocity_px_s = has_vanished(life, frame)
                                             ? life.expected.velocity_px_s
                                             : life.region.relative_px / frame.interval_s;
-  if (life.blocks_seen == 0) life.velocity_px_s = velocity_px_s;
+  const bool is_new = life.blocks_seen == 0;
+  if (is_new) life.velocity_px_s = velocity_px_s;
   // What an error explains is smoothed away, which delays the rest by a frame or two.
   const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
   const double news_px = (velocity_px_s - life.velocity_px_s).norm() * frame.interval_s;
@@ -204,6 +207,13 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.expect(frame.interval_s);
   life.blocks_seen += std::min(life.region.blocks, Life::kBornAfterBlocks - 1);
   life.object.has_left = false;
+  if (is_new) {
+    life.low_px = life.region.low_px;
+    life.high_px = life.region.high_px;
+  } else {
+    life.move_box(frame.interval_s);
+    life.draw_box_to(life.region, frame.interval_s);
+  }
   place(life, frame);
   MovingObject& object = life.object;
   const double noise_px = camera_moves_ ? noise_around(life) : 0;
@@ -255,6 +265,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   life.go_on_unseen(frame.interval_s);
   life.region.position_px = life.expected.position_px;
   life.velocity_px_s = life.expected.velocity_px_s;
+  life.move_box(frame.interval_s);
   object.growth_1_s = 0;
   object.roll_rad_s = 0;
   object.prominence = 0;

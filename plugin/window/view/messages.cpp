@@ -57,9 +57,9 @@ void pass(Wire& wire, OwnedTrack& track) {
 
 template <typename Wire>
 void pass(Wire& wire, MovingObject& object) {
-  wire(object.id, object.position_px, object.size_px, object.relative_px_s, object.on_screen_px_s,
-       object.growth_1_s, object.roll_rad_s, object.tracks, object.error_px_s, object.area_px2,
-       object.prominence);
+  wire(object.id, object.position_px, object.size_px, object.low_off_px, object.high_off_px,
+       object.relative_px_s, object.on_screen_px_s, object.growth_1_s, object.roll_rad_s,
+       object.tracks, object.error_px_s, object.area_px2, object.prominence);
 }
 
 template <typename Wire>
