@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Plays a film and renders its motion as force: player.py [--headless] FILE-OR-URI
+"""Plays a film, renders its motion as force, and shows it: player.py [--headless] FILE-OR-URI
 
 Type and return: space pause, + - speed, < > 5 s, . next frame, l loop, f force on and off,
 d40 force 40 ms later, q quit. Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in
@@ -21,7 +21,7 @@ names = [argument for argument in sys.argv[1:] if argument != "--headless"]
 if len(names) != 1 or names[0].startswith("-"):
     sys.exit(__doc__)
 Gst.init(None)
-motion = Gst.parse_launch("spidarmotion")
+motion = Gst.parse_launch("spidarmotion overlay=force")
 screen = Gst.parse_launch("fakesink sync=true" if headless else "autovideosink")
 sound = Gst.parse_launch("fakesink sync=true" if headless else "autoaudiosink")
 player = Gst.ElementFactory.make("playbin")
@@ -61,9 +61,11 @@ def act(line):
     elif re.fullmatch("d-?[0-9]{1,4}\n", line):
         motion.set_property("ts-offset", int(line[1:]) * Gst.MSECOND)
     player.get_state(5 * Gst.SECOND)
+    stats = motion.get_property("stats")
+    right, up = (stats.get_value(f"force-{axis}") or 0 for axis in "xy")
     print(f"{max(player.query_position(Gst.Format.TIME)[1], 0) / Gst.SECOND:.2f} s, {rate:g}x, "
           f"{'playing' if playing else 'paused'}{', loop' if again else ''}, "
-          f"force {'off' if motion.get_property('mute') else 'on'}, "
+          f"force {'off' if motion.get_property('mute') else 'on'}, {right:+.2f} N right, {up:+.2f} N up, "
           f"delay {motion.get_property('ts-offset') // Gst.MSECOND} ms", flush=True)
 
 

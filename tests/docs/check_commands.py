@@ -16,7 +16,7 @@ the given text:
     <!-- endless (TEXT) -->
     <!-- not commands -->                a formula, or a program
 
-What is not run is listed with its reason."""
+A line with <<'END' goes on to the line END. What is not run is listed with its reason."""
 
 import os
 import re
@@ -31,6 +31,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
+PYTHON = "/usr/bin/python3"
 FILMS = ("film.mp4", "vtest.avi", "ball.avi", "telephone.mp4")
 TRACKS = {  # of these films, and what writes them
     "film.haptic.flac": "audioconvert dithering=none noise-shaping=none ! flacenc blocksize=40",
@@ -39,6 +40,13 @@ TRACKS = {  # of these films, and what writes them
 }
 OPTIONAL = {"ffmpeg": "ffmpeg", "mkvmerge": "mkvtoolnix"}  # programs that lines need, and who has them
 ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
+# What a program inside a line needs, a command that says whether it is there, and who has it.
+INSIDE = {
+    "webrtcbin": (["gst-inspect-1.0", "nicesrc"], "gstreamer1.0-nice"),
+    '"GES"': ([PYTHON, "-c", "import gi; gi.require_version('GES', '1.0')"], "gir1.2-ges-1.0"),
+    '"Gtk"': ([PYTHON, "-c", "import gi; gi.require_version('Gtk', '4.0')"], "gir1.2-gtk-4.0"),
+    "import gi": ([PYTHON, "-c", "import gi; gi.require_version('Gst', '1.0')"], "gir1.2-gstreamer-1.0"),
+}
 ENCODERS = ("x264enc", "openh264enc")  # one of which spidartrack show needs
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
@@ -92,7 +100,7 @@ def commands(page, source):
         for offset, line in enumerate(lines):
             begin = begin if command else number + offset
             command += line
-            if line.endswith("\\"):
+            if line.endswith("\\") or ("<<'END'" in command and line != "END"):
                 command += "\n"
                 continue
             if command.startswith("export "):
@@ -120,6 +128,9 @@ def missing_program(command):
     if "spidartrack show" in command and all(
             subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode for element in ENCODERS):
         return f"skipped: none of {', '.join(ENCODERS)} is installed"
+    for word, (asks, owner) in INSIDE.items():
+        if word in command and subprocess.run(asks, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+            return f"skipped: {owner} is not installed"
     for program, owner in OPTIONAL.items():
         if re.search(rf"(^|[|;&] *){program} ", command) and not shutil.which(program):
             return f"skipped: {owner} is not installed"

@@ -61,6 +61,7 @@ def check(program):
         expected = [text for _, text in TYPED]
         assert len(lines) >= len(expected), "\n".join(lines)
         for text, line in zip(expected, lines):
+            assert re.search(r"[+-][0-9.]+ N right, [+-][0-9.]+ N up", line), line
             assert text in line, f"'{text}' is not in '{line}'\n" + "\n".join(lines)
         code, lines, _ = run(program, make_clip(folder, 10), "")  # to the end, without a key
         assert code == 0
