@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Plays a video whose motion becomes force on a SPIDAR-G, a simulated one by default, and ends with a
+# Plays a video whose motion becomes force on the device that is plugged in, or a simulated one, and ends with a
 # summary and a picture of the force. First installs missing packages (Debian) and builds.
 #   examples/play.sh                             people walking across a square
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...

@@ -175,6 +175,7 @@ void wait_for_window(const Playing& playing) {
 int play(const Options& options) {
   prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
+  g_object_set(filter, "device", "auto", nullptr);
   for (const std::string& text : options.properties) {
     if (const auto preset = spidar::preset_of(text)) {
       spidar::load_preset(filter, *preset);

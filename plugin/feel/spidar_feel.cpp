@@ -20,6 +20,7 @@
 #include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/standard_descriptors.h"
+#include "spidar/session/auto_device.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"
@@ -49,7 +50,7 @@ void check_device(GObject* element) {
   const std::string device = string_property(element, "device");
   const std::string profile = string_property(element, "profile");
   try {
-    if (device != "none")
+    if (device != "none" && device != kAutoDevice)
       make_grip(device, profile_for(device, profile));
     else if (!profile.empty())
       load_profile(profile);
@@ -216,15 +217,9 @@ bool is_without_gstreamer(const std::string& program) {
   return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
 }
 
-/// Says what would otherwise be missed: that nothing real moves, or that nothing is felt.
+/// Says what would otherwise be missed.
 void warn_of_nothing_felt(const Wish& wish) {
-  const std::string device = device_of(wish);
-  if (device == "none") return;  // nothing is to be felt
-  if (device.empty())
-    std::fputs(
-        "spidar-feel: no device is given: a simulated one takes the force, and nothing real moves; "
-        "\"spidarctl list\" names what is plugged in\n",
-        stderr);
+  if (device_of(wish) == "none") return;  // nothing is to be felt
   if (is_without_gstreamer(wish.program[0]))
     std::fprintf(
         stderr,
@@ -237,7 +232,8 @@ void warn_of_nothing_felt(const Wish& wish) {
 
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
-  const Wish wish = parse(argc, argv);
+  Wish wish = parse(argc, argv);
+  if (device_of(wish).empty()) wish.properties.insert(wish.properties.begin(), "device=auto");
   find_plugins();
   check(wish.properties);
   set_environment(wish.properties);

@@ -37,8 +37,8 @@
  * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
  * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
  * none or not one alone), `track` (string: the file of the haptic track whose force this is, empty
- * when the frame was analysed), `limit` (string: why nothing of this frame is to be felt, "none" when
- * something is), `device-limit` (string: the same of the device and the playback) and
+ * when the frame was analysed), `limit` (string: why nothing of this frame is to be felt, "none"
+ * when something is), `device-limit` (string: the same of the device and the playback) and
  * `limit-reason` and `device-limit-reason` (strings: the same as a sentence, empty for "none").
  * `stats` has them for the picture on the screen.
  *
@@ -144,7 +144,7 @@ static bool open_device(GstSpidarMotion* self, const MotionProperties& propertie
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The video and the force continue without it."));
     }
-    self->warnings->device().check_opened(engine.output().session());
+    self->warnings->device().check_opened(engine.output().session(), engine.output().chosen());
     return true;
   } catch (const std::exception& refusal) {
     return self->warnings->device().check_refused(properties.device, refusal,

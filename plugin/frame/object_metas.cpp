@@ -32,8 +32,10 @@ ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width,
   const Eigen::Vector2d middle_px =
       Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height);
   const Eigen::Array2d size_px(width, height);
-  const Eigen::Array2d from_px = (middle_px + object.drawn_low_px()).array().floor().max(0.0).min(size_px);
-  const Eigen::Array2d to_px = (middle_px + object.drawn_high_px()).array().ceil().max(0.0).min(size_px);
+  const Eigen::Array2d from_px =
+      (middle_px + object.drawn_low_px()).array().floor().max(0.0).min(size_px);
+  const Eigen::Array2d to_px =
+      (middle_px + object.drawn_high_px()).array().ceil().max(0.0).min(size_px);
   return {kObjectName, from_px.x(), from_px.y(), (to_px - from_px).x(), (to_px - from_px).y()};
 }
 

@@ -56,9 +56,13 @@ bool DeviceWarnings::check_refused(const std::string& device, const std::excepti
   return true;
 }
 
-void DeviceWarnings::check_opened(const HapticSession* session) const {
+void DeviceWarnings::check_opened(const HapticSession* session, const std::string& chosen) const {
   if (!session) return;
-  post("opened", session->grip().name(), session->opened());
+  post("opened", session->grip().name(), chosen.empty() ? session->opened() : chosen);
+  if (!chosen.empty())
+    GST_ELEMENT_INFO(element_, RESOURCE, SETTINGS,
+                     ("%s: %s.", session->grip().name().c_str(), chosen.c_str()),
+                     ("spidarctl list names what is plugged in; device= chooses one."));
   const GripAbilities can = session->grip().abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.

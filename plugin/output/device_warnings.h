@@ -25,9 +25,9 @@ class DeviceWarnings {
   /// `device` cannot be opened. False when the stream is not to begin.
   bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
                      Place place = Place::here()) const;
-  /// A device was just opened. Posts an information message, too, if it renders only a part of what
-  /// is to be seen in the picture.
-  void check_opened(const HapticSession* session) const;
+  /// A device was just opened, `chosen` for "auto". Posts an information message, too, if it was
+  /// chosen, or renders only a part of what is to be seen in the picture.
+  void check_opened(const HapticSession* session, const std::string& chosen) const;
   /// The element begins: everything may be said again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.

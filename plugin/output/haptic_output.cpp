@@ -11,6 +11,7 @@
 #include "plugin/gobject/category.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/session/auto_device.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
@@ -120,6 +121,31 @@ void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
                                const std::string& haptic_trace) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    chosen_.clear();
+  }
+  if (device != kAutoDevice) return open_named(device, profile_name, haptic_trace);
+  std::string refused;
+  const auto choose = [&](const AutoDevice& found, const std::string& profile) {
+    const std::string trace_problem = open_named(found.device, profile, haptic_trace);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    chosen_ = "auto: " + found.why + refused;
+    return trace_problem;
+  };
+  for (const AutoDevice& found : auto_devices()) {
+    try {
+      // A profile that is named for a board is not confirmed for the one that is found.
+      return choose(found, "");
+    } catch (const std::runtime_error& error) {
+      refused += std::string("; not ") + error.what();
+    }
+  }
+  return choose({"sim", "simulated, because nothing that gives a force can be used"}, profile_name);
+}
+
+std::string HapticOutput::open_named(const std::string& device, const std::string& profile_name,
+                                     const std::string& haptic_trace) {
   Profile profile = profile_for(device, profile_name);
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
@@ -246,6 +272,7 @@ bool HapticOutput::look_at_device(DeviceView& view) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;
   view.name = session_->grip().name();
+  if (!chosen_.empty()) view.name += " (" + chosen_ + ")";
   view.has_hand = simulated_ != nullptr;
   view.has_strings = session_->grip().traits().has_strings;
   const LoopSnapshot loop = session_->loop().snapshot();

@@ -38,6 +38,8 @@ class HapticOutput {
   /// the haptic trace cannot be written: the device works without it.
   std::string open(const std::string& device, const std::string& profile,
                    const std::string& haptic_trace);
+  /// Which device "auto" became, and why; empty when another one was asked for. State changes.
+  const std::string& chosen() const { return chosen_; }
   /// Motors to rest, device closed.
   void close();
 
@@ -73,6 +75,9 @@ class HapticOutput {
   void describe(GstStructure* structure) const;
 
  private:
+  std::string open_named(const std::string& device, const std::string& profile,
+                         const std::string& haptic_trace);
+
   GstElement* const element_;
   const std::function<void()> refreshed_;
   PlaybackSync::Now now_ = nullptr;
@@ -81,6 +86,7 @@ class HapticOutput {
   std::unique_ptr<HapticSession> session_;
   SimulatedDevice* simulated_ = nullptr;  // of the session, if it is one
   Profile profile_;
+  std::string chosen_;
   std::unique_ptr<PlaybackFollower> follower_;
   GstClockTime latency_ = 0;
   GstClockTimeDiff offset_ns_ = 0;

@@ -218,8 +218,8 @@ std::vector<MotionRow> touch_rows() {
 MotionRow device_row() {
   return MotionRow::text(
       {"device", "Device",
-       "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, or 'none' "
-       "(analysis only). Opened in the change from NULL to READY"},
+       "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, 'auto' (what is "
+       "plugged in), or 'none'. Opened from NULL to READY"},
       kNull, KEPT_IN(device));
 }
 

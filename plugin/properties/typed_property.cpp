@@ -73,8 +73,8 @@ std::string meant(GObject* element, const std::string& name) {
   guint count = 0;
   GParamSpec** const all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
   std::string nearest;
-  // A third of the letters may be wrong.
-  size_t fewest = std::max<size_t>(1, name.size() / 3) + 1;
+  // A quarter of the letters may be wrong.
+  size_t fewest = std::max<size_t>(1, name.size() / 4) + 1;
   for (guint i = 0; i < count; ++i) {
     if (!(all[i]->flags & G_PARAM_WRITABLE)) continue;
     const size_t needed = edits(name, all[i]->name);

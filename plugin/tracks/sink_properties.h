@@ -27,9 +27,8 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<SinkProperties>{{
       SinkRow::text({"device", "Device",
-                     "Haptic device: 'sim' (simulated SPIDAR), or one that 'spidarctl list' "
-                     "prints. Opened in "
-                     "the change from NULL to READY"},
+                     "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, "
+                     "or 'auto' (what is plugged in). Opened from NULL to READY"},
                     kNull, KEPT_IN(device)),
       profile_row<SinkProperties>(),
       SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,

@@ -238,7 +238,7 @@ static bool open_device(GstSpidarSink* self) {
       GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
                           ("The force continues without it."));
     }
-    self->warnings->check_opened(self->output->session());
+    self->warnings->check_opened(self->output->session(), self->output->chosen());
     self->queue->connect(&self->output->session()->loop());
     return true;
   } catch (const std::exception& refusal) {

@@ -17,7 +17,7 @@ namespace {
 
 /// "sim, sim:BOARD, none, usb, usb:ID, …"
 std::string known_names(bool with_none) {
-  std::string names = std::string("sim, sim:BOARD") + (with_none ? ", none" : "");
+  std::string names = std::string("sim, sim:BOARD") + (with_none ? ", none, auto" : "");
   const char* last = "";
   for (const DeviceKind& kind : devices()) {
     if (kind.device != std::string(last)) names += std::string(", ") + kind.names;

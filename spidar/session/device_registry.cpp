@@ -163,6 +163,7 @@ std::vector<BoardInfo> list_force_feedback_boards() {
     board.path = device.path;
     board.serial = device.serial;
     board.usb_id = device.id;
+    board.directional = device.constant;
     if (!device.constant) board.note = "rumble only: strength without direction";
     if (!device.accessible) board.note = kNoUdevRule;
     board.accessible = device.accessible;

@@ -82,11 +82,12 @@ TEST(DrawnBox, MovesAsTheObjectDoes) {
 }
 
 TEST(DrawnBox, IsNotFarFromTheObject) {
+  constexpr int kFew = 15;
   const Texture wall(1, 10), ball(2, 10);
   MotionAnalyzer analyzer;
   Frame frame;
   const Vector2d step_px(3, 0);
-  for (int n = 0; n < kFrames; ++n) {
+  for (int n = 0; n < kFew; ++n) {
     const Picture picture = draw(
         [&](int k, const Vector2d& at) {
           const Vector2d on = at - Vector2d(150, 180) - k * step_px;
@@ -99,7 +100,7 @@ TEST(DrawnBox, IsNotFarFromTheObject) {
   // From the middle of the frame. Blocks belong to it that it covers by half, and the box is within
   // a block of theirs; a block of the reduced picture has up to twice the side in the frame.
   const Vector2d middle_px =
-      Vector2d(150, 180) + (kFrames - 1) * step_px - Vector2d(kSceneWidth, kSceneHeight) / 2;
+      Vector2d(150, 180) + (kFew - 1) * step_px - Vector2d(kSceneWidth, kSceneHeight) / 2;
   const double most_px = 2 * 1.5 * kBlock_px;
   EXPECT_LT((frame.objects[0].drawn_low_px() - middle_px + Vector2d(60, 60)).cwiseAbs().maxCoeff(),
             most_px);

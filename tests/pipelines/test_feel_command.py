@@ -67,10 +67,9 @@ class Command(track_case.TrackCase):
                            "'device=\"sim\"'"):
             self.assertEqual(self.feel(properties + " -- echo plays 2>/dev/null"), "plays\n", properties)
 
-    def test_without_a_device_it_says_that_nothing_real_moves(self):
-        line = "a simulated one takes the force"
-        self.assertIn(line, self.feel("true"))
-        self.assertNotIn(line, self.feel("device=sim -- true"))
+    def test_without_a_device_it_takes_what_there_is(self):
+        self.assertEqual(self.feel("max-force=2 -- printenv SPIDAR_FEEL"), "device=auto\nmax-force=2\n\n")
+        self.assertEqual(self.feel("max-force=2 device=sim -- printenv SPIDAR_FEEL"), "max-force=2\ndevice=sim\n\n")
 
     def test_a_player_that_does_not_use_gstreamer_is_named(self):
         """mpv is a name for the command true here."""

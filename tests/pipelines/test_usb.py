@@ -3,9 +3,11 @@
 """Pipelines with boards and joysticks on an emulated bus, which are pulled out and put back while a film plays."""
 
 import errno
+import os
 import signal
 import subprocess
 import unittest
+import unittest.mock
 
 import bus_case
 import gst_case
@@ -95,12 +97,69 @@ class Refused(Pipelines):
         self.assertEqual(holder.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
         self.assertEqual(self.refusal(element)[0], Gst.ResourceError.BUSY)
         holder.set_state(Gst.State.NULL)
+        bus.bus_forbid(0, True)
+        self.assertEqual(self.refusal(element)[0], Gst.ResourceError.NOT_AUTHORIZED)
+        bus.bus_forbid(0, False)
         self.assertEqual(self.refusal(Gst.parse_launch("spidarmotion device=usb"))[0], Gst.ResourceError.SETTINGS)
         bus.bus_plug(1, Usb.SIMPLE)
         code, text, _ = self.refusal(Gst.parse_launch("spidarmotion device=usb"))
         self.assertEqual(code, Gst.ResourceError.SETTINGS)
         self.assertIn("there are several boards, name one of usb:1-1 usb:1-2", text)
         self.assertEqual(bus.bus_updates(1), 0)
+
+
+class Auto(Pipelines):
+    """The first that gives a force."""
+
+    def chosen(self, line=""):
+        """Device and reason of the message that it is opened; the information message says the same."""
+        element = Gst.parse_launch("spidarmotion device=auto " + line)
+        element.set_bus(Gst.Bus.new())
+        self.assertEqual(element.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
+        name = element.get_property("stats").get_value("device")
+        element.set_state(Gst.State.NULL)
+        told = element.get_bus().pop_filtered(Gst.MessageType.ELEMENT).get_structure()
+        self.assertEqual((told.get_value("state"), told.get_value("device")), ("opened", name))
+        said = element.get_bus().pop_filtered(Gst.MessageType.INFO).parse_info()[0].message
+        self.assertEqual(said, f"{name}: {told.get_value('reason')}.")
+        self.assertEqual(element.get_property("device"), "auto")
+        return name, told.get_value("reason")
+
+    def test_without_anything_it_is_simulated(self):
+        self.assertEqual(self.chosen(), ("sim", "auto: simulated, because nothing that gives a force can be used"))
+
+    def test_what_has_a_direction_comes_before_what_rumbles(self):
+        bus.evdev_plug(0, Evdev.KEYBOARD)
+        bus.evdev_plug(1, Evdev.PAD)
+        self.assertEqual(self.chosen(), ("ff:/dev/input/event1", "auto: a gamepad that rumbles"))
+        # A Falcon comes before it, but this one has no firmware.
+        bus.bus_plug(0, Usb.FALCON)
+        device, why = self.chosen()
+        self.assertEqual(device, "ff:/dev/input/event1")
+        self.assertIn("a gamepad that rumbles; not falcon:1-1: has not got its firmware", why)
+        bus.evdev_plug(2, Evdev.WHEEL)
+        self.assertEqual(self.chosen(), ("ff:/dev/input/event2", "auto: a joystick or wheel with directional force"))
+
+    def test_a_board_is_driven_only_with_a_profile_that_was_confirmed(self):
+        bus.bus_plug_named(0, Usb.SH4, b"A1")
+        bus.bus_plug(1, Usb.MOUSE)
+        with unittest.mock.patch.dict(os.environ, XDG_CONFIG_HOME=str(self.folder)):
+            self.assertEqual(self.chosen("profile=spidar-g")[0], "sim")
+            self.assertEqual(bus.bus_updates(0), 0)
+            self.path("gst-spidar").mkdir()
+            self.path("gst-spidar/boards.toml").write_text('"0cec:0205 A1" = "spidar-g6x3-v2-l"\n')
+            bus.evdev_plug(0, Evdev.STICK)
+            self.assertEqual(self.chosen(), ("usb:1-1", "auto: a SPIDAR whose profile was confirmed"))
+
+    def test_what_cannot_be_opened_is_passed_over_and_named(self):
+        bus.evdev_plug(0, Evdev.STICK)
+        bus.evdev_plug(1, Evdev.PAD)
+        holder = Gst.parse_launch("spidarmotion device=ff:/dev/input/event0")
+        self.assertEqual(holder.set_state(Gst.State.READY), Gst.StateChangeReturn.SUCCESS)
+        device, why = self.chosen()
+        holder.set_state(Gst.State.NULL)
+        self.assertEqual(device, "ff:/dev/input/event1")
+        self.assertRegex(why, "^auto: a gamepad that rumbles; not ff:/dev/input/event0: .*another program uses it")
 
 
 class Boards(Pipelines):
