@@ -15,7 +15,6 @@ LAYERS = ("core", "plugin", "spidar")
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 ONE_OF_TWO = "the other one of two is in this build"
 EXCUSED = {
-    "core/motion/world/motion_features.cpp": "a program of the training, which is built on demand",
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,
 }
 

@@ -48,9 +48,6 @@ class MotionAnalyzer {
   /// is at rest, and the next frame is not compared with the one before.
   const Frame* repeat(int64_t running_ns);
 
-  /// To compare the network with the rules.
-  MovingBlocks& moving_blocks() { return motion_.moving_blocks(); }
-
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
   /// starts again.
   void restart();

@@ -29,12 +29,6 @@ class MotionEstimator {
   /// first picture, another size, or a cut.
   bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame);
 
-  /// For the training of the network, and to compare it with the rules.
-  MovingBlocks& moving_blocks() { return objects_.moving_blocks(); }
-  /// What the rules, or the network, said of each block of the last frame.
-  bool moves(size_t block) const { return objects_.moves(block); }
-  const BlockGrid& grid() const { return field_.grid(); }
-
   /// After a cut or a seek: the next frame is not compared with the one before.
   void reset();
 

@@ -3,7 +3,6 @@
 // The motion of a frame is found without allocating, whatever the scene. Ticks of the loop are in
 // tests/spidar/test_random_safety.cpp.
 #include <algorithm>
-#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -19,13 +18,12 @@ constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 
 /// A lively scene: the camera changes its motion every ten frames, and discs come and go.
-void expect_no_allocation(const std::optional<NetworkThresholds>& network, size_t least_objects) {
+TEST(NoAllocation, Motion) {
   // Regions and objects come and go: after a turn of the scene all memory has been used once.
   constexpr int kTurn = 60;
   MovingScene scene(kWidth, kHeight);
   for (const double radius_px : {50.0, 40.0, 30.0}) scene.add_disc(radius_px);
   MotionEstimator estimator;
-  estimator.moving_blocks().use_network(network);
   ReducedFrame reduced;
   MeasuredFrame found;
   size_t most_objects = 0;
@@ -46,15 +44,7 @@ void expect_no_allocation(const std::optional<NetworkThresholds>& network, size_
     }
     if (is_compared) most_objects = std::max(most_objects, found.objects.size());
   }
-  EXPECT_GE(most_objects, least_objects) << "the scene is lively";
-}
-
-TEST(NoAllocation, Motion) {
-  expect_no_allocation({}, 2);
-}
-
-TEST(NoAllocation, MotionByTheNetwork) {
-  expect_no_allocation(NetworkThresholds{}, 0);
+  EXPECT_GT(most_objects, 1u) << "the scene is lively";
 }
 
 TEST(NoAllocation, AFrameOfVideo) {

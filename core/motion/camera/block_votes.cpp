@@ -15,8 +15,6 @@ constexpr int kBorderBlocks = 2;
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
-/// Of what the network says of a block's vote.
-constexpr double kLeastVote = 0.01;
 
 enum class Voters { kTextured, kEdgesToo };
 
@@ -46,17 +44,13 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
                                 ? block.has_texture() && texture > 0
                                 : block.weakest_texture() >= MotionBlock::kLeastTexture;
       if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
-      const bool asks_network = past.votes && !past.votes->empty();
-      if (!asks_network && !past.burned_in.empty() && past.burned_in[i] != 0) continue;
+      if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
       double weight = texture / (texture + kFullTexture) /
                       (1 + static_cast<double>(block.residual) / kBadResidual);
       // Right to half a pixel, as all motion is before it is refined.
       const bool rests = std::hypot(block.moved_x_px, block.moved_y_px) < kMostOff_px / 2;
       if (at_border && !rests) weight *= kBorderVotes;
-      if (asks_network) {
-        // A weight must not be zero.
-        weight *= std::max(kLeastVote, static_cast<double>((*past.votes)[field.origin_of(i)]));
-      } else if (!past.persistence.empty()) {
+      if (!past.persistence.empty()) {
         weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
       }
       const Eigen::Vector2d moved_px =

@@ -20,9 +20,6 @@ struct Past {
   /// Blocks of bars and frames around the film, on each side.
   int margin_columns = 0;
   int margin_rows = 0;
-  /// How likely the block may vote, 0 … 1, in place of `persistence` and `burned_in`; null: not
-  /// known.
-  const std::vector<float>* votes = nullptr;
 };
 
 /// Sets `votes` to those of the textured blocks of `field`. Where little else votes, edges do, too,

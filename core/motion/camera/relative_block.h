@@ -29,7 +29,6 @@ struct RelativeBlock {
   bool was_outside = false;   ///< most of it was outside of the film in the previous picture
   bool is_covered = false;    ///< something burned in hides the film here, see BurnedIn::covers()
   bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
-  float probability = 0;      ///< that it moves by itself; 0 where no network was asked
   bool moves = false;         ///< moves by itself, taking its neighbours into account
 };
 

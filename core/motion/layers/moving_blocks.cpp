@@ -125,9 +125,6 @@ void MovingBlocks::reset() {
   persistence_.clear();
   stood_out_.clear();
   burned_in_.reset();
-  features_.reset();
-  network_.reset();
-  votes_.clear();
 }
 
 /// Motion of each block relative to the background.
@@ -226,21 +223,6 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// What the network says of each block counts instead.
-void MovingBlocks::ask_network(const BlockGrid& grid, const std::vector<uint8_t>& expected) {
-  const std::vector<BlockAnswer>& answers =
-      network_.answer(grid, features_.origins(), features_.values());
-  votes_.resize(answers.size());
-  for (size_t i = 0; i < relative_.size(); ++i) {
-    votes_[i] = answers[i].votes;
-    RelativeBlock& block = relative_[i];
-    block.probability = answers[i].moves;
-    block.moves = block.probability > (is_expected(expected, i) ? network_decides_->least_expected
-                                                                : network_decides_->least);
-    block.lasts = false;
-  }
-}
-
 /// How much each block has stood out recently in the same way: what glitters stands out in another
 /// one each time. A small object may have moved on to the next block.
 void MovingBlocks::remember_what_stood_out(const BlockField& field) {
@@ -284,9 +266,7 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
                                                      const std::vector<uint8_t>& expected) {
   compare(field, background, expected);
   camera_is_still_ = background.model.kind == ModelKind::kStill;
-  const bool has_features = network_decides_ || keeps_features_;
-  if (!camera_is_still_ || has_features) measure_parallax(field);
-  if (has_features) features_.measure(field, background, relative_, parallax_.covariance_px2());
+  if (!camera_is_still_) measure_parallax(field);
   const auto noise_px = static_cast<float>(background.sigma_px);
   const Eigen::Matrix2f noise_px2 = noise_px * noise_px * Eigen::Matrix2f::Identity();
   stands_out_.resize(relative_.size());
@@ -296,7 +276,6 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
   leave_out_burned_in(field, expected);
   remember_what_stood_out(field);
   ask_neighbours(field.grid());
-  if (network_decides_) ask_network(field.grid(), expected);
   if (!background.is_known) {
     for (RelativeBlock& block : relative_) block.moves = false;
   }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/field/block_field.h"
@@ -12,8 +11,6 @@
 #include "core/motion/camera/relative_block.h"
 #include "core/motion/layers/burned_in.h"
 #include "core/motion/layers/parallax.h"
-#include "core/motion/learned/block_features.h"
-#include "core/motion/learned/block_network.h"
 
 namespace spidar {
 
@@ -49,22 +46,6 @@ class MovingBlocks {
   /// objects.
   const BurnedIn& burned_in() const { return burned_in_; }
 
-  /// From the next frame on, the network decides which blocks move; with nothing, the rules do.
-  void use_network(const std::optional<NetworkThresholds>& thresholds) {
-    network_decides_ = thresholds;
-  }
-  /// Measures the features also while the rules decide.
-  void keep_features() { keeps_features_ = true; }
-  /// How likely each block of the last frame may vote for the camera; null while the network does
-  /// not say that.
-  const std::vector<float>* votes() const {
-    return network_decides_ && network_decides_->votes ? &votes_ : nullptr;
-  }
-  /// Of the last frame, if the network decides or keep_features() was called.
-  const BlockFeatures& features() const { return features_; }
-  /// What it said of the last frame, if it decides.
-  const BlockNetwork& network() const { return network_; }
-
   void reset();
 
  private:
@@ -82,7 +63,6 @@ class MovingBlocks {
                   bool expected) const;
   void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
   void ask_neighbours(const BlockGrid& grid);
-  void ask_network(const BlockGrid& grid, const std::vector<uint8_t>& expected);
   void remember_what_stood_out(const BlockField& field);
   void remember_motion(const BlockField& field);
 
@@ -96,11 +76,6 @@ class MovingBlocks {
   Parallax parallax_;
   BurnedIn burned_in_;
   bool camera_is_still_ = true;
-  BlockFeatures features_;
-  BlockNetwork network_;
-  std::optional<NetworkThresholds> network_decides_;
-  bool keeps_features_ = false;
-  std::vector<float> votes_;
 };
 
 }  // namespace spidar

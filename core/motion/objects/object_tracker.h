@@ -53,9 +53,8 @@ class ObjectTracker {
   Past past() const {
     const BurnedIn& burned_in = moving_.burned_in();
     return {moving_.persistence(), burned_in.held(), burned_in.margins().columns(),
-            burned_in.margins().rows(), moving_.votes()};
+            burned_in.margins().rows()};
   }
-  MovingBlocks& moving_blocks() { return moving_; }
   /// A number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
