@@ -242,7 +242,8 @@ def observed(fields):
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
               *field_list(fields, "json", fullest), *haptic]
     of_track = {name: kind for name, kind in track_stats.items() if name not in fields.tables["stats.device"]}
-    sink = ["", "## Messages", "", "`spidar-device`, as [spidarmotion](spidarmotion.md#messages) posts it.",
+    sink = ["", "## Messages", "", "Those of [spidarmotion](spidarmotion.md#messages); `spidar-motion` for each 40 ms of the track, "
+            "whose file is `track`, or where there is none, the name of the element.",
             "", "## Fields of `stats`", *stats_lists(fields, of_track, {"stats.track": "Of the track:"}), "",
             "Of the device: those of [spidarmotion](spidarmotion.md#fields-of-stats).", "",
             "## Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]

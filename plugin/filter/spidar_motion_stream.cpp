@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "plugin/filter/reports/message_and_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
+#include "plugin/frame/motion_message.h"
 #include "plugin/frame/object_metas.h"
 #include "plugin/gobject/exceptions.h"
 #include "plugin/timing/frame_pacer.h"
@@ -135,7 +135,8 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     self->choice->check(report->frame.choice, settings.kept, stream_time);
   }
   if (report->has_wrench() && post_messages) {
-    post_motion_message(GST_ELEMENT(self), frame->buffer, *report, &self->unread_messages);
+    post_motion_message(GST_ELEMENT(self), GST_BUFFER_PTS(frame->buffer),
+                        GST_BUFFER_DURATION(frame->buffer), *report, &self->unread_messages);
   }
   return device_goes_on(self, on_device_error) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }

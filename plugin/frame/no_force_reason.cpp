@@ -16,6 +16,8 @@ constexpr double kMoving_px_s = 1;
 /// With fewer points no motion can be told from the background's: a translation of the background
 /// takes one of them, and an object two.
 constexpr int kFewestPoints = 4;
+/// When a hand swings a slack string, the pose is lost for less than this.
+constexpr int64_t kGripLost_ns = 100'000'000;
 
 struct Wording {
   const char* nick;
@@ -156,6 +158,32 @@ NoForceReason limit_of(const Frame& frame, MotionKind motion) {
   const bool camera_moves = frame.background && frame.background->model.kind != ModelKind::kStill;
   return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
                                            : NoForceReason::kNothingMoves;
+}
+
+NoForceReason limit_of_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop) {
+  if (size_N(wrench) < kFeltForce_N) return NoForceReason::kSilentTrack;
+  // Before its first tick the loop has no limit to tell.
+  const bool is_weak = loop && loop->counters.ticks > 0 && loop->last.max_force_N < kFeltForce_N;
+  return is_weak ? NoForceReason::kTooWeak : NoForceReason::kNone;
+}
+
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted) {
+  switch (loop.last.device) {
+    case DeviceState::kLost:
+      return NoForceReason::kDeviceLost;
+    case DeviceState::kOpening:
+    case DeviceState::kClosing:
+    case DeviceState::kClosed:
+      return NoForceReason::kDeviceStarting;
+    case DeviceState::kRunning:
+    case DeviceState::kIdle:
+      break;
+  }
+  if (loop.untrusted_ns > kGripLost_ns) return NoForceReason::kGripUnknown;
+  if (muted) return NoForceReason::kMuted;
+  if (!loop.last.playing) return NoForceReason::kNotPlaying;
+  if (!loop.last.held) return NoForceReason::kGripReleased;
+  return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
 }
 
 }  // namespace spidar

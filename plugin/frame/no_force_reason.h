@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "core/analysis/frame.h"
 #include "core/motion/scene_motion.h"
+#include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
@@ -50,5 +52,14 @@ const char* sentence(NoForceReason limit) noexcept;
 
 /// The reason in the video, for one frame that was analysed for `motion`.
 NoForceReason limit_of(const Frame& frame, MotionKind motion);
+
+/// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
+/// device is open.
+NoForceReason limit_of_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
+
+/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
+/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
+/// back with the force.
+NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
 
 }  // namespace spidar

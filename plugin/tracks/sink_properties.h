@@ -16,6 +16,7 @@ struct SinkProperties {
   double max_force_N = 3;
   double gain = 1;
   bool mute = false;
+  bool post_messages = true;
   bool accept_unmarked = false;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   std::string haptic_trace;
@@ -43,6 +44,11 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
            "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
            "property is set to false"},
           kControllable, KEPT_IN(mute)),
+      SinkRow::on_off(
+          {"post-messages", "Post messages",
+           "Post a 'spidar-motion' element message for each 40 ms of the track, as long as fewer "
+           "than 1000 of them wait on the bus"},
+          kPlaying, KEPT_IN(post_messages)),
       SinkRow::on_off(
           {"accept-unmarked", "Accept unmarked",
            "Feel sound of six channels that nothing marks as a haptic track. Tracks that "

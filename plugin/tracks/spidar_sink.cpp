@@ -17,7 +17,8 @@
  * interpolated. The safety chain is that of spidarmotion. Before PLAYING, in PAUSED, and from 50 ms
  * after the last sample there is no force. The sink provides no clock.
  *
- * At another rate than 1 a track keeps its amplitude; its time changes.
+ * At another rate than 1 a track keeps its amplitude; its time changes. For each 40 ms it posts the
+ * message of spidarmotion, unless #GstSpidarSink:post-messages is false.
  *
  * ## Example launch line
  * |[
@@ -33,7 +34,9 @@
 #include "plugin/properties/property_table.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/timing/loop_queue.h"
+#include "plugin/tracks/block_messages.h"
 #include "plugin/tracks/sink_properties.h"
+#include "plugin/tracks/sink_wait.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_mark.h"
@@ -64,6 +67,7 @@ struct _GstSpidarSink {
   bool is_marked;  // the stream, as a haptic track
   spidar::DeviceWarnings* warnings;
   spidar::TrackWarnings* track_warnings;
+  spidar::BlockMessages* messages;
 };
 
 static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -109,36 +113,21 @@ static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* st
   *start = *end = GST_CLOCK_TIME_NONE;
 }
 
-/// Waits until `ahead_ns` before this running time. `object` is used for preroll when the sink is
-/// paused meanwhile.
-static GstFlowReturn wait_until(GstSpidarSink* self, GstMiniObject* object, gint64 running_ns,
-                                gint64 ahead_ns) {
-  GstBaseSink* sink = GST_BASE_SINK(self);
-  GstClockReturn waited;
-  do {
-    const GstFlowReturn flow = gst_base_sink_do_preroll(sink, object);
-    if (flow != GST_FLOW_OK) return flow;
-    const gint64 due_ns = running_ns + static_cast<gint64>(gst_base_sink_get_latency(sink)) +
-                          gst_base_sink_get_ts_offset(sink) - ahead_ns;
-    waited = gst_base_sink_wait_clock(sink, static_cast<GstClockTime>(MAX(due_ns, 0)), nullptr);
-    if (sink->flushing) return GST_FLOW_FLUSHING;
-  } while (waited == GST_CLOCK_UNSCHEDULED);
-  return GST_FLOW_OK;
-}
-
 static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   GST_OBJECT_LOCK(self);
-  const double gain = self->properties->gain;
-  const bool is_felt = self->is_marked || self->properties->accept_unmarked;
-  const spidar::OnDeviceError policy = self->properties->on_device_error;
+  const SinkProperties properties = *self->properties;
   GST_OBJECT_UNLOCK(self);
+  const bool is_felt = self->is_marked || properties.accept_unmarked;
   const guint64 samples_before = self->input->samples();
   const GstFlowReturn flow = self->input->read(
-      buffer, sink->segment, gain, [self, buffer, is_felt](const spidar::TrackBlock& block) {
+      buffer, sink->segment, properties.gain, [&](const spidar::TrackBlock& block) {
         const GstFlowReturn waited =
-            wait_until(self, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
-        if (waited == GST_FLOW_OK && is_felt) self->queue->add(block);
+            spidar::wait_until(sink, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
+        if (waited != GST_FLOW_OK || !is_felt) return waited;
+        self->queue->add(block);
+        if (!properties.post_messages) return waited;
+        self->messages->post(block, sink->segment, self->output->snapshot(), properties.mute);
         return waited;
       });
   const bool has_time =
@@ -151,6 +140,7 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   if (g_atomic_int_exchange(&self->wants_no_sync, FALSE)) self->track_warnings->tell_of_sync();
   if (is_felt) self->track_warnings->check(self->input->faults(), has_time);
   if (!is_felt) self->track_warnings->tell_of_mark();
+  const spidar::OnDeviceError policy = properties.on_device_error;
   if (!self->warnings->check(self->output->session(), policy)) return GST_FLOW_ERROR;
   return flow;
 }
@@ -161,7 +151,7 @@ static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* eve
   const bool is_end = GST_EVENT_TYPE(event) == GST_EVENT_EOS;
   const GstClockTime end = self->input->end();
   if (flow != GST_FLOW_OK || !is_end || !spidar::is_time(end)) return flow;
-  return wait_until(self, GST_MINI_OBJECT_CAST(event), static_cast<gint64>(end), 0);
+  return spidar::wait_until(sink, GST_MINI_OBJECT_CAST(event), static_cast<gint64>(end), 0);
 }
 
 static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
@@ -182,6 +172,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
     }
     case GST_EVENT_STREAM_START:
       self->track_warnings->start();
+      self->messages->begin_stream(GST_BASE_SINK_PAD(sink));
       break;
     case GST_EVENT_SEGMENT:
       self->input->restart();
@@ -303,6 +294,7 @@ static void follow_ts_offset(GstSpidarSink* self) {
 
 static void gst_spidar_sink_finalize(GObject* object) {
   GstSpidarSink* self = GST_SPIDAR_SINK(object);
+  delete self->messages;
   delete self->track_warnings;
   delete self->warnings;
   delete self->input;
@@ -321,6 +313,7 @@ static void gst_spidar_sink_init(GstSpidarSink* self) {
   self->input = new spidar::TrackInput;
   self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
   self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
+  self->messages = new spidar::BlockMessages(GST_ELEMENT(self));
   g_signal_connect(self, "notify::sync", G_CALLBACK(keep_sync), nullptr);
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }

@@ -129,11 +129,19 @@ bool SteppedTrack::ended() {
       gst_message_parse_error(message, &error, nullptr);
       failed_ = true;
     }
+    if (gst_message_has_name(message, "spidar-motion")) {
+      motions_.push_back(parse_motion_message(message));
+    }
     if (error) warnings_.emplace_back(error->message);
     g_clear_error(&error);
     gst_message_unref(message);
   }
   return ended_;
+}
+
+std::vector<MotionMessage> SteppedTrack::motions() {
+  ended();
+  return std::exchange(motions_, {});
 }
 
 std::vector<std::string> SteppedTrack::warnings() {

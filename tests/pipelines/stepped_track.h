@@ -13,6 +13,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/output/haptic_output.h"
+#include "tests/support/element_harness.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test {
@@ -53,6 +54,8 @@ class SteppedTrack {
   TickRecord run(int ticks);
   /// Whether EOS was posted.
   bool ended();
+  /// Those of `spidar-motion` since the last call.
+  std::vector<MotionMessage> motions();
   /// Texts of warnings and errors since the last call.
   std::vector<std::string> warnings();
 
@@ -76,6 +79,7 @@ class SteppedTrack {
   bool failed_ = false;
   bool flushing_ = false;
   std::vector<std::string> warnings_;
+  std::vector<MotionMessage> motions_;
 };
 
 }  // namespace spidar::test

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarsink with tracks. On a test clock; every tick is checked.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/force/motion_rendering.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
 
@@ -76,6 +78,35 @@ TEST(TrackPlayback, TakesEveryFormatMaskAndLayout) {
           format[0] == 'F' ? 0
                            : 10 * std::ldexp(0.5, 1 - std::stoi(format.substr(1))) * std::sqrt(6);
       for (int ms = 1; ms < 300; ++ms) expect_wanted(track.tick(), ms, half_step + 1e-6);
+    }
+  }
+}
+
+TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
+  for (const bool is_asked : {true, false}) {
+    SteppedTrack track(is_asked ? "name=hand" : "name=hand post-messages=false");
+    const std::vector<TrackSample> samples = curve();
+    track.push(samples, 0);
+    track.end();
+    track.set_state(GST_STATE_PLAYING);
+    track.run(400);
+    const std::vector<MotionMessage> messages = track.motions();
+    if (!is_asked) {
+      EXPECT_TRUE(messages.empty());
+      continue;
+    }
+    // Of 40 samples each; the sink hands them on before they are felt.
+    ASSERT_GE(messages.size(), 10u);
+    for (size_t i = 0; i < 10; ++i) {
+      EXPECT_EQ(messages[i].running_time, i * 40 * GST_MSECOND);
+      EXPECT_EQ(messages[i].stream_time, i * 40 * GST_MSECOND);
+      EXPECT_EQ(messages[i].track, "hand") << "there is no file";
+      EXPECT_EQ(messages[i].limit, "none");
+      double largest_N = 0;
+      for (size_t k = 0; k < 40; ++k) {
+        largest_N = std::max(largest_N, size_N(to_wrench(samples[40 * i + k])));
+      }
+      EXPECT_NEAR(size_N(messages[i].wrench), largest_N, 1e-6);
     }
   }
 }

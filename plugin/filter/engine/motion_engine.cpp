@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "plugin/frame/motion_message.h"
 #include "plugin/timing/frame_pacer.h"
 
 namespace spidar {

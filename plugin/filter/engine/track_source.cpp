@@ -229,13 +229,9 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
   replay_.play(*place, [this](const TrackBlock& block) { samples_.add(block); });
   report.frame.wrench = replay_.largest(*place);
   report.frame.interval_ns = place->length_ns;  // so long it is there
-  const bool silent = size_N(report.frame.wrench) < kFeltForce_N;
-  const std::optional<LoopSnapshot> loop = output_.snapshot();
-  const bool weak = !silent && loop && loop->last.max_force_N < kFeltForce_N;
-  report.limit = silent ? NoForceReason::kSilentTrack
-                 : weak ? NoForceReason::kTooWeak
-                        : NoForceReason::kNone;
-  limits_.add(shown_ns, weak ? Wrench() : report.frame.wrench, report.limit);
+  report.limit = limit_of_track(report.frame.wrench, output_.snapshot());
+  const bool is_weak = report.limit == NoForceReason::kTooWeak;
+  limits_.add(shown_ns, is_weak ? Wrench() : report.frame.wrench, report.limit);
 }
 
 bool TrackSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {

@@ -8,9 +8,8 @@
 #include <Eigen/SVD>
 #include <gst-spidar/gstspidarmotionmeta.h>
 
-#include "core/motion/objects/moving_object.h"
 #include "plugin/filter/reports/matrix_transform.h"
-#include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/frame/motion_message.h"
 
 namespace spidar {
 namespace {
@@ -42,7 +41,7 @@ void set_tracks(GstStructure* structure, const std::vector<GstSpidarMotionTrack>
   gst_structure_set(structure, "tracks", G_TYPE_VARIANT, array, nullptr);
 }
 
-/// What a frame shows and how it is felt, as message and meta have it.
+/// What a frame shows and how it is felt.
 GstSpidarFrameMotion motion_of(const ImageMotion& felt, const Wrench& wrench) {
   GstSpidarFrameMotion m{};
   m.velocity_x = felt.velocity_px_s.x();
@@ -58,23 +57,13 @@ GstSpidarFrameMotion motion_of(const ImageMotion& felt, const Wrench& wrench) {
   return m;
 }
 
-void set_motion(GstStructure* structure, const GstSpidarFrameMotion& m) {
-  const std::pair<const char*, double> fields[] = {
-      {"velocity-x", m.velocity_x}, {"velocity-y", m.velocity_y}, {"force-x", m.force_x},
-      {"force-y", m.force_y},       {"force-z", m.force_z},       {"torque-x", m.torque_x},
-      {"torque-y", m.torque_y},     {"torque-z", m.torque_z},
-  };
-  for (const auto& [name, value] : fields) {
-    gst_structure_set(structure, name, G_TYPE_DOUBLE, value, nullptr);
-  }
-}
-
 void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
                     m.interval, "growth", G_TYPE_DOUBLE, m.growth, "roll", G_TYPE_DOUBLE, m.roll,
                     nullptr);
-  set_motion(structure, m);
+  set_motion(structure, {m.velocity_x, m.velocity_y},
+             {{m.force_x, m.force_y, m.force_z}, {m.torque_x, m.torque_y, m.torque_z}});
 }
 
 /// A map of homogeneous coordinates, x right and y down, with (0, 0) at the top left corner.
@@ -192,14 +181,6 @@ gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark t
   return FALSE;
 }
 
-/// Of the one object that is felt; 0 if it is none, or not one alone.
-double felt_error_px_s(const Frame& frame) {
-  for (const MovingObject& object : frame.objects) {
-    if (object.id == frame.felt_object) return object.error_px_s;
-  }
-  return 0;
-}
-
 }  // namespace
 
 void register_motion_meta() {
@@ -233,35 +214,6 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width,
   gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.frame.goes_on() ? TRUE : FALSE,
                     nullptr);
   set_tracks(structure, tracks);
-}
-
-void post_motion_message(GstElement* element, GstBuffer* buffer, const FrameReport& report,
-                         gint* unread) {
-  if (g_atomic_int_get(unread) >= kMostUnread) return;
-  const Frame& frame = report.frame;
-  GstStructure* s =
-      gst_structure_new("spidar-motion",                                                        //
-                        "timestamp", G_TYPE_UINT64, GST_BUFFER_PTS(buffer),                     //
-                        "stream-time", G_TYPE_UINT64, static_cast<guint64>(frame.stream_ns),    //
-                        "running-time", G_TYPE_UINT64, static_cast<guint64>(frame.running_ns),  //
-                        "duration", G_TYPE_UINT64, GST_BUFFER_DURATION(buffer),                 //
-                        "repeated", G_TYPE_BOOLEAN, is_again(frame.picture) ? TRUE : FALSE,     //
-                        "features", G_TYPE_UINT, static_cast<guint>(frame.features),            //
-                        "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),       //
-                        "object", G_TYPE_UINT, frame.felt_object,                               //
-                        "track", G_TYPE_STRING, report.track ? report.track->c_str() : "",      //
-                        nullptr);
-  set_motion(s, motion_of(frame.motion, frame.wrench));
-  gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
-  describe_limits(report.limit, report.device_limit, s);
-  GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
-  g_atomic_int_inc(unread);
-  // The message holds the element until then.
-  const auto count_down = [](gpointer count, GstMiniObject*) {
-    g_atomic_int_add(static_cast<gint*>(count), -1);
-  };
-  gst_mini_object_weak_ref(GST_MINI_OBJECT_CAST(message), count_down, unread);
-  gst_element_post_message(element, message);
 }
 
 }  // namespace spidar

@@ -9,9 +9,6 @@
 namespace spidar {
 namespace {
 
-/// When a hand swings a slack string, the pose is lost for less than this.
-constexpr int64_t kGripLost_ns = 100'000'000;
-
 /// Whether nothing was felt in the whole interval and no frame was due in it.
 bool is_late(const LoopSnapshot& loop) {
   return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
@@ -19,25 +16,6 @@ bool is_late(const LoopSnapshot& loop) {
 }
 
 }  // namespace
-
-NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted) {
-  switch (loop.last.device) {
-    case DeviceState::kLost:
-      return NoForceReason::kDeviceLost;
-    case DeviceState::kOpening:
-    case DeviceState::kClosing:
-    case DeviceState::kClosed:
-      return NoForceReason::kDeviceStarting;
-    case DeviceState::kRunning:
-    case DeviceState::kIdle:
-      break;
-  }
-  if (loop.untrusted_ns > kGripLost_ns) return NoForceReason::kGripUnknown;
-  if (muted) return NoForceReason::kMuted;
-  if (!loop.last.playing) return NoForceReason::kNotPlaying;
-  if (!loop.last.held) return NoForceReason::kGripReleased;
-  return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
-}
 
 NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch) {
   if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
@@ -153,12 +131,6 @@ NoForceReason NoForceWatch::first(const std::optional<LoopSnapshot>& loop) const
   // That no frame is there may be because of the device.
   const bool has_own = of_film != NoForceReason::kNone && of_film != NoForceReason::kNoFrames;
   return has_own || of_device == NoForceReason::kNone ? of_film : of_device;
-}
-
-void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure) {
-  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "limit-reason", G_TYPE_STRING,
-                    sentence(film), "device-limit", G_TYPE_STRING, nick(device),
-                    "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
 }
 
 }  // namespace spidar

@@ -52,11 +52,6 @@ class NoForceHistory {
   size_t next_ = 0;
 };
 
-/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
-/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
-/// back with the force.
-NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
-
 /// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
 /// second; kNone before. `can_touch`: see GripAbilities.
 NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch);
@@ -99,9 +94,5 @@ class NoForceWatch {
   bool touching_ = false;
   bool can_touch_ = true;
 };
-
-/// Adds limit and device-limit (strings, see nick()), and limit-reason and device-limit-reason
-/// (strings: a sentence, empty for "none").
-void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure);
 
 }  // namespace spidar

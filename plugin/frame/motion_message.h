@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What an element tells of a frame, or of a piece of a haptic track, on the bus.
+#pragma once
+
+#include <Eigen/Core>
+#include <gst/gst.h>
+
+#include "core/wrench.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/no_force_reason.h"
+
+namespace spidar {
+
+/// Adds velocity-x and -y, force-x to -z and torque-x to -z (doubles).
+void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
+                const Wrench& wrench);
+
+/// Adds limit and device-limit (strings, see nick()), and limit-reason and device-limit-reason
+/// (strings: a sentence, empty for "none").
+void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure);
+
+/// While so many messages of an element wait on its bus, it posts no more of them: nobody reads
+/// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an
+/// application that reads its bus has 40 s for it.
+constexpr gint kMostUnread = 1000;
+
+/// Posts `spidar-motion`, whose fields the documentation of the element lists. `unread` counts the
+/// messages that exist, and lives as long as the element.
+void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
+                         const FrameReport& report, gint* unread);
+
+}  // namespace spidar
