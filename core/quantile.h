@@ -15,21 +15,21 @@ constexpr double kRayleighMedian = 1.1774;
 /// Median of the absolute value of a normal variable of standard deviation 1.
 constexpr double kNormalMedian = 0.6745;
 
-/// The value that the share `share`, 0 … 1, of [first, last) does not exceed. The range must not be
-/// empty; its order is changed.
+/// The value that the fraction `fraction`, 0 … 1, of [first, last) does not exceed. The range must
+/// not be empty; its order is changed.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type quantile(Iterator first, Iterator last,
-                                                             double share) {
+                                                             double fraction) {
   const double highest = static_cast<double>(std::distance(first, last) - 1);
-  const Iterator at = first + static_cast<std::ptrdiff_t>(share * highest + 0.5);
+  const Iterator at = first + static_cast<std::ptrdiff_t>(fraction * highest + 0.5);
   std::nth_element(first, at, last);
   return *at;
 }
 
 /// Changes the order of `values`.
 template <typename Value>
-Value quantile(std::vector<Value>& values, double share) {
-  return quantile(values.begin(), values.end(), share);
+Value quantile(std::vector<Value>& values, double fraction) {
+  return quantile(values.begin(), values.end(), fraction);
 }
 
 /// The median; for an even number of values, the upper one of the two in the middle.

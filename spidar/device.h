@@ -37,13 +37,13 @@ constexpr bool is_lost(LinkFault fault) noexcept {
          fault == LinkFault::kStoodStill;
 }
 
-/// "none", "time-out", "stall", "short packet", …
+/// "none", "timeout", "stall", "short packet", …
 constexpr const char* to_string(LinkFault fault) noexcept {
   switch (fault) {
     case LinkFault::kNone:
       return "none";
     case LinkFault::kTimeout:
-      return "time-out";
+      return "timeout";
     case LinkFault::kStall:
       return "stall";
     case LinkFault::kShort:
@@ -80,7 +80,7 @@ struct LinkHealth {
   int64_t round_trip_p99_ns = 0;
   int64_t round_trip_max_ns = 0;
 
-  /// All faults except time-outs.
+  /// All faults except timeouts.
   uint64_t errors() const noexcept {
     uint64_t sum = 0;
     for (size_t i = 2; i < kLinkFaults; ++i) sum += faults[i];
@@ -100,8 +100,8 @@ inline bool pulls(const MotorVolts& volts) noexcept {
   return false;
 }
 
-inline MotorVolts scaled(MotorVolts volts, double share) noexcept {
-  for (double& volt : volts.volt) volt *= share;
+inline MotorVolts scaled(MotorVolts volts, double fraction) noexcept {
+  for (double& volt : volts.volt) volt *= fraction;
   return volts;
 }
 

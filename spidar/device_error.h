@@ -9,15 +9,15 @@
 
 namespace spidar {
 
-/// A line of the source. As a default argument, `Place::here()` is the line of the call.
-struct Place {
+/// A line of the source. As a default argument, `SourceLocation::here()` is the line of the call.
+struct SourceLocation {
   const char* file;
   const char* function;
   int line;
 
-  static constexpr Place here(const char* file = __builtin_FILE(),
-                              const char* function = __builtin_FUNCTION(),
-                              int line = __builtin_LINE()) {
+  static constexpr SourceLocation here(const char* file = __builtin_FILE(),
+                                       const char* function = __builtin_FUNCTION(),
+                                       int line = __builtin_LINE()) {
     return {file, function, line};
   }
 };
@@ -55,14 +55,14 @@ inline DeviceTrouble trouble_of(int error) noexcept {
 class DeviceError : public std::runtime_error {
  public:
   explicit DeviceError(const std::string& what, DeviceTrouble trouble = DeviceTrouble::kFailed,
-                       Place place = Place::here())
-      : std::runtime_error(what), trouble_(trouble), place_(place) {}
+                       SourceLocation location = SourceLocation::here())
+      : std::runtime_error(what), trouble_(trouble), location_(location) {}
   DeviceTrouble trouble() const noexcept { return trouble_; }
-  const Place& place() const noexcept { return place_; }
+  const SourceLocation& location() const noexcept { return location_; }
 
  private:
   DeviceTrouble trouble_;
-  Place place_;
+  SourceLocation location_;
 };
 
 }  // namespace spidar

@@ -48,7 +48,7 @@ build() {
     ninja -C "$1" -j"$(nproc)" "${@:2}" || { checks+=(--failed "build in $1/") && false; }
 }
 
-# run_tests FOLDER PATIENCE [meson test option...]: what they need is built. A time-out, PATIENCE times that of
+# run_tests FOLDER PATIENCE [meson test option...]: what they need is built. A timeout, PATIENCE times that of
 # the test, is for what hangs, not for what is slow on a busy machine. Up to five programs that fail while others
 # run beside them run again alone. Those that pass then count as passed, and the summary names them: on a busy
 # machine, for instance, a guardian sets a device to rest whose player gets no processor time for 50 ms.

@@ -19,8 +19,8 @@ namespace spidar {
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
-  /// Place of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its bottom
-  /// right one; finite.
+  /// Position of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its
+  /// bottom right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
   /// Come before `motion` where they say something, and not with kMean, which knows no objects.
   std::shared_ptr<const FeelRules> feel;

@@ -26,14 +26,14 @@ uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) 
 /// its gain may be another.
 uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   constexpr uint32_t kPicture = UINT32_MAX;
-  uint64_t thing = object;
+  uint64_t target = object;
   if (!choice.is_kept && choice.rule) {
     const bool is_picture =
         choice.rule->kind == FeelKind::kCamera || choice.rule->kind == FeelKind::kRegion;
-    if (is_picture) thing = kPicture;
-    if (thing != 0) thing |= static_cast<uint64_t>(choice.rule->line) << 32;
+    if (is_picture) target = kPicture;
+    if (target != 0) target |= static_cast<uint64_t>(choice.rule->line) << 32;
   }
-  return thing;
+  return target;
 }
 
 /// The wrench of a rule, within what the controller may give.
@@ -71,7 +71,7 @@ void validate(const AnalyzerSettings& settings) {
   if (!settings.pointer.allFinite()) {
     throw std::invalid_argument("the pointer's coordinates must be finite");
   }
-  if (!settings.kept.place.allFinite()) {
+  if (!settings.kept.position.allFinite()) {
     throw std::invalid_argument("the coordinates of a click must be finite");
   }
 }
@@ -109,7 +109,7 @@ ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace&
   if (choice.is_kept || !frame.background) return {};
   if (choice.rule->kind == FeelKind::kRegion) {
     const FeelRule& region = *choice.rule;
-    const Eigen::Vector2d a_px = film.in_frame_px(region.place, frame.width, frame.height);
+    const Eigen::Vector2d a_px = film.in_frame_px(region.position, frame.width, frame.height);
     const Eigen::Vector2d b_px = film.in_frame_px(region.far_corner, frame.width, frame.height);
     return motion_in_box(frame.objects, a_px.cwiseMin(b_px), a_px.cwiseMax(b_px));
   }

@@ -38,7 +38,7 @@ class WrenchFade {
 
  private:
   uint64_t object_ = 0;
-  double old_share_ = 0;  ///< of `old_`; 0: nothing fades
+  double old_fraction_ = 0;  ///< of `old_`; 0: nothing fades
   Wrench old_;
   Wrench felt_;  ///< in the last frame
 };
@@ -48,13 +48,13 @@ inline bool WrenchFade::turn_to(uint64_t object) {
   object_ = object;
   if (!begins) return false;
   old_ = felt_;
-  old_share_ = 1;
+  old_fraction_ = 1;
   return true;
 }
 
 inline Wrench WrenchFade::fade(const Wrench& wrench, double interval_s) {
-  old_share_ = std::max(0.0, old_share_ - interval_s / kFade_s);
-  felt_ = old_share_ > 0 ? interpolate(wrench, old_, old_share_) : wrench;
+  old_fraction_ = std::max(0.0, old_fraction_ - interval_s / kFade_s);
+  felt_ = old_fraction_ > 0 ? interpolate(wrench, old_, old_fraction_) : wrench;
   return felt_;
 }
 

@@ -13,15 +13,15 @@
 #include "core/choice/feel_rules.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/objects/moving_object.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 
 namespace spidar {
 
 /// A box that somebody else found in a picture: a detector or a tracker. Corners go from (0, 0),
 /// the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
 struct PictureBox {
-  std::string name;             ///< of what is in it, "face"
-  Eigen::Vector2d place{0, 0};  ///< the corner that is nearer to (0, 0)
+  std::string name;                ///< of what is in it, "face"
+  Eigen::Vector2d position{0, 0};  ///< the corner that is nearer to (0, 0)
   Eigen::Vector2d far_corner{1, 1};
 };
 
@@ -31,26 +31,26 @@ using PictureBoxes = std::vector<PictureBox>;
 /// shown.
 struct FilmPlace {
   int64_t stream_ns = 0;
-  PictureTurn turn;
+  Orientation turn;
 
-  /// A place of the picture as it is shown, in px from the middle of a frame of this size.
-  Eigen::Vector2d in_frame_px(const Eigen::Vector2d& place, int width, int height) const {
-    const Eigen::Vector2d coded = turn.place_coded(place);
+  /// A position of the picture as it is shown, in px from the middle of a frame of this size.
+  Eigen::Vector2d in_frame_px(const Eigen::Vector2d& position, int width, int height) const {
+    const Eigen::Vector2d coded = turn.stored_position(position);
     return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
   }
 };
 
 /// An object that is kept because it was clicked.
 struct KeptObject {
-  uint32_t click = 0;           ///< counts the clicks; 0: none is kept
-  Eigen::Vector2d place{0, 0};  ///< of the click
+  uint32_t click = 0;              ///< counts the clicks; 0: none is kept
+  Eigen::Vector2d position{0, 0};  ///< of the click
 };
 
-/// What became of a wish.
+/// Result of a request.
 enum class ChoiceState {
   kGood,
-  kNotThere,   ///< no object was at the place; the first that begins to move there is felt
-  kNotSeen,    ///< playback began after the moment at which the object is at the place
+  kNotThere,   ///< no object was at the position; the first that begins to move there is felt
+  kNotSeen,    ///< playback began after the moment at which the object is at the position
   kLost,       ///< the object was followed and is lost
   kNoBox,      ///< no frame of the rule came with a box that it means
   kBoxAtRest,  ///< boxes came, but nothing moves in them
@@ -76,9 +76,9 @@ struct ChoiceFrame {
   FilmPlace film;
   const PictureBoxes* boxes = nullptr;  ///< that came with it; null: none did
 
-  /// A place of the picture as it is shown, from the middle of the frame.
-  Eigen::Vector2d px(const Eigen::Vector2d& place) const {
-    return film.in_frame_px(place, width, height);
+  /// A position of the picture as it is shown, from the middle of the frame.
+  Eigen::Vector2d px(const Eigen::Vector2d& position) const {
+    return film.in_frame_px(position, width, height);
   }
 };
 

@@ -18,11 +18,11 @@ namespace spidar {
 struct FeelEdit {
   int64_t from_ns = 0, to_ns = 0;
   /// Where the object is at `from_ns`, as in FeelRule; none: no rule holds.
-  std::optional<Eigen::Vector2d> place;
+  std::optional<Eigen::Vector2d> position;
 };
 
 /// `rules` in order of time, and so is the result. Rules give way to the edit; what is left behind
-/// it of a rule about the object at a place goes, too, because nobody knows where the object is
+/// it of a rule about the object at a position goes, too, because nobody knows where the object is
 /// then. An edit that does not end after it begins changes nothing.
 inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
   if (edit.to_ns <= edit.from_ns) return rules;
@@ -36,12 +36,12 @@ inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const Fe
     if (after.from_ns >= after.to_ns) continue;
     if (is_later || rule.kind != FeelKind::kObjectAt) result.push_back(after);
   }
-  if (edit.place) {
+  if (edit.position) {
     FeelRule rule;
     rule.from_ns = edit.from_ns;
     rule.to_ns = edit.to_ns;
     rule.kind = FeelKind::kObjectAt;
-    rule.place = *edit.place;
+    rule.position = *edit.position;
     result.push_back(rule);
   }
   std::sort(result.begin(), result.end(),

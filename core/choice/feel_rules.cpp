@@ -68,7 +68,7 @@ std::optional<int64_t> time_ns(std::string_view text) {
   }
 }
 
-std::optional<Eigen::Vector2d> place_of(std::string_view text) {
+std::optional<Eigen::Vector2d> position_of(std::string_view text) {
   const size_t comma = text.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
   const std::optional<double> x = number(text.substr(0, comma));
@@ -126,7 +126,7 @@ class RuleParser {
 
   int64_t time(std::string_view text) const {
     const std::optional<int64_t> ns = time_ns(text);
-    if (!ns) wrong(rule_.line, quote(text) + " is no time such as 12.5, 0:12 or 1:02:03");
+    if (!ns) wrong(rule_.line, quote(text) + " is not a time such as 12.5, 0:12 or 1:02:03");
     return *ns;
   }
   void parse_times() {
@@ -141,23 +141,24 @@ class RuleParser {
     if (rule_.to_ns <= rule_.from_ns) wrong(rule_.line, quote(times) + " ends before it begins");
   }
 
-  Eigen::Vector2d parse_place() {
+  Eigen::Vector2d parse_position() {
     const std::string text = take_numbers();
-    const std::optional<Eigen::Vector2d> place = place_of(text.empty() ? word() : text);
-    if (!place) {
-      wrong(rule_.line, quote(text.empty() ? text_ : text) +
-                            " is no place such as 0.31,0.62: shares, from 0 to 1, of the picture's "
-                            "width and height, from its top left corner");
+    const std::optional<Eigen::Vector2d> position = position_of(text.empty() ? word() : text);
+    if (!position) {
+      wrong(rule_.line,
+            quote(text.empty() ? text_ : text) +
+                " is not a position such as 0.31,0.62: fractions, from 0 to 1, of the picture's "
+                "width and height, from its top left corner");
     }
-    return *place;
+    return *position;
   }
   void parse_region() {
-    const Eigen::Vector2d a = parse_place();
+    const Eigen::Vector2d a = parse_position();
     if (!take("to")) wrong(rule_.line, "a region is region X,Y to X,Y, from corner to corner");
-    const Eigen::Vector2d b = parse_place();
-    rule_.place = a.cwiseMin(b);
+    const Eigen::Vector2d b = parse_position();
+    rule_.position = a.cwiseMin(b);
     rule_.far_corner = a.cwiseMax(b);
-    if ((rule_.far_corner.array() <= rule_.place.array()).any()) {
+    if ((rule_.far_corner.array() <= rule_.position.array()).any()) {
       wrong(rule_.line, "the region is empty: its corners are opposite ones");
     }
   }
@@ -192,7 +193,7 @@ class RuleParser {
     if (take("object")) {
       if (!take("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
       rule_.kind = FeelKind::kObjectAt;
-      rule_.place = parse_place();
+      rule_.position = parse_position();
     } else if (take("box")) {
       parse_box();
     } else if (take("region")) {
@@ -213,7 +214,7 @@ class RuleParser {
   void parse_gain() {
     const std::optional<double> gain = number(word());
     if (!gain || *gain < 0 || *gain > kMostGain) {
-      wrong(rule_.line, quote(word()) + " is no gain from 0 to 10");
+      wrong(rule_.line, quote(word()) + " is not a gain from 0 to 10");
     }
     rule_.gain = *gain;
     text_.remove_prefix(word().size());
@@ -296,7 +297,7 @@ std::string rule_text(const FeelRule& rule) {
   }
   switch (rule.kind) {
     case FeelKind::kObjectAt:
-      text += "object at " + place_text(rule.place);
+      text += "object at " + position_text(rule.position);
       break;
     case FeelKind::kLargest:
       text += "largest";
@@ -309,7 +310,7 @@ std::string rule_text(const FeelRule& rule) {
       text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";
       break;
     case FeelKind::kRegion:
-      text += "region " + place_text(rule.place) + " to " + place_text(rule.far_corner);
+      text += "region " + position_text(rule.position) + " to " + position_text(rule.far_corner);
       break;
     case FeelKind::kCamera:
       text += "camera";
@@ -338,8 +339,8 @@ std::string time_text(int64_t ns) {
   return result.substr(0, result.find_last_not_of('0') + 1);
 }
 
-std::string place_text(const Eigen::Vector2d& place) {
-  return number_text(place.x()) + "," + number_text(place.y());
+std::string position_text(const Eigen::Vector2d& position) {
+  return number_text(position.x()) + "," + number_text(position.y());
 }
 
 }  // namespace spidar

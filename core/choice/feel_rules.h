@@ -28,7 +28,7 @@ struct FeelRule {
   int64_t to_ns = kNoEnd;
   FeelKind kind = FeelKind::kNothing;
   /// kObjectAt: where the object is at `from_ns`. kRegion: the corner that is nearer to (0, 0).
-  Eigen::Vector2d place{0, 0};
+  Eigen::Vector2d position{0, 0};
   Eigen::Vector2d far_corner{1, 1};  ///< kRegion
   Eigen::Vector2d direction{0, 0};   ///< kFurthest: of length 1
   /// kBox: what the box is called, up to a zero; empty when any is meant. Copies allocate nothing.
@@ -74,6 +74,6 @@ std::string rule_text(const FeelRule& rule);
 /// "0:12" or "1:02:03.5", as rules have it.
 std::string time_text(int64_t ns);
 /// "0.31,0.62".
-std::string place_text(const Eigen::Vector2d& place);
+std::string position_text(const Eigen::Vector2d& position);
 
 }  // namespace spidar

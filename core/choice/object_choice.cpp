@@ -28,11 +28,11 @@ ChoiceState BoxedObject::state() const {
 /// The object in sight that has most in common with the box for their size; null when that is not
 /// enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame& frame) const {
-  const Eigen::Vector2d a_px = frame.px(box.place), b_px = frame.px(box.far_corner);
+  const Eigen::Vector2d a_px = frame.px(box.position), b_px = frame.px(box.far_corner);
   const Eigen::Vector2d from_px = a_px.cwiseMin(b_px), to_px = a_px.cwiseMax(b_px);
   const double box_px2 = area_px2(to_px - from_px);
   const MovingObject* best = nullptr;
-  double best_share = 0;
+  double best_fraction = 0;
   for (const MovingObject& object : frame.objects) {
     if (object.tracks == 0) continue;
     const Eigen::Vector2d half_px = object.size_px / 2;
@@ -40,10 +40,10 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame
                                        from_px.cwiseMax(object.position_px - half_px));
     const double object_px2 = area_px2(object.size_px);
     if (common_px2 <= 0 || common_px2 < kOverlap * std::min(box_px2, object_px2)) continue;
-    const double share = common_px2 / (box_px2 + object_px2 - common_px2);
-    if (share <= best_share) continue;
+    const double fraction = common_px2 / (box_px2 + object_px2 - common_px2);
+    if (fraction <= best_fraction) continue;
     best = &object;
-    best_share = share;
+    best_fraction = fraction;
   }
   return best;
 }
@@ -78,7 +78,7 @@ const MovingObject* BoxedObject::see(const ChoiceFrame& frame) {
 
 namespace {
 
-/// Motions of an object before and after differ by less than this share of the faster one.
+/// Motions of an object before and after differ by less than this fraction of the faster one.
 constexpr double kSameVelocity = 0.5;
 
 /// How well an object meets the rule, so that one that does so by 1 more takes the other's place.
@@ -86,27 +86,27 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame
   if (rule.kind == FeelKind::kLargest) {
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
   }
-  const Eigen::Vector2d direction = frame.film.turn.to_coded(rule.direction);
+  const Eigen::Vector2d direction = frame.film.turn.to_stored(rule.direction);
   return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height);
 }
 
 /// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
 bool goes_on(const FeelRule& before, const FeelRule& now) {
   return before.kind == now.kind && before.kind != FeelKind::kBox &&
-         before.from_ns == now.from_ns && before.place == now.place &&
+         before.from_ns == now.from_ns && before.position == now.position &&
          before.far_corner == now.far_corner && before.direction == now.direction;
 }
 
 }  // namespace
 
-void FollowedObject::begin(const Eigen::Vector2d& place_px, double since_s) {
+void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
   *this = FollowedObject();
   state_ = State::kLooking;
-  place_px_ = place_px;
+  position_px_ = position_px;
   since_s_ = since_s;
 }
 
-/// Whether an object at the place may be the one that is looked for.
+/// Whether an object at the position may be the one that is looked for.
 bool FollowedObject::may_be(const MovingObject& object) const {
   if (object.tracks == 0) return false;
   if (state_ == State::kLooking) return true;
@@ -117,11 +117,11 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// The object that it may be and whose box is nearest to the place, the smallest one if there are
-/// several; null when none is within reach. While it is looked for, objects are taken back to where
-/// they were at begin().
-const MovingObject* FollowedObject::at_place(const std::vector<MovingObject>& objects,
-                                             double reach_px) const {
+/// The object that it may be and whose box is nearest to the position, the smallest one if there
+/// are several; null when none is within reach. While it is looked for, objects are taken back to
+/// where they were at begin().
+const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
+                                                double reach_px) const {
   const MovingObject* best = nullptr;
   double nearest_px = reach_px;
   for (const MovingObject& object : objects) {
@@ -129,7 +129,7 @@ const MovingObject* FollowedObject::at_place(const std::vector<MovingObject>& ob
     const double back_s = state_ == State::kLooking ? since_s_ : 0;
     const Eigen::Vector2d was_px = object.position_px - back_s * object.relative_px_s;
     const Eigen::Vector2d outside_px =
-        ((place_px_ - was_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
+        ((position_px_ - was_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
     const double distance_px = outside_px.norm();
     const bool is_better =
         distance_px < nearest_px ||
@@ -145,7 +145,7 @@ void FollowedObject::follow(const MovingObject& object) {
   state_ = State::kFollowed;
   id_ = object.id;
   missing_s_ = 0;
-  place_px_ = object.position_px;
+  position_px_ = object.position_px;
   velocity_px_s_ = object.relative_px_s;
   hidden_ = object.tracks == 0;
   rested_ = !hidden_ && object.relative_px_s.isZero(0);
@@ -170,11 +170,11 @@ const MovingObject* FollowedObject::see(const std::vector<MovingObject>& objects
   if (!found) {
     if (id_ != 0 && state_ != State::kLost) miss(interval_s);
     if (state_ == State::kLooking && since_s_ > kLook_s) state_ = State::kWaiting;
-    if (background && !is_first_) place_px_ += background->model.displacement_px(place_px_);
-    place_px_ += velocity_px_s_ * interval_s;
+    if (background && !is_first_) position_px_ += background->model.displacement_px(position_px_);
+    position_px_ += velocity_px_s_ * interval_s;
     const bool is_gone = state_ == State::kFollowed && (hidden_ || missing_s_ > kLook_s);
     if (state_ != State::kLost && !is_gone) {
-      found = at_place(objects, kReach * frame_height);
+      found = at_position(objects, kReach * frame_height);
     }
   }
   if (found) follow(*found);
@@ -231,7 +231,7 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     missed_ = false;
     const double since_s = static_cast<double>(frame.film.stream_ns - rule.from_ns) * 1e-9;
     seen_from_begin_ = since_s <= FollowedObject::kLook_s;
-    ruled_.begin(frame.px(rule.place), since_s);
+    ruled_.begin(frame.px(rule.position), since_s);
     boxed_.begin(rule.name.data());
   }
   if (rule.kind == FeelKind::kLargest || rule.kind == FeelKind::kFurthest) {
@@ -257,7 +257,7 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {
     followed_click_ = kept_.click;
-    clicked_.begin(frame.px(kept_.place), 0);
+    clicked_.begin(frame.px(kept_.position), 0);
   }
   const MovingObject* const object =
       clicked_.see(frame.objects, frame.height, frame.interval_s, frame.background);

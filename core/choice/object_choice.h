@@ -17,7 +17,7 @@
 
 namespace spidar {
 
-/// Boxes say what is meant, objects how it moves. A detector misses things in some frames, so that
+/// Boxes say what is meant, objects how it moves. A detector misses objects in some frames, so that
 /// the object stays for a moment without a box. Of several, the largest is taken; it stays for as
 /// long as there is a box around it.
 class BoxedObject {
@@ -35,13 +35,13 @@ class BoxedObject {
   /// kNoBox or kBoxAtRest, where for kPatience_s no box was around an object; else kGood.
   ChoiceState state() const;
 
-  /// So long the object stays without a box: a detector that looks at every tenth frame of 25 a
+  /// How long an object is kept without a box: a detector that looks at every tenth frame of 25 a
   /// second, as they do on slow machines, may miss it once.
   static constexpr double kHold_s = 0.8;
   /// No box of a new rule comes for so long before that is told.
   static constexpr double kPatience_s = 1;
-  /// Box and object are the same thing when at least this share of the smaller of them is in the
-  /// other: a face is a part of the person who moves, a leg that moves one of the person in the
+  /// Box and object are the same object when at least this fraction of the smaller of them is in
+  /// the other: a face is a part of the person who moves, a leg that moves one of the person in the
   /// box.
   static constexpr double kOverlap = 0.5;
 
@@ -56,14 +56,14 @@ class BoxedObject {
   bool has_box_ = false;
 };
 
-/// Finds the object that is at a place, and follows its id. What rests is no object for
+/// Finds the object that is at a position, and follows its id. What rests is not an object for
 /// ObjectTracker after a while; so where none is, and where the object came to rest, the first one
 /// that begins to move there is meant. ObjectTracker also begins anew at what looks like a cut; one
 /// that then soon moves in the same way where the object would be is the same.
 class FollowedObject {
  public:
   enum class State {
-    kLooking,   ///< for what is at the place
+    kLooking,   ///< for what is at the position
     kWaiting,   ///< nothing was there: for what will begin to move there
     kFollowed,  ///< or not seen for a moment
     kResting,   ///< where it was last
@@ -72,7 +72,7 @@ class FollowedObject {
 
   /// What is there `since_s` before the frame that see() takes next. Places are in px from the
   /// middle of the frame.
-  void begin(const Eigen::Vector2d& place_px, double since_s);
+  void begin(const Eigen::Vector2d& position_px, double since_s);
 
   /// Takes the next frame. The object, as it is in `objects`; null when it is not among them.
   /// `interval_s`, the time since the frame before, and `background` are those of the motion.
@@ -90,11 +90,11 @@ class FollowedObject {
   static constexpr double kLook_s = 0.5;
   /// An object that is not seen for longer is lost. ObjectTracker knows a hidden one for 0.5 s.
   static constexpr double kLost_s = 1;
-  /// How far from its box a place may be, as a share of the frame's height.
+  /// How far from its box a position may be, as a fraction of the frame's height.
   static constexpr double kReach = 0.05;
 
  private:
-  const MovingObject* at_place(const std::vector<MovingObject>& objects, double reach_px) const;
+  const MovingObject* at_position(const std::vector<MovingObject>& objects, double reach_px) const;
   bool may_be(const MovingObject& object) const;
   void follow(const MovingObject& object);
   void miss(double interval_s);
@@ -102,7 +102,7 @@ class FollowedObject {
   State state_ = State::kLost;
   bool is_first_ = true;  ///< see()
   uint32_t id_ = 0;
-  Eigen::Vector2d place_px_ = Eigen::Vector2d::Zero();       ///< where it is, or would be
+  Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< where it is, or would be
   Eigen::Vector2d velocity_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
   double since_s_ = 0;                                       ///< begin()
   double missing_s_ = 0;
@@ -141,7 +141,7 @@ class ObjectChoice {
   const FeelRule* rule_ = nullptr;  ///< of the frame before
   bool seen_from_begin_ = false;    ///< the rule, see ChoiceState::kNotSeen
   FollowedObject ruled_;
-  bool missed_ = false;  ///< nothing was at the place of `ruled_`
+  bool missed_ = false;  ///< nothing was at the position of `ruled_`
   BoxedObject boxed_;
   uint32_t best_ = 0;  ///< of kLargest and kFurthest
   double best_missing_s_ = 0;

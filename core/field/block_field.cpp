@@ -28,16 +28,16 @@ int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
   return difference;
 }
 
-/// A block is lost if what it differs from its best match is more than this share of what it
+/// A block is lost if what it differs from its best match is more than this fraction of what it
 /// differs from its own mean: the match shows something else.
 constexpr double kFoundElsewhere = 0.5;
-/// Share of the textured blocks that are lost at a cut.
+/// Fraction of the textured blocks that are lost at a cut.
 constexpr double kLostAtCut = 0.8;
-/// Share of the textured blocks that are found again even where noise hides that of most others. Of
-/// 928 cuts between real films, 923 are found, and 926 if noise of six grey levels is added.
-constexpr double kBestShare = 0.02;
-/// Mean difference that noise may make: that of σ = 5.3. With 8, another part of a made texture,
-/// which looks alike everywhere, is taken for the same part with noise.
+/// Fraction of the textured blocks that are found again even where noise hides that of most others.
+/// Of 928 cuts between real films, 923 are found, and 926 if noise of six grey levels is added.
+constexpr double kBestFraction = 0.02;
+/// Mean difference that noise may make: that of σ = 5.3. With 8, another part of a synthetic
+/// texture, which looks alike everywhere, is taken for the same part with noise.
 constexpr int kMostNoise_grey = 6;
 
 double squared(double value) {
@@ -49,15 +49,15 @@ bool is_finite_motion(float x_px, float y_px) {
   return std::abs(x_px) < kMost_px && std::abs(y_px) < kMost_px;
 }
 
-/// A place between two pixels.
-struct Place {
+/// A position between two pixels.
+struct Position {
   int pixel;
   int fraction;  ///< of kFractionOne
 
-  Place(int begin_px, float moved_px) {
-    const float place = static_cast<float>(begin_px) + moved_px;
-    pixel = static_cast<int>(std::floor(place));
-    fraction = static_cast<int>((place - static_cast<float>(pixel)) * kFractionOne + 0.5f);
+  Position(int begin_px, float moved_px) {
+    const float position = static_cast<float>(begin_px) + moved_px;
+    pixel = static_cast<int>(std::floor(position));
+    fraction = static_cast<int>((position - static_cast<float>(pixel)) * kFractionOne + 0.5f);
   }
 };
 
@@ -141,7 +141,7 @@ bool BlockField::is_cut() {
   }
   if (textured_.empty()) return false;
   const auto count = static_cast<double>(textured_.size());
-  const auto best = textured_.begin() + static_cast<ptrdiff_t>(kBestShare * count);
+  const auto best = textured_.begin() + static_cast<ptrdiff_t>(kBestFraction * count);
   std::nth_element(
       textured_.begin(), best, textured_.end(),
       [](const Textured& a, const Textured& b) { return a.difference2 < b.difference2; });
@@ -166,21 +166,21 @@ BlockField::Match BlockField::match_of(size_t block) const {
 }
 
 /// Searches a picture of a quarter of the resolution, in which each block covers four by four of
-/// the others and is searched over the whole range: this finds things that have jumped.
+/// the others and is searched over the whole range: this finds objects that have jumped.
 void BlockField::find_hints() {
   hints_.clear();
   if (coarse_grid_.size() == 0) return;
   search_.find(coarse_before_, coarse_now_, coarse_grid_, hints_, coarse_matches_);
-  const auto coarse_place = [](int centre_px, int begin_px, int count) {
-    const int place = (centre_px / kCoarser - begin_px) / kBlock_px;
-    return std::min(std::max(place, 0), count - 1);
+  const auto coarse_position = [](int centre_px, int begin_px, int count) {
+    const int position = (centre_px / kCoarser - begin_px) / kBlock_px;
+    return std::min(std::max(position, 0), count - 1);
   };
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
-      const int i = coarse_place(grid_.x_px(column) + kBlock_px / 2, coarse_grid_.left_px,
-                                 coarse_grid_.columns);
+      const int i = coarse_position(grid_.x_px(column) + kBlock_px / 2, coarse_grid_.left_px,
+                                    coarse_grid_.columns);
       const int j =
-          coarse_place(grid_.y_px(row) + kBlock_px / 2, coarse_grid_.top_px, coarse_grid_.rows);
+          coarse_position(grid_.y_px(row) + kBlock_px / 2, coarse_grid_.top_px, coarse_grid_.rows);
       BlockMatch hint = coarse_matches_[static_cast<size_t>(j * coarse_grid_.columns + i)];
       hint.dx = static_cast<int16_t>(kCoarser * hint.dx);
       hint.dy = static_cast<int16_t>(kCoarser * hint.dy);
@@ -253,10 +253,10 @@ size_t BlockField::origin_of(size_t index) const {
   const MotionBlock& block = blocks_[index];
   const int column = static_cast<int>(index) % grid_.columns;
   const int row = static_cast<int>(index) / grid_.columns;
-  const auto back = [](int place, float moved_px, int count) {
+  const auto back = [](int position, float moved_px, int count) {
     // Clamped first: half a block outside is the first or the last one. std::lround() would be a
     // call, three times for each block.
-    const float from = static_cast<float>(place) - moved_px / kBlock_px;
+    const float from = static_cast<float>(position) - moved_px / kBlock_px;
     const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
     return static_cast<int>(inside + 0.5);
   };
@@ -268,8 +268,8 @@ int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
   if (!is_finite_motion(x_px, y_px)) return -1;
   const int left = grid_.x_px(block % grid_.columns);
   const int top = grid_.y_px(block / grid_.columns);
-  const Place x(left, -x_px);
-  const Place y(top, -y_px);
+  const Position x(left, -x_px);
+  const Position y(top, -y_px);
   if (!is_in_reach(x.pixel, y.pixel)) return -1;
   const BlockPixels here{now_.row(top) + left, now_.stride()};
   const auto there = [&](int j, int i) {
@@ -289,13 +289,13 @@ StayingPixels BlockField::staying_pixels(int block, float x_px, float y_px, int 
   if (!is_finite_motion(x_px, y_px)) return {};
   const int left = grid_.x_px(block % grid_.columns) + beside_x_px;
   const int top = grid_.y_px(block / grid_.columns) + beside_y_px;
-  const auto moved = [&](const PaddedImage& picture, const Place& x, const Place& y) {
+  const auto moved = [&](const PaddedImage& picture, const Position& x, const Position& y) {
     return MovedBlock{{picture.row(y.pixel) + x.pixel, picture.stride()}, x.fraction, y.fraction};
   };
-  const Place from_x(left, -x_px);
-  const Place from_y(top, -y_px);
-  const Place to_x(left, x_px);
-  const Place to_y(top, y_px);
+  const Position from_x(left, -x_px);
+  const Position from_y(top, -y_px);
+  const Position to_x(left, x_px);
+  const Position to_y(top, y_px);
   if (!is_in_reach(left, top) || !is_in_reach(from_x.pixel, from_y.pixel) ||
       !is_in_reach(to_x.pixel, to_y.pixel))
     return {};

@@ -93,7 +93,8 @@ class BlockField {
   size_t origin_of(size_t index) const;
 
   /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smaller of the values at
-  /// the exact place and at the nearest whole pixels. Negative when that place is out of reach.
+  /// the exact position and at the nearest whole pixels. Negative when that position is out of
+  /// reach.
   int difference_if_moved(int block, float x_px, float y_px) const;
 
   /// Pixels of a block, or of the area `beside_x_px`, `beside_y_px` beside it, that stayed in place

@@ -79,12 +79,12 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
 /// Reads two pixels around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 
-/// Compares a block `now` with the same place in the picture `before`. `from` is the place in the
-/// picture before from which the surrounding motion would have brought the block; `to` is the place
-/// in the new picture to which it would have brought the block that was there. The larger of the
-/// two differences counts: something that stays in front of a moving background reveals itself both
-/// where it should have been covered and where it should have been uncovered. Reads one extra
-/// column and row of `from` and `to`.
+/// Compares a block `now` with the same position in the picture `before`. `from` is the position in
+/// the picture before from which the surrounding motion would have brought the block; `to` is the
+/// position in the new picture to which it would have brought the block that was there. The larger
+/// of the two differences counts: something that stays in front of a moving background reveals
+/// itself both where it should have been covered and where it should have been uncovered. Reads one
+/// extra column and row of `from` and `to`.
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
                              const MovedBlock& to);
 }  // namespace spidar

@@ -211,8 +211,8 @@ void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const 
       walk.try_candidates();
       const auto difference = static_cast<float>(walk.difference());
       if (difference > kRounding_grey * kBlockArea_px) walk.walk_downhill();
-      // The search is widened only if no nearby place fits, because a repetitive pattern looks the
-      // same in many places.
+      // The search is widened only if no nearby position fits, because a repetitive pattern looks
+      // the same in many positions.
       if (walk.difference() > kDoubtful_grey * kBlockArea_px) {
         if (hints.empty()) {
           if (!has_sums) before_sums_.read(before);

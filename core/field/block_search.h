@@ -11,7 +11,7 @@
 namespace spidar {
 
 /// Σ of the pixels of each area of the size of a block. Two blocks differ by at least as much as
-/// their sums do (successive elimination: Li and Salari, 1995), so that most places of a search
+/// their sums do (successive elimination: Li and Salari, 1995), so that most positions of a search
 /// need not be looked at.
 class AreaSums {
  public:

@@ -18,8 +18,8 @@ namespace {
 /// like this.
 constexpr int kComb_grey = 20;
 constexpr int kSame_grey = kComb_grey / 2;
-/// A frame counts as combed from this share of its pixels on: an object on 5 % of the frame, with
-/// combs on one of its pixels in ten.
+/// A frame counts as combed from this fraction of its pixels on: an object on 5 % of the frame,
+/// with combs on one of its pixels in ten.
 constexpr double kCombed = 0.005;
 /// For how many frames a film counts as interlaced after a combed frame: ten seconds at 24
 /// frames/s, because parts of a film are still.
@@ -68,7 +68,7 @@ int combs_vectors(const Lines& lines, int width, int& done) {
 
 }  // namespace
 
-double comb_share(const ImageView& frame, std::vector<uint8_t>& memory) {
+double comb_fraction(const ImageView& frame, std::vector<uint8_t>& memory) {
   const auto width = static_cast<size_t>(frame.width);
   memory.resize(kLines * width);
   int64_t combs = 0;
@@ -90,7 +90,7 @@ double comb_share(const ImageView& frame, std::vector<uint8_t>& memory) {
 
 bool Combing::see(const ImageView& frame) {
   if (row_step(halving_factor(frame.width, frame.height)) > 1) return false;
-  if (comb_share(frame, lines_) >= kCombed) {
+  if (comb_fraction(frame, lines_) >= kCombed) {
     frames_left_ = kFrames;
   } else if (frames_left_ > 0) {
     --frames_left_;

@@ -10,10 +10,10 @@
 
 namespace spidar {
 
-/// Share of pixels that show combs: what moved between two fields jumps back and forth from line to
-/// line. Of every sixteen lines, four are examined. A pixel counts if it differs by kComb_grey from
-/// the lines above and below and hardly from the line after those.
-double comb_share(const ImageView& frame, std::vector<uint8_t>& lines);
+/// Fraction of pixels that show combs: what moved between two fields jumps back and forth from line
+/// to line. Of every sixteen lines, four are examined. A pixel counts if it differs by kComb_grey
+/// from the lines above and below and hardly from the line after those.
+double comb_fraction(const ImageView& frame, std::vector<uint8_t>& lines);
 
 /// Finds out from the frames so far whether a film is interlaced or telecined although it is not
 /// flagged. Only one field of such a film should be analysed, because its two fields show different

@@ -15,7 +15,7 @@ constexpr int kSteps = 2;
 /// Smaller eigenvalue of a window's structure tensor, (grey / px)². With less, noise of two grey
 /// levels moves the window by more than a fifth of a pixel.
 constexpr float kLeastTexture = 0.2f;
-/// Largest mean squared difference with which a window shows the same thing, as a share of its
+/// Largest mean squared difference with which a window shows the same object, as a fraction of its
 /// variance: a window on the rim of an object shows the background, too, and is left out.
 constexpr float kMostResidual = 0.05f;
 
@@ -32,7 +32,7 @@ bool read_square(const ImageView& frame, int left, int top, int side, std::vecto
   return true;
 }
 
-/// The block at a place of the field's picture, or the nearest one.
+/// The block at a position of the field's picture, or the nearest one.
 size_t block_at(const BlockField& field, const Eigen::Vector2d& at_px) {
   const BlockGrid& grid = field.grid();
   const auto index = [](double px, int begin_px, int count) {
@@ -55,7 +55,7 @@ FineWindows::FineWindows() {
   found_.reserve(kMost);
 }
 
-/// Reads the pixels of a window whose place is set. False where it does not fit or shows too
+/// Reads the pixels of a window whose position is set. False where it does not fit or shows too
 /// little.
 bool FineWindows::read(const ImageView& frame, Window& window) {
   constexpr int kAround = kSide_px + 2;
@@ -96,11 +96,12 @@ bool FineWindows::read(const ImageView& frame, Window& window) {
   return weakest > kLeastTexture * n;
 }
 
-void FineWindows::keep_one(const ImageView& frame, const BlockField& field, const FieldPlace& place,
-                           size_t block) {
+void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
+                           const FieldPosition& position, size_t block) {
   const MotionBlock& middle = field.blocks()[block];
   const Eigen::Vector2d at_px =
-      place.centre_px + place.scale * Eigen::Vector2f(middle.x_px, middle.y_px).cast<double>();
+      position.centre_px +
+      position.scale * Eigen::Vector2f(middle.x_px, middle.y_px).cast<double>();
   windows_.emplace_back();
   Window& window = windows_.back();
   window.block = block;
@@ -109,12 +110,12 @@ void FineWindows::keep_one(const ImageView& frame, const BlockField& field, cons
   if (!read(frame, window)) windows_.pop_back();
 }
 
-void FineWindows::keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
-                       const std::vector<size_t>& blocks) {
+void FineWindows::keep(const ImageView& frame, const BlockField& field,
+                       const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
   // Of many, every second one, and so on.
   const size_t every = 1 + blocks.size() / (kMost + 1);
-  for (size_t i = 0; i < blocks.size(); i += every) keep_one(frame, field, place, blocks[i]);
+  for (size_t i = 0; i < blocks.size(); i += every) keep_one(frame, field, position, blocks[i]);
 }
 
 /// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of
@@ -173,18 +174,18 @@ bool FineWindows::match(const ImageView& frame, const Window& window, Eigen::Vec
 }
 
 const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const BlockField& field,
-                                                 const FieldPlace& place) {
+                                                 const FieldPosition& position) {
   found_.clear();
   for (const Window& window : windows_) {
     // The middle of the window in the picture before, and the block that is there now: it gives a
-    // first estimate of the new place, and the block at that place gives the motion.
+    // first estimate of the new position, and the block at that position gives the motion.
     const Eigen::Vector2d corner_px(window.left_px, window.top_px);
     const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
-    const Eigen::Vector2d from_px = (middle_px - place.centre_px) / place.scale;
+    const Eigen::Vector2d from_px = (middle_px - position.centre_px) / position.scale;
     const size_t there = block_at(field, from_px + motion_of(field, block_at(field, from_px)));
-    Eigen::Vector2d moved_px = place.scale * motion_of(field, there);
+    Eigen::Vector2d moved_px = position.scale * motion_of(field, there);
     if (!match(frame, window, moved_px)) continue;
-    moved_px /= place.scale;
+    moved_px /= position.scale;
     found_.push_back({block_at(field, from_px + moved_px), from_px, moved_px});
   }
   return found_;

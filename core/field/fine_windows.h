@@ -16,7 +16,7 @@
 namespace spidar {
 
 /// Where the picture of a BlockField is in its frame.
-struct FieldPlace {
+struct FieldPosition {
   double scale = 1;  ///< px of the frame to one px of the field's picture
   /// Centre of the field's picture in the frame, px, where (0, 0) is the centre of the first pixel.
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
@@ -39,13 +39,13 @@ class FineWindows {
   FineWindows();
 
   /// Keeps windows of `frame` for these blocks of `field`, or for some of them if they are many.
-  void keep(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+  void keep(const ImageView& frame, const BlockField& field, const FieldPosition& position,
             const std::vector<size_t>& blocks);
 
   /// Finds them in the next frame, with which `field` has just been updated. Those that are lost
   /// are left out. Valid until the next call.
   const std::vector<FineMotion>& find(const ImageView& frame, const BlockField& field,
-                                      const FieldPlace& place);
+                                      const FieldPosition& position);
 
   /// Forgets all windows.
   void reset() { windows_.clear(); }
@@ -74,7 +74,7 @@ class FineWindows {
   };
 
   bool read(const ImageView& frame, Window& window);
-  void keep_one(const ImageView& frame, const BlockField& field, const FieldPlace& place,
+  void keep_one(const ImageView& frame, const BlockField& field, const FieldPosition& position,
                 size_t block);
   bool step(const Window& window, const Eigen::Vector2f& offset_px, Eigen::Vector2f& step_px,
             float& residual) const;

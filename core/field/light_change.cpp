@@ -11,7 +11,7 @@
 namespace spidar {
 namespace {
 
-/// If more than this share of the difference is left, the gain may be chance. Where the camera
+/// If more than this fraction of the difference is left, the gain may be chance. Where the camera
 /// pans, most of the difference is motion, whatever the light does.
 constexpr double kAlike = 0.9;
 

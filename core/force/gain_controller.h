@@ -38,8 +38,8 @@ class GainController {
  public:
   virtual ~GainController() = default;
 
-  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once a frame, in the
-  /// order of the frames.
+  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once per frame, in
+  /// the order of the frames.
   virtual double force_N(const MeasuredSpeed& speed) = 0;
 
   /// Other limits from now on; what was learnt stays. `settings.kind` does not matter here.
@@ -102,7 +102,7 @@ Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity
 /// stays as it is, so that a pause does not make the controller more sensitive.
 ///
 /// The scale follows ln V: d ln S / dt = clamp(ln V − ln S, −1, 1) / T, with T = kAttack_s while
-/// speeds are above the scale and kRelease_s while they are below. It settles where a share of
+/// speeds are above the scale and kRelease_s while they are below. It settles where a fraction of
 /// about T_release / (T_attack + T_release) of the time is below it: an M-quantile (Breckling and
 /// Chambers, Biometrika 75, 1988) of the logarithm, whose influence function is bounded. A single
 /// outlier, however large, therefore raises the scale by a factor of at most exp(Δt / T) in a frame

@@ -47,8 +47,9 @@ ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, do
   steadier.growth_1_s =
       steady(growth_, kRim_px * motion.growth_1_s, interval_s, settings) / kRim_px;
   steadier.roll_rad_s = steady(roll_, kRim_px * motion.roll_rad_s, interval_s, settings) / kRim_px;
-  const double share = velocity_.share();
-  noise_px_s_ = std::hypot((1 - share) * noise_px_s_, share * to_reference * motion.noise_px_s);
+  const double fraction = velocity_.fraction();
+  noise_px_s_ =
+      std::hypot((1 - fraction) * noise_px_s_, fraction * to_reference * motion.noise_px_s);
   steadier.noise_px_s = noise_px_s_ / to_reference;
   return steadier;
 }

@@ -37,21 +37,21 @@ class OneEuroFilter {
     const Vector rate = (x - value_) / interval_s;
     rate_ += smoothing(kRateCutoff_Hz, interval_s) * (rate - rate_);
     const double cutoff_Hz = min_cutoff_Hz + beta * rate_.norm();
-    share_ = smoothing(cutoff_Hz, interval_s);
-    value_ += share_ * (x - value_);
+    fraction_ = smoothing(cutoff_Hz, interval_s);
+    value_ += fraction_ * (x - value_);
     return value_;
   }
 
-  /// Share of the newest value in the last result, 0 … 1: result += share · (value − result). If
-  /// the values have independent noise of variance v, the noise of the result has the variance
-  /// (1 − share)² u + share² v, where u is that of the result before.
-  double share() const { return share_; }
+  /// Fraction of the newest value in the last result, 0 … 1: result += fraction · (value − result).
+  /// If the values have independent noise of variance v, the noise of the result has the variance
+  /// (1 − fraction)² u + fraction² v, where u is that of the result before.
+  double fraction() const { return fraction_; }
 
   /// Starts anew with `x` as the first value.
   void restart_at(const Vector& x) {
     value_ = x;
     rate_.setZero();
-    share_ = 1;
+    fraction_ = 1;
     started_ = true;
   }
 
@@ -66,7 +66,7 @@ class OneEuroFilter {
 
   Vector value_ = Vector::Zero();
   Vector rate_ = Vector::Zero();
-  double share_ = 1;
+  double fraction_ = 1;
   bool started_ = false;
 };
 

@@ -108,8 +108,8 @@ void WrenchTimeline::join_smoothly(Segment& next) noexcept {
 }
 
 int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
-  const double share_ns = kApproachShare * static_cast<double>(interval_ns);
-  return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(share_ns));
+  const double fraction_ns = kApproachFraction * static_cast<double>(interval_ns);
+  return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(fraction_ns));
 }
 
 /// The earliest time at which the curve can reach `added`, which follows `before` and has become

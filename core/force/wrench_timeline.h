@@ -55,14 +55,15 @@ class WrenchTimeline {
   /// A frame that is known less than approach_after() ahead of its time is met so long after it is
   /// known, for a step would be felt as a knock. To rest, and from it, it takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
-  /// Share of the interval between two frames: the less often pictures change, the more the force
-  /// changes at once, and the longer that takes. A force that changes during this share of the time
-  /// has 1 / √kApproachShare = 1.49 times the rms step of one that changes all the time.
-  static constexpr double kApproachShare = 0.45;
+  /// Fraction of the interval between two frames: the less often pictures change, the more the
+  /// force changes at once, and the longer that takes. A force that changes during this fraction of
+  /// the time has 1 / √kApproachFraction = 1.49 times the rms step of one that changes all the
+  /// time.
+  static constexpr double kApproachFraction = 0.45;
   /// No frame is met later than this after its time, unless it became known too late for that. Late
   /// touch is noticed from 50 ms on.
   static constexpr int64_t kLatest_ns = 30'000'000;
-  /// kApproachShare of the interval to the frame before; at least kApproach_ns, or the interval
+  /// kApproachFraction of the interval to the frame before; at least kApproach_ns, or the interval
   /// where that is shorter.
   static int64_t approach_after(int64_t interval_ns) noexcept;
   /// No frame is to be held longer. TimedWrench::hold_ns may say otherwise: it is the caller's.

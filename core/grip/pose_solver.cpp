@@ -196,9 +196,9 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
 }
 
 // Two dead encoders may drag the pose along, because seven strings of which one is dead still fit
-// closely in many places. A string is taken for dead when it has stood still while the others have
-// moved, and the pose of the others gives it another length. With a second string left out, six
-// strings remain, which fit any lengths: no pose can be trusted.
+// closely in many positions. A string is taken for dead when it has stood still while the others
+// have moved, and the pose of the others gives it another length. With a second string left out,
+// six strings remain, which fit any lengths: no pose can be trusted.
 bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                                     bool tracked) const noexcept {
   int out = result.faulty_string >= 0, one = -1, other = result.faulty_string;

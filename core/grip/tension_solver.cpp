@@ -63,10 +63,10 @@ constexpr double kTolerance = 2e-14;
 // What still is a solution when rounding keeps it from getting there.
 constexpr double kAccepted = 1e-12;
 constexpr int kMaxIterations = 24;
-// A string leaves its bound when its gradient is this share of the largest one among those that
+// A string leaves its bound when its gradient is this fraction of the largest one among those that
 // want to leave: one at a time takes more rounds, all at once sends some of them back.
-constexpr double kReleaseShare = 0.4;
-// Added to the diagonal (as a share of it) when ε is lost beside it; rises until the pivots are
+constexpr double kReleaseFraction = 0.4;
+// Added to the diagonal (as a fraction of it) when ε is lost beside it; rises until the pivots are
 // sound.
 constexpr double kLeastDamping = 0x1p-48;
 
@@ -177,19 +177,19 @@ double change(const Iterate& x, const Iterate& next) {
 
 // Goes along the step to the first bound in the way, and holds the string that meets it.
 void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
-  double share = 1;
+  double fraction = 1;
   int first = -1;
   for (int a = 0; a < step.count; ++a) {
     const int i = step.index[a];
     const double room = x.t[i] - (step.length[a] > 0 ? bounds.low[i] : bounds.high[i]);
-    if (step.length[a] != 0 && room / step.length[a] < share) {
-      share = room / step.length[a];
+    if (step.length[a] != 0 && room / step.length[a] < fraction) {
+      fraction = room / step.length[a];
       first = a;
     }
   }
   for (int a = 0; a < step.count; ++a) {
     const int i = step.index[a];
-    x.t[i] = bounds.clamp(i, x.t[i] - share * step.length[a]);
+    x.t[i] = bounds.clamp(i, x.t[i] - fraction * step.length[a]);
   }
   if (first < 0) return;
   const int i = step.index[first];
@@ -197,13 +197,13 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
   x.free &= ~(1u << i);
 }
 
-unsigned strings_to_release(const Iterate& x, const StringVector& violation, double share) {
+unsigned strings_to_release(const Iterate& x, const StringVector& violation, double fraction) {
   double largest = 0;
   for (int i = 0; i < kStrings; ++i)
     if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
   unsigned released = 0;
   for (int i = 0; i < kStrings; ++i)
-    if (violation[i] > 0 && violation[i] >= share * largest) released |= 1u << i;
+    if (violation[i] > 0 && violation[i] >= fraction * largest) released |= 1u << i;
   return released & ~x.free;
 }
 
@@ -251,7 +251,7 @@ class Search {
       // one at a time. Such a string does move inwards, so that every release lowers the objective
       // and no set of free strings comes twice: the search ends.
       if (cautious && clipped && x_->free) continue;
-      x_->free |= strings_to_release(*x_, violation_of, cautious ? 1.0 : kReleaseShare);
+      x_->free |= strings_to_release(*x_, violation_of, cautious ? 1.0 : kReleaseFraction);
       cautious = false;
     }
   }

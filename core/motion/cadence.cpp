@@ -10,8 +10,8 @@
 namespace spidar {
 namespace {
 
-/// Intervals that differ by less than this share count as equal: rounding and jitter of a clock. So
-/// do speeds.
+/// Intervals that differ by less than this fraction count as equal: rounding and jitter of a clock.
+/// So do speeds.
 constexpr double kSameInterval = 0.2;
 /// An interval that is unlike the others and the only one in so many is an accident. In a rhythm,
 /// one in five is unlike the others, as with 25 pictures a second in 30 frames, or more are. (With

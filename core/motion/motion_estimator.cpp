@@ -10,12 +10,12 @@ namespace {
 
 /// Reductions leave out columns and rows at the right and at the bottom that do not fill a pixel:
 /// the picture of the field begins where the frame does, and may end before it.
-FieldPlace place_of(const BlockField& field, const ReducedFrame& reduced) {
-  FieldPlace place;
-  place.scale = reduced.factor() * field.scale();
-  place.centre_px = {(place.scale * field.picture().width() - 1) / 2,
-                     (place.scale * field.picture().height() - 1) / 2};
-  return place;
+FieldPosition position_of(const BlockField& field, const ReducedFrame& reduced) {
+  FieldPosition position;
+  position.scale = reduced.factor() * field.scale();
+  position.centre_px = {(position.scale * field.picture().width() - 1) / 2,
+                        (position.scale * field.picture().height() - 1) / 2};
+  return position;
 }
 
 }  // namespace
@@ -24,21 +24,22 @@ MotionEstimator::MotionEstimator() {
   votes_.reserve(kMostDisplacements);
 }
 
-void MotionEstimator::keep_windows(const ImageView& frame, const FieldPlace& place) {
+void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& position) {
   const std::vector<uint32_t>& owners = objects_.owners();
   of_objects_.reserve(owners.size());
   of_objects_.clear();
   for (size_t i = 0; i < owners.size(); ++i) {
     if (owners[i] != 0) of_objects_.push_back(i);
   }
-  windows_.keep(frame, field_, place, of_objects_);
+  windows_.keep(frame, field_, position, of_objects_);
 }
 
 /// Lists the blocks that show how they move as tracks; their number is the id.
-void MotionEstimator::report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const {
+void MotionEstimator::report_tracks(const FieldPosition& position,
+                                    std::vector<Track>& tracks) const {
   tracks.clear();
-  const auto scale = static_cast<float>(place.scale);
-  const Eigen::Vector2f centre_px = place.centre_px.cast<float>();
+  const auto scale = static_cast<float>(position.scale);
+  const Eigen::Vector2f centre_px = position.centre_px.cast<float>();
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
     const bool shows_motion =
@@ -63,23 +64,24 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
     return false;
   }
   const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
-  const FieldPlace place = place_of(field_, reduced);
-  const std::vector<FineMotion>& fine = windows_.find(image, field_, place);
+  const FieldPosition position = position_of(field_, reduced);
+  const std::vector<FineMotion>& fine = windows_.find(image, field_, position);
   collect_votes(field_, objects_.past(), votes_);
   const Background& background = estimator_.estimate(votes_);
-  frame.background = in_pixels_of(background, place.scale);
+  frame.background = in_pixels_of(background, position.scale);
   frame.votes = static_cast<int>(votes_.points.size());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
   const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
-  const FieldInFrame in_frame{field_, place.scale, place.centre_px - middle_px, interval_s, fine};
+  const FieldInFrame in_frame{field_, position.scale, position.centre_px - middle_px, interval_s,
+                              fine};
   const std::vector<MovingObject>& objects = objects_.update(in_frame, background);
   estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
   frame.objects = objects;
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);
   frame.dominant = dominant ? dominant->id : 0;
-  report_tracks(place, frame.tracks);
-  keep_windows(image, place);
+  report_tracks(position, frame.tracks);
+  keep_windows(image, position);
   frame.features = static_cast<int>(frame.tracks.size());
   return true;
 }

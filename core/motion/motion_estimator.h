@@ -33,8 +33,8 @@ class MotionEstimator {
   void reset();
 
  private:
-  void keep_windows(const ImageView& frame, const FieldPlace& place);
-  void report_tracks(const FieldPlace& place, std::vector<Track>& tracks) const;
+  void keep_windows(const ImageView& frame, const FieldPosition& position);
+  void report_tracks(const FieldPosition& position, std::vector<Track>& tracks) const;
 
   BlockField field_;
   BackgroundVotes votes_;

@@ -24,11 +24,11 @@ enum class MotionKind {
   kCamera,  ///< motion of the camera
 };
 
-/// How far from the pointer an object is felt: σ of the Gaussian weight, as a share of the frame's
-/// height.
+/// How far from the pointer an object is felt: σ of the Gaussian weight, as a fraction of the
+/// frame's height.
 constexpr double kPointerReach = 0.25;
 
-/// Standard error of an object's velocity as it changes from frame to frame, as a share of
+/// Standard error of an object's velocity as it changes from frame to frame, as a fraction of
 /// MovingObject::error_px_s, most of which lasts for many frames. With 1/25, the dead zone of
 /// AdaptiveController is that of the noise of points: in five real films its force is within 1.4 %.
 constexpr double kNoiseOfError = 0.04;

@@ -35,9 +35,10 @@ class LargestMean {
  public:
   void add(float value) {
     if (value <= largest_[kChangedBlocks - 1]) return;
-    size_t place = kChangedBlocks - 1;
-    for (; place > 0 && largest_[place - 1] < value; --place) largest_[place] = largest_[place - 1];
-    largest_[place] = value;
+    size_t position = kChangedBlocks - 1;
+    for (; position > 0 && largest_[position - 1] < value; --position)
+      largest_[position] = largest_[position - 1];
+    largest_[position] = value;
   }
 
   /// Mean of the largest of `count` values; of all if there are fewer than kChangedBlocks.
@@ -70,19 +71,19 @@ float largest_change(const ImageView& before, const ImageView& now) {
   return most.mean(blocks);
 }
 
-RepeatedPicture::Rhythm RepeatedPicture::rhythm(float share) const {
+RepeatedPicture::Rhythm RepeatedPicture::rhythm(float fraction) const {
   Rhythm rhythm;
   float largest = 0;  // change of a run
   size_t begin = 0;   // of a run, in frames ago
   bool in_run = false;
   for (size_t i = count_; i-- > 0;) {
     const float change = latest(i);
-    if (in_run && share * change > largest) {
+    if (in_run && fraction * change > largest) {
       ++rhythm.dips;
       for (size_t k = begin; k > i; --k) rhythm.is_dip[k] = true;
       in_run = false;
     }
-    if (change < share * rhythm.large) {
+    if (change < fraction * rhythm.large) {
       largest = in_run ? std::max(largest, change) : change;
       if (!in_run) begin = i;
       in_run = true;
@@ -106,10 +107,10 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 }
 
 bool RepeatedPicture::is_small(float change) const {
-  const Rhythm any = rhythm(kShare);
-  if (any.dips >= kLeastDips && change < kShare * any.large) return true;
-  const Rhythm periodic = rhythm(kShareWhenDue);
-  return change < kShareWhenDue * periodic.large && is_due(periodic);
+  const Rhythm any = rhythm(kFraction);
+  if (any.dips >= kLeastDips && change < kFraction * any.large) return true;
+  const Rhythm periodic = rhythm(kFractionWhenDue);
+  return change < kFractionWhenDue * periodic.large && is_due(periodic);
 }
 
 PictureKind RepeatedPicture::look(const ImageView& before, const ImageView& now) {

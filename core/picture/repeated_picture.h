@@ -45,8 +45,8 @@ class RepeatedPicture {
   /// Call when the next pictures are unrelated to the previous ones.
   void restart() { count_ = 0; }
 
-  /// Largest coding noise, as a share of the change before and after it.
-  static constexpr float kShare = 0.3f;
+  /// Largest coding noise, as a fraction of the change before and after it.
+  static constexpr float kFraction = 0.3f;
   /// At least kLeastDips such dips must have occurred within kFrames frames, in whatever rhythm,
   /// because an object that slows down and reverses also causes one. 24 pictures per second in 30
   /// frames have two in ten.
@@ -54,7 +54,7 @@ class RepeatedPicture {
   static constexpr size_t kFrames = 12;
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
   /// neighbours: between the 0.41 and the 0.6 above. A period has at least two frames.
-  static constexpr float kShareWhenDue = 0.5f;
+  static constexpr float kFractionWhenDue = 0.5f;
 
  private:
   /// Dips: runs of small changes between two large ones.
@@ -63,7 +63,7 @@ class RepeatedPicture {
     float large = 0;                     ///< latest large change
     std::array<bool, kFrames> is_dip{};  ///< by age in frames: whether the change was in a dip
   };
-  Rhythm rhythm(float share) const;
+  Rhythm rhythm(float fraction) const;
   bool is_due(const Rhythm& rhythm) const;
   bool is_small(float change) const;
   float latest(size_t i) const { return changes_[(next_ + 2 * kFrames - 1 - i) % kFrames]; }

@@ -63,13 +63,13 @@ class CellSpans {
       weights_.push_back(static_cast<float>(covered / (end - begin)));
     }
   }
-  void add_interpolated(double place, int samples) {
-    const double inside = std::clamp(place, 0.0, samples - 1.0);
+  void add_interpolated(double position, int samples) {
+    const double inside = std::clamp(position, 0.0, samples - 1.0);
     const int first = static_cast<int>(inside);
-    const auto share = static_cast<float>(inside - first);
-    cells_.push_back({first, share > 0 ? 2 : 1, weights_.size()});
-    weights_.push_back(1 - share);
-    if (share > 0) weights_.push_back(share);
+    const auto fraction = static_cast<float>(inside - first);
+    cells_.push_back({first, fraction > 0 ? 2 : 1, weights_.size()});
+    weights_.push_back(1 - fraction);
+    if (fraction > 0) weights_.push_back(fraction);
   }
 
   int samples_ = 0;

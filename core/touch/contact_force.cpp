@@ -80,7 +80,7 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
   follow_energy(settings, way_m, grip_m);
   const ForcePath path = path_of(settings, dt_s);
-  force_N *= budget_.allowed_share(force_N, path, dt_s);
+  force_N *= budget_.allowed_fraction(force_N, path, dt_s);
   budget_.command(force_N, settings.beside_N, path, dt_s);
   return force_N;
 }

@@ -52,8 +52,9 @@ class ContactForce {
  public:
   /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;
-  /// The texture force is at most this share of the normal force, of which at most kMostTexture_N
-  /// counts. The texture acts as a spring along the surface, and this limit bounds its stiffness.
+  /// The texture force is at most this fraction of the normal force, of which at most
+  /// kMostTexture_N counts. The texture acts as a spring along the surface, and this limit bounds
+  /// its stiffness.
   static constexpr double kMostTextureSlope = 0.15;
   static constexpr double kMostTexture_N = 1;
 

@@ -172,12 +172,12 @@ void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
     if (finds_far) far = settings.disparity ? ends.low : ends.high;
     // Widens a narrow range about its middle, or away from the end that is set.
     const double sign = settings.disparity ? -1 : 1;
-    const double least = std::max(kLeastSpan, kLeastShare * std::max(near, far));
+    const double least = std::max(kLeastSpan, kLeastFraction * std::max(near, far));
     const double lacking = least - sign * (far - near);
     if (lacking > 0) {
-      const double share = finds_near && finds_far ? 0.5 : 1;
-      if (finds_near) near -= sign * share * lacking;
-      if (finds_far) far += sign * share * lacking;
+      const double fraction = finds_near && finds_far ? 0.5 : 1;
+      if (finds_near) near -= sign * fraction * lacking;
+      if (finds_far) far += sign * fraction * lacking;
     }
     if (has_range_ && !is_cut(settings)) {
       const double step = dt_s > 0 ? 1 - std::exp(-dt_s / kRange_s) : 0;

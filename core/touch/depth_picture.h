@@ -61,11 +61,11 @@ void validate(const DepthSettings& settings);
 class DepthPicture {
  public:
   static constexpr int kSamplesAcross = 2;  ///< largest number per cell, in x and in y
-  static constexpr double kOutside = 0.02;  ///< share of the cells, at each end
+  static constexpr double kOutside = 0.02;  ///< fraction of the cells, at each end
   static constexpr double kRange_s = 1.0;   ///< time constant of the range
-  static constexpr double kCut = 0.5;  ///< share of cells outside the range that indicates a cut
-  static constexpr double kLeastSpan = 8;          ///< samples
-  static constexpr double kLeastShare = 1.0 / 16;  ///< of the larger end
+  static constexpr double kCut = 0.5;  ///< fraction of cells outside the range that indicates a cut
+  static constexpr double kLeastSpan = 8;             ///< samples
+  static constexpr double kLeastFraction = 1.0 / 16;  ///< of the larger end
 
   DepthPicture();
 

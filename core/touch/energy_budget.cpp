@@ -41,8 +41,8 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
 /// When little energy is left, the bound follows the noise of the velocity. A slower rise than that
 /// of the slew limit would be smoother, but a force that is too low absorbs too little energy while
 /// the grip moves in, and stays low.
-double EnergyBudget::allowed_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
-                                   double dt_s) noexcept {
+double EnergyBudget::allowed_fraction(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                                      double dt_s) noexcept {
   constexpr double kUnbounded_N = std::numeric_limits<double>::infinity();
   const double size_N = wanted_N.norm();
   if (!(size_N > 0)) {

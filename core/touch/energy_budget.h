@@ -38,10 +38,10 @@ class EnergyBudget {
   void follow(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
               double stored_J) noexcept;
 
-  /// The share of `wanted_N` that is allowed. A force that was bounded rises again no faster than
-  /// the slew limit of the path.
-  double allowed_share(const Eigen::Vector3d& wanted_N, const ForcePath& path,
-                       double dt_s) noexcept;
+  /// The fraction of `wanted_N` that is allowed. A force that was bounded rises again no faster
+  /// than the slew limit of the path.
+  double allowed_fraction(const Eigen::Vector3d& wanted_N, const ForcePath& path,
+                          double dt_s) noexcept;
 
   /// The largest allowed force along the unit vector `direction`.
   double most_N(const Eigen::Vector3d& direction, const ForcePath& path,

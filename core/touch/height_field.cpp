@@ -27,12 +27,12 @@ struct Basis {
 };
 
 /// A position along an axis: the four surrounding samples and the distance from the second one.
-struct Place {
+struct Position {
   std::array<int, kTaps> sample;
   double t;
 
   /// `u` is in samples, with 0 at the first of `count`. Samples outside repeat the border sample.
-  Place(double u, int count) noexcept {
+  Position(double u, int count) noexcept {
     // Two samples outside, all four equal the border sample. The negated comparisons also catch
     // NaN.
     if (!(u > -2)) u = -2;
@@ -59,8 +59,8 @@ HeightField::HeightField(double width_m, double height_m)
       z_m_(kCells, 0.0F) {}
 
 SurfacePoint HeightField::at(double x_m, double y_m) const noexcept {
-  const Place column(x_m / cell_x_m_ + 0.5 * kColumns - 0.5, kColumns);
-  const Place line(0.5 * kRows - 0.5 - y_m / cell_y_m_, kRows);
+  const Position column(x_m / cell_x_m_ + 0.5 * kColumns - 0.5, kColumns);
+  const Position line(0.5 * kRows - 0.5 - y_m / cell_y_m_, kRows);
   const Basis across(column.t);
   const Basis down(line.t);
   double z_m = 0;

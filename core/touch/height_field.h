@@ -10,7 +10,7 @@
 
 namespace spidar {
 
-/// Height and slope of a surface at one place.
+/// Height and slope of a surface at one position.
 struct SurfacePoint {
   double z_m = 0;
   /// dz/dx and dz/dy, without a unit.

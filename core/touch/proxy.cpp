@@ -12,8 +12,8 @@ namespace {
 
 /// Largest slope of a relief in any direction: kMaxSlope along both axes.
 const double kSteepest = ReliefBuilder::kMaxSlope * std::sqrt(2.0);
-/// A sliding proxy sticks again when its tangential distance falls below this share of the dynamic
-/// limit, as happens when the hand reverses.
+/// A sliding proxy sticks again when its tangential distance falls below this fraction of the
+/// dynamic limit, as happens when the hand reverses.
 constexpr double kSticksAgain = 0.6;
 /// Shorter steps are skipped: at 500 N/m, 1 nm corresponds to 0.5 µN.
 constexpr double kLeastStep_m = 1e-9;
@@ -116,9 +116,9 @@ void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
 bool TouchProxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
                       const Eigen::Vector3d& grip_m) noexcept {
   const double now_m2 = (position_m_ - grip_m).squaredNorm();
-  double share = 1;
-  for (int n = 0; n <= kMostHalvings; ++n, share *= 0.5) {
-    Eigen::Vector3d there_m = position_m_ + share * way_m;
+  double fraction = 1;
+  for (int n = 0; n <= kMostHalvings; ++n, fraction *= 0.5) {
+    Eigen::Vector3d there_m = position_m_ + fraction * way_m;
     const SurfacePoint at = surface.at(there_m.head<2>());
     there_m.z() = at.z_m + shift_m_;
     if ((there_m - grip_m).squaredNorm() < now_m2) {

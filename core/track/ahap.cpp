@@ -30,9 +30,9 @@ double seconds(size_t sample) {
 }
 
 double intensity(const TrackSample& sample) {
-  const double share = std::hypot(static_cast<double>(sample[0]), static_cast<double>(sample[1]),
-                                  static_cast<double>(sample[2]));
-  return std::isfinite(share) ? rounded(std::min(share, 1.0)) : 0;
+  const double fraction = std::hypot(static_cast<double>(sample[0]), static_cast<double>(sample[1]),
+                                     static_cast<double>(sample[2]));
+  return std::isfinite(fraction) ? rounded(std::min(fraction, 1.0)) : 0;
 }
 
 std::string description(double gain) {

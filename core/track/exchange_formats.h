@@ -62,7 +62,7 @@ constexpr double kFunscriptTolerance = 0.01;
 
 /// One channel: −1, 0 and 1 are the positions 0, 50 and 100, whole numbers. Players draw straight
 /// lines between them, and move at the speed that these ask for; they differ from the curve by at
-/// most `tolerance`, a share of the full scale, and the rounding of a position, 0.01. Amplitudes
+/// most `tolerance`, a fraction of the full scale, and the rounding of a position, 0.01. Amplitudes
 /// beyond the full scale are clipped, and NaN becomes 0.
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance = kFunscriptTolerance);
@@ -83,7 +83,7 @@ std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
 constexpr double kAhapTolerance = 0.02;
 
 /// A vibration as strong as the force: a continuous event whose intensity is the magnitude of the
-/// force as a share of the full scale, along straight lines that differ from it by at most
+/// force as a fraction of the full scale, along straight lines that differ from it by at most
 /// `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are lost.
 /// Magnitudes beyond the full scale are clipped, and NaN becomes 0. The description says which
 /// force an intensity of 1 stands for, if the samples have been multiplied by `gain`.

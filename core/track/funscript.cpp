@@ -17,7 +17,7 @@ constexpr double kMiddle = 50;
 
 struct Action {
   size_t at_ms;
-  double share;  ///< of the full scale
+  double fraction;  ///< of the full scale
 };
 
 /// A number from 0 to `most`.
@@ -50,8 +50,8 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
   for (size_t i = 0; i < actions->size(); ++i) {
     const std::string where = "actions[" + std::to_string(i) + "]";
     const double at_ms = number((*actions)[i], "at", static_cast<double>(most_samples) - 1, where);
-    const double share = used * (number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1);
-    found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -share : share});
+    const double fraction = used * (number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1);
+    found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -fraction : fraction});
     if (i > 0 && found[i].at_ms <= found[i - 1].at_ms) {
       throw FunscriptError("funscript: " + where + " is not after the one before");
     }
@@ -64,13 +64,13 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance) {
   write(R"({"version":"1.0","inverted":false,"range":100,"actions":[)");
-  KeyframeChooser keyframes(tolerance, [&write](size_t index, double share) {
+  KeyframeChooser keyframes(tolerance, [&write](size_t index, double fraction) {
     write((index == 0 ? R"({"at":)" : R"(,{"at":)") + std::to_string(index) + R"(,"pos":)" +
-          std::to_string(std::lround(kMiddle + kMiddle * share)) + "}");
+          std::to_string(std::lround(kMiddle + kMiddle * fraction)) + "}");
   });
   samples.each([&](const TrackSample& sample) {
-    const double share = sample[channel];
-    keyframes.add(std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0);
+    const double fraction = sample[channel];
+    keyframes.add(std::isfinite(fraction) ? std::clamp(fraction, -1.0, 1.0) : 0);
   });
   keyframes.finish();
   write("]}\n");
@@ -86,13 +86,13 @@ std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
   }
   const std::vector<Action> actions = read_actions(root, most_samples);
   std::vector<TrackSample> samples(actions.back().at_ms + 1);
-  samples[actions.front().at_ms][channel] = static_cast<float>(actions.front().share);
+  samples[actions.front().at_ms][channel] = static_cast<float>(actions.front().fraction);
   for (size_t k = 1; k < actions.size(); ++k) {
     const Action &a = actions[k - 1], &b = actions[k];
     const auto length_ms = static_cast<double>(b.at_ms - a.at_ms);
     for (size_t i = a.at_ms + 1; i <= b.at_ms; ++i) {
       const double part = static_cast<double>(i - a.at_ms) / length_ms;
-      samples[i][channel] = static_cast<float>(a.share + part * (b.share - a.share));
+      samples[i][channel] = static_cast<float>(a.fraction + part * (b.fraction - a.fraction));
     }
   }
   return samples;

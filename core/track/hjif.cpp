@@ -70,8 +70,9 @@ class HjifCurveWriter {
   void finish() {
     if (count_ == 2 && last_index_ > 1) {
       const size_t middle = last_index_ / 2;
-      const double share = static_cast<double>(middle) / static_cast<double>(last_index_);
-      write_keyframe(write_, middle, to_steps(first_value_ + share * (last_value_ - first_value_)));
+      const double fraction = static_cast<double>(middle) / static_cast<double>(last_index_);
+      write_keyframe(write_, middle,
+                     to_steps(first_value_ + fraction * (last_value_ - first_value_)));
     }
     if (count_ > 1) flush();
   }
@@ -114,7 +115,7 @@ void write_channel(const SampleSource& samples, const WriteText& write, size_t c
 }
 
 const Json& member(const Json& object, const char* name, const std::string& where) {
-  if (!object.is_object()) fail(where, "is no object");
+  if (!object.is_object()) fail(where, "is not an object");
   const auto found = object.find(name);
   if (found == object.end()) fail(where, std::string("has no ") + name);
   return *found;
@@ -122,20 +123,20 @@ const Json& member(const Json& object, const char* name, const std::string& wher
 
 const Json& array(const Json& object, const char* name, const std::string& where) {
   const Json& value = member(object, name, where);
-  if (!value.is_array()) fail(where + "." + name, "is no array");
+  if (!value.is_array()) fail(where + "." + name, "is not an array");
   return value;
 }
 
 std::string text_of(const Json& object, const char* name, const std::string& where) {
   const Json& value = member(object, name, where);
-  if (!value.is_string()) fail(where + "." + name, "is no string");
+  if (!value.is_string()) fail(where + "." + name, "is not a string");
   return value.get<std::string>();
 }
 
 /// A finite number of at most ±`most`.
 double number(const Json& object, const char* name, const std::string& where, double most) {
   const Json& value = member(object, name, where);
-  if (!value.is_number()) fail(where + "." + name, "is no number");
+  if (!value.is_number()) fail(where + "." + name, "is not a number");
   const double result = value.get<double>();
   if (!(std::fabs(result) <= most)) fail(where + "." + name, "is out of range");
   return result;
@@ -144,7 +145,7 @@ double number(const Json& object, const char* name, const std::string& where, do
 /// A time in ticks, from 0 to 2^31 − 1 as in the format.
 int64_t ticks(const Json& object, const char* name, const std::string& where) {
   const double value = number(object, name, where, INT32_MAX);
-  if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is no number of ticks");
+  if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is not a number of ticks");
   return static_cast<int64_t>(value);
 }
 

@@ -20,7 +20,7 @@ constexpr size_t kTrackChannels = 6;
 constexpr double kTrackForceScale_N = 10;
 constexpr double kTrackTorqueScale_Nm = 1;
 
-/// One moment of a track: shares of the full scale.
+/// One moment of a track: fractions of the full scale.
 using TrackSample = std::array<float, kTrackChannels>;
 
 inline TrackSample to_track_sample(const Wrench& wrench) noexcept {

@@ -19,12 +19,12 @@ namespace {
 
 /// Points followed at once, as in the usual examples of Lucas–Kanade.
 constexpr int kMostFeatures = 200;
-/// New points are selected when fewer than this share of those selected last are left …
+/// New points are selected when fewer than this fraction of those selected last are left …
 constexpr double kThinnedOut = 0.7;
 /// … and after this many frames in any case, because something may have entered.
 constexpr int kSelectionInterval = 5;
 
-/// A cut is detected when at least kMinForCut points were searched and less than this share was
+/// A cut is detected when at least kMinForCut points were searched and less than this fraction was
 /// found. With fewer points, the loss of a small object is more likely.
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
@@ -53,10 +53,10 @@ constexpr double kRounding = 1.0;
 /// Settings of one search for points.
 struct PointSearch {
   int level;      ///< coarsest pyramid level
-  bool expected;  ///< start at the last displacement, not at the old place
-  /// Largest difference of the windows, as a share of the contrast in them. The limit is relative
-  /// because a fixed one would reject textured points in a noisy film and accept any position in a
-  /// flat one.
+  bool expected;  ///< start at the last displacement, not at the old position
+  /// Largest difference of the windows, as a fraction of the contrast in them. The limit is
+  /// relative because a fixed one would reject textured points in a noisy film and accept any
+  /// position in a flat one.
   double max_difference;
 };
 
@@ -237,7 +237,7 @@ bool OpenCvTracker::Impl::selection_is_due() const {
 
 /// The strongest corners of the picture (eq. 1). One at which a point is followed already is that
 /// point; a point where there is no corner any more is dropped. So an object that enters gets its
-/// share.
+/// fraction.
 void OpenCvTracker::Impl::select() {
   const cv::Mat& image = now[0];
   // Closer to the border the eigenvalues include mirrored pixels.

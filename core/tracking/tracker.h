@@ -14,7 +14,7 @@ namespace spidar {
 
 /// Of OpenCvTracker (Shi–Tomasi).
 struct TrackerSettings {
-  double quality_level = 0.01;  ///< share of the strongest corner's eigenvalue, 0 … 1
+  double quality_level = 0.01;  ///< fraction of the strongest corner's eigenvalue, 0 … 1
   /// Minimum distance between selected features, in pixels of the reference frame; finite and ≥ 0.
   double min_distance_px = 10.0;
 

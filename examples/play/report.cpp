@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Reasons of less than this share of the frames are left out.
+/// Reasons of less than this fraction of the frames are left out.
 constexpr double kWorthALine = 0.005;
 
 template <typename... Values>

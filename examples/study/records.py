@@ -31,7 +31,7 @@ class Answer:
 
 COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
-PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_share", "problem", "time_utc"]
+PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
 
 
 def utc_now():
@@ -64,11 +64,11 @@ def parse_answer(row):
         raise ValueError(f"{len(row)} columns, not {len(COLUMNS)}")
     answer = Answer(*row)
     if answer.condition not in CONDITIONS.get(answer.part, ()):
-        raise ValueError(f'"{answer.part}, {answer.condition}" is no part with one of its conditions')
+        raise ValueError(f'"{answer.part}, {answer.condition}" is not a part with one of its conditions')
     if answer.answer not in ("1", "2", "3", "4", "5"):
-        raise ValueError(f'"{answer.answer}" is no number from 1 to {len(STEPS)}')
+        raise ValueError(f'"{answer.answer}" is not a number from 1 to {len(STEPS)}')
     if not answer.trial.isdigit():
-        raise ValueError(f'"{answer.trial}" is no number of a trial')
+        raise ValueError(f'"{answer.trial}" is not a number of a trial')
     answer.trial, answer.answer = int(answer.trial), int(answer.answer)
     return answer
 

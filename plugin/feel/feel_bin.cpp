@@ -87,7 +87,7 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   else
     gst_message_parse_info(message, &error, &details);
   g_printerr("spidar-feel: %s\n", error->message);
-  // With its own code and place.
+  // With its own code and location.
   const auto message_of = GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO ? gst_message_new_info
                                                                         : gst_message_new_warning;
   gst_element_post_message(GST_ELEMENT(self), message_of(GST_OBJECT(self), error, details));

@@ -91,7 +91,7 @@ preset=NAME stands for those of a preset: paper, film or gentle.
   spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
 )";
 
-struct Wish {
+struct Options {
   std::vector<std::string> properties;  ///< NAME=VALUE
   char** program = nullptr;             ///< and its arguments
 };
@@ -101,8 +101,8 @@ struct Wish {
   std::exit(status);
 }
 
-Wish parse(int argc, char** argv) {
-  Wish wish;
+Options parse(int argc, char** argv) {
+  Options wish;
   if (argc < 2) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
   if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
     std::fputs(kHelp, stdout);
@@ -122,7 +122,7 @@ Wish parse(int argc, char** argv) {
   if (separated) ++at;
   if (at == argc) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
   if (argv[at][0] == '-')
-    fail(kUsage, std::string(argv[at]) + " is no option; spidar-feel --help tells more");
+    fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
   wish.program = argv + at;
   return wish;
 }
@@ -201,7 +201,7 @@ void set_environment(const std::vector<std::string>& properties) {
 }
 
 /// The value of the property `device`, of which the last one counts; empty: none is given.
-std::string device_of(const Wish& wish) {
+std::string device_of(const Options& wish) {
   const std::string begin = "device=";
   std::string device;
   for (const std::string& property : wish.properties)
@@ -218,7 +218,7 @@ bool is_without_gstreamer(const std::string& program) {
 }
 
 /// Says what would otherwise be missed.
-void warn_of_nothing_felt(const Wish& wish) {
+void warn_of_nothing_felt(const Options& wish) {
   if (device_of(wish) == "none") return;  // nothing is to be felt
   if (is_without_gstreamer(wish.program[0]))
     std::fprintf(
@@ -232,7 +232,7 @@ void warn_of_nothing_felt(const Wish& wish) {
 
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
-  Wish wish = parse(argc, argv);
+  Options wish = parse(argc, argv);
   if (device_of(wish).empty()) wish.properties.insert(wish.properties.begin(), "device=auto");
   find_plugins();
   check(wish.properties);

@@ -152,7 +152,7 @@ void BusWarnings::check_pointer(const MotionEngine& engine) {
                       ("The grip of the device %s cannot point at the picture, because its "
                        "position is not measured; it points at the middle.",
                        session->grip().name().c_str()),
-                      ("pointer=X,Y chooses the place, with "
+                      ("pointer=X,Y chooses the position, with "
                        "pointer=mouse the mouse does."));
 }
 

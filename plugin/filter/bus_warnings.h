@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// Says each thing once a stream, not once a frame. Streaming thread, and start() before it.
+/// Says each object once per stream, not once per frame. Streaming thread, and start() before it.
 class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}

@@ -10,7 +10,7 @@
  * the frame is shown. The video itself is passed on untouched.
  *
  * By default the object that stands out most against the background is felt (#spidarmotion:motion),
- * steadied by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
+ * smoothed by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
  * filter-min-cutoff=0 it is the mean velocity of Shi-Tomasi points that Lucas-Kanade tracks, as in
  * the paper.
  *
@@ -21,8 +21,8 @@
  *
  * Where the tag `image-orientation` says that the picture is turned or mirrored before it is shown,
  * as that of a telephone held upright, force and torque are turned like it, and so are the relief
- * of #spidarmotion:touch and the places of pointer and grip. What refers to pixels, velocities and
- * objects, stays in the coordinates of the frame.
+ * of #spidarmotion:touch and the positions of pointer and grip. What refers to pixels, velocities
+ * and objects, stays in the coordinates of the frame.
  *
  * Of files that properties name, the ending says what they are: #spidarmotion:trace writes .csv or
  * .jsonl, #spidarmotion:track plays .flac, .mka, .wav or a film, #spidarmotion:feel reads .feel.
@@ -335,7 +335,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
 
   gst_element_class_set_static_metadata(
       element_class, "SPIDAR motion", "Filter/Analyzer/Video/Hardware",
-      "Measures how things move in a video and renders it as force on a haptic device",
+      "Measures how objects move in a video and renders it as force on a haptic device",
       "The gst-spidar authors");
   gst_element_class_add_static_pad_template(element_class, &motion_sink_template);
   gst_element_class_add_static_pad_template(element_class, &motion_src_template);

@@ -66,11 +66,11 @@ static spidar::AnalyzerSettings settings_now(GstSpidarMotion* self, const GstVid
   GST_OBJECT_UNLOCK(self);
   if (has_new_rules) self->choice->read(feel, GST_BASE_TRANSFORM_SINK_PAD(self));
   if (pointer == PointerKind::kGrip) {
-    settings.pointer = self->engine->grip_place().value_or(settings.pointer);
+    settings.pointer = self->engine->grip_position().value_or(settings.pointer);
     self->warnings->check_pointer(*self->engine);
   }
-  const spidar::PictureTurn& turn = self->engine->turn();
-  settings.pointer = turn.place_coded(settings.pointer);
+  const spidar::Orientation& turn = self->engine->turn();
+  settings.pointer = turn.stored_position(settings.pointer);
   self->choice->apply(pointer == PointerKind::kMouse, turn, settings);
   if (self->choice->wants_boxes()) {
     settings.boxes = spidar::boxes_of(frame, touch.packed(), turn);

@@ -33,7 +33,7 @@ namespace spidar {
 /// - finfo, stride, offset: FrameLuma reads every format above as its caps and video meta say.
 /// - interlace_mode, field order: FrameLuma takes the first field.
 /// - width, height: visible_part().
-/// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePicture).
+/// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePixelResampler).
 /// - multiview_mode, HALF_ASPECT of its flags: visible_part() and pixel_aspect(). Of two pictures
 ///   in one frame the first is analysed, since both show the same motion; of frames in turn, those
 ///   that have the time of the one before are left out.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What became of one frame of video.
+/// the result of processing one frame of video.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include "core/analysis/frame.h"
 #include "core/force/gain_controller.h"
 #include "core/motion/scene_motion.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/no_force_reason.h"
 #include "plugin/frame/touch_view.h"
@@ -81,7 +81,7 @@ struct FrameReport {
   /// In pixels of the frame as it is stored, with its times at the element, and its wrench turned.
   /// While a haptic track is played, only times and wrench.
   Frame frame;
-  PictureTurn turn;                                   ///< of the frame before it is shown
+  Orientation turn;                                   ///< of the frame before it is shown
   VisiblePart visible;                                ///< of the frame, that was analysed
   int64_t took_ns = 0;                                ///< the analysis
   NoForceReason limit = NoForceReason::kNone;         ///< the frame's own reason, in the film

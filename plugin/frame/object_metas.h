@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Boxes of things in a picture, as elements of other projects attach them to frames.
+/// Boxes of objects in a picture, as elements of other projects attach them to frames.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <gst/video/video.h>
 
 #include "core/choice/chosen.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/frame/frame_report.h"
 
@@ -38,6 +38,6 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
                                              std::optional<DepthLayout> packed,
-                                             const PictureTurn& turn);
+                                             const Orientation& turn);
 
 }  // namespace spidar

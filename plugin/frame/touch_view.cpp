@@ -10,7 +10,7 @@ namespace spidar {
 namespace {
 
 /// Maps −half … half to 0 … 1.
-double share(double at_m, double half_m) {
+double fraction(double at_m, double half_m) {
   if (!(half_m > 0)) return 0.5;
   return std::min(std::max(0.5 + at_m / (2 * half_m), 0.0), 1.0);
 }
@@ -19,8 +19,8 @@ double share(double at_m, double half_m) {
 
 GripPointer::GripPointer(const StringGeometry& geometry) : half_size_m_(half_picture_m(geometry)) {}
 
-Eigen::Vector2d GripPointer::place(const Eigen::Vector3d& position_m) const {
-  return {share(position_m.x(), half_size_m_.x()), share(-position_m.y(), half_size_m_.y())};
+Eigen::Vector2d GripPointer::position(const Eigen::Vector3d& position_m) const {
+  return {fraction(position_m.x(), half_size_m_.x()), fraction(-position_m.y(), half_size_m_.y())};
 }
 
 namespace {
@@ -34,12 +34,12 @@ double at_height_px(double at_480, double height_px) {
 
 }  // namespace
 
-Eigen::Vector2d TouchMap::place(const Eigen::Vector3d& position_m) const {
-  return turn.place_coded(pointer.place(position_m));
+Eigen::Vector2d TouchMap::position(const Eigen::Vector3d& position_m) const {
+  return turn.stored_position(pointer.position(position_m));
 }
 
-Eigen::Vector2d TouchMap::position_m(const Eigen::Vector2d& place) const {
-  const Eigen::Vector2d in_picture = turn.place_shown(place.cwiseMax(0.0).cwiseMin(1.0));
+Eigen::Vector2d TouchMap::position_m(const Eigen::Vector2d& position) const {
+  const Eigen::Vector2d in_picture = turn.displayed_position(position.cwiseMax(0.0).cwiseMin(1.0));
   return {(2 * in_picture.x() - 1) * pointer.half_size_m().x(),
           (1 - 2 * in_picture.y()) * pointer.half_size_m().y()};
 }
@@ -48,10 +48,10 @@ std::optional<TouchMark> touch_mark(const TouchScene& scene, const TickRecord& t
   const bool runs = tick.device == DeviceState::kRunning || tick.device == DeviceState::kIdle;
   if (!scene.on || !runs) return std::nullopt;
   TouchMark mark;
-  mark.finger = scene.map.place(tick.pose.position_m);
+  mark.finger = scene.map.position(tick.pose.position_m);
   mark.touching = tick.contact.touching;
   if (mark.touching) {
-    mark.proxy = scene.map.place(tick.contact.proxy_m);
+    mark.proxy = scene.map.position(tick.contact.proxy_m);
     mark.force_N = tick.contact.force_N;
   }
   return mark;

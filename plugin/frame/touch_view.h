@@ -8,12 +8,12 @@
 #include <Eigen/Core>
 
 #include "core/grip/string_geometry.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
-/// Maps the grip's position to a place of the picture. The picture is upright in the device's xy
+/// Maps the grip's position to a position of the picture. The picture is upright in the device's xy
 /// plane, its middle at the workspace's centre, and its edges half of the way to the frame, that
 /// is, to the box that holds the exits of the strings: there the grip can still be held
 /// (docs/workspace.md). Right is right, up is up, depth does not matter; turning the grip does not
@@ -28,7 +28,7 @@ class GripPointer {
 
   /// (0, 0) is the top left corner of the picture, (1, 1) its bottom right one; a grip further out
   /// points at the edge.
-  Eigen::Vector2d place(const Eigen::Vector3d& position_m) const;
+  Eigen::Vector2d position(const Eigen::Vector3d& position_m) const;
 
   /// Of the box that maps to the picture, in x and y.
   const Eigen::Vector2d& half_size_m() const { return half_size_m_; }
@@ -40,24 +40,24 @@ class GripPointer {
 /// Maps between the device frame and the picture before it is turned.
 struct TouchMap {
   GripPointer pointer;
-  PictureTurn turn = {};
+  Orientation turn = {};
 
-  /// Place in the picture, the analysed part of the frame: (0, 0) is its top left corner and (1, 1)
-  /// its bottom right one. Positions outside the picture are clamped to its edge.
-  Eigen::Vector2d place(const Eigen::Vector3d& position_m) const;
+  /// Position in the picture, the analysed part of the frame: (0, 0) is its top left corner and (1,
+  /// 1) its bottom right one. Positions outside the picture are clamped to its edge.
+  Eigen::Vector2d position(const Eigen::Vector3d& position_m) const;
   /// The inverse: x and y in the device frame.
-  Eigen::Vector2d position_m(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d position_m(const Eigen::Vector2d& position) const;
 };
 
 /// The touchable surface of one frame.
 struct TouchScene {
   bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
   TouchMap map;
-  double stiffness_N_m = 0;  ///< rendered stiffness
-  double motion_share = 0;   ///< share of the film's motion that is also rendered
+  double stiffness_N_m = 0;    ///< rendered stiffness
+  double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
 };
 
-/// Finger and proxy in one tick, as places in the picture.
+/// Finger and proxy in one tick, as positions in the picture.
 struct TouchMark {
   Eigen::Vector2d finger = Eigen::Vector2d::Zero();
   bool touching = false;

@@ -59,7 +59,7 @@ void find_owner(const Frame& frame, const VisiblePart& visible, OwnedTrack& trac
 
 std::vector<uint32_t> felt_objects(const FrameReport& report) {
   std::vector<uint32_t> felt;
-  if (report.touch.on && !(report.touch.motion_share > 0)) return felt;
+  if (report.touch.on && !(report.touch.motion_fraction > 0)) return felt;
   const bool all = report.frame.choice.is_free() && report.motion == MotionKind::kObjects;
   for (const MovingObject& object : report.frame.objects) {
     if (object.tracks == 0) continue;

@@ -34,9 +34,9 @@ inline GstResourceError resource_error(DeviceTrouble trouble) {
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
 /// A device that cannot be used is RESOURCE with the code of its trouble, a wrong profile or number
 /// RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of the
-/// source that found it, or `place` where the exception does not say, and ends with `details`.
+/// source that found it, or `location` where the exception does not say, and ends with `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
-                           const std::string& details, Place place) {
+                           const std::string& details, SourceLocation location) {
   const auto* const device = dynamic_cast<const DeviceError*>(&error);
   const bool is_setting = dynamic_cast<const ProfileError*>(&error) != nullptr ||
                           dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
@@ -45,25 +45,26 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
   if (is_setting) code = GST_RESOURCE_ERROR_SETTINGS;
   if (device) {
     code = resource_error(device->trouble());
-    place = device->place();
+    location = device->location();
   }
   // As the macros of GStreamer that post a message also log it.
   GST_CAT_WARNING_OBJECT(category_of(element), element, "%s: %s",
                          kind == GST_MESSAGE_ERROR ? "error" : "warning", error.what());
   gst_element_message_full(element, kind, domain, code, g_strdup(error.what()),
-                           g_strdup(details.c_str()), place.file, place.function, place.line);
+                           g_strdup(details.c_str()), location.file, location.function,
+                           location.line);
 }
 
 /// Calls `function`. When it throws, posts the exception as an error and returns false. `doing`
 /// completes "while …" in the debug text.
 template <typename Function>
 bool guarded(GstElement* element, const char* doing, Function&& function,
-             Place place = Place::here()) {
+             SourceLocation location = SourceLocation::here()) {
   try {
     function();
     return true;
   } catch (const std::exception& error) {
-    post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing, place);
+    post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing, location);
     return false;
   }
 }

@@ -42,17 +42,17 @@ void DeviceWarnings::post(const char* state, const std::string& device,
 }
 
 bool DeviceWarnings::check_refused(const std::string& device, const std::exception& refusal,
-                                   OnDeviceError policy, Place place) const {
+                                   OnDeviceError policy, SourceLocation location) const {
   post("refused", device, refusal.what());
   if (policy == OnDeviceError::kError) {
-    post_exception(element_, GST_MESSAGE_ERROR, refusal, "on-device-error=error", place);
+    post_exception(element_, GST_MESSAGE_ERROR, refusal, "on-device-error=error", location);
     return false;
   }
   post_exception(element_, GST_MESSAGE_WARNING, refusal,
                  what_ +
                      " goes on without force. The device is opened again in the next change from "
                      "NULL to READY.",
-                 place);
+                 location);
   return true;
 }
 
@@ -143,7 +143,7 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
                          "the profile). The full force returns when the motor has cooled.",
                          loop.motor_heat));
   }
-  if (loop.last.contact.stiffness_share < 1 && !shaken_) {
+  if (loop.last.contact.stiffness_fraction < 1 && !shaken_) {
     shaken_ = true;
     GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                         ("The touched surface shook the grip: its stiffness is lowered."),

@@ -14,8 +14,8 @@ namespace spidar {
 
 enum class OnDeviceError { kWarn, kError };
 
-/// Says each thing once a stream. Streaming thread, and start() before it. Sessions are null while
-/// the element has no device.
+/// Says each object once per stream. Streaming thread, and start() before it. Sessions are null
+/// while the element has no device.
 class DeviceWarnings {
  public:
   /// `what` goes on without the device: "The video".
@@ -24,7 +24,7 @@ class DeviceWarnings {
 
   /// `device` cannot be opened. False when the stream is not to begin.
   bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
-                     Place place = Place::here()) const;
+                     SourceLocation location = SourceLocation::here()) const;
   /// A device was just opened, `chosen` for "auto". Posts an information message, too, if it was
   /// chosen, or renders only a part of what is to be seen in the picture.
   void check_opened(const HapticSession* session, const std::string& chosen) const;

@@ -33,14 +33,14 @@ guint64 not_negative(int64_t ns) {
 /// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
 /// held-back-ticks (uint64), faulty-string (int, −1 when none),
 /// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
-/// (double, m/s), vibration-share (double: of the force that is wanted, 1 unless it has shaken the
-/// hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1),
-/// touching (boolean), touch-depth-mm, touch-force (double, N), touch-stiffness-share (double: what
-/// is left of the stiffness, 1 unless the surface has shaken the grip),
-/// wakeup-median, wakeup-p999, skew-median, skew-p99 (uint64, ns; skew: force at the device
-/// after its frame was due on the screen), link-fault (string: the last one, see LinkFault),
-/// link-timeouts, link-errors (all other faults), link-late-replies (uint64), round-trip-median,
-/// round-trip-p99 (uint64, ns; zero for a device without a link).
+/// (double, m/s), vibration-fraction (double: of the force that is wanted, 1 unless it has shaken
+/// the hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1), touching
+/// (boolean), touch-depth-mm, touch-force (double, N), touch-stiffness-fraction (double: what is
+/// left of the stiffness, 1 unless the surface has shaken the grip), wakeup-median, wakeup-p999,
+/// skew-median, skew-p99 (uint64, ns; skew: force at the device after its frame was due on the
+/// screen), link-fault (string: the last one, see LinkFault), link-timeouts, link-errors (all other
+/// faults), link-late-replies (uint64), round-trip-median, round-trip-p99 (uint64, ns; zero for a
+/// device without a link).
 void describe_session(const HapticSession& session, GstStructure* structure) {
   const HapticLoop& loop = session.loop();
   const LoopSnapshot snapshot = loop.snapshot();
@@ -57,8 +57,8 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       snapshot.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.held_back ? TRUE : FALSE,
       "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
       snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
-      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "vibration-share",
-      G_TYPE_DOUBLE, snapshot.vibration.share, "vibration-left", G_TYPE_DOUBLE,
+      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "vibration-fraction",
+      G_TYPE_DOUBLE, snapshot.vibration.fraction, "vibration-left", G_TYPE_DOUBLE,
       snapshot.vibration.left, "wakeup-median", G_TYPE_UINT64,
       not_negative(session.timing().lateness.quantile_ns(0.5)), "wakeup-p999", G_TYPE_UINT64,
       not_negative(session.timing().lateness.quantile_ns(0.999)), "skew-median", G_TYPE_UINT64,
@@ -82,8 +82,8 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
   const Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
                     "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
-                    G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-share", G_TYPE_DOUBLE,
-                    contact.stiffness_share, nullptr);
+                    G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-fraction",
+                    G_TYPE_DOUBLE, contact.stiffness_fraction, nullptr);
   const LinkHealth link = session.grip().health();
   gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
                     "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",

@@ -68,7 +68,7 @@ class HapticOutput {
   std::optional<LoopSnapshot> snapshot() const;
   /// False while closed.
   bool look_at_device(DeviceView& view);
-  /// Leads the hand of the device "sim" to a place, see SimulatedDevice::lead_hand(). False for
+  /// Leads the hand of the device "sim" to a position, see SimulatedDevice::lead_hand(). False for
   /// other devices, and while closed.
   bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);
   /// Adds what describe_session() says, while a device is open.

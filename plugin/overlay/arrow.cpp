@@ -10,8 +10,8 @@ namespace {
 
 /// Shorter arrows are drawn as dots.
 constexpr double kShortest_px = 1.0;
-/// Length of the head: the smaller of this share of the arrow and this many shaft widths.
-constexpr double kHeadShare = 0.5;
+/// Length of the head: the smaller of this fraction of the arrow and this many shaft widths.
+constexpr double kHeadFraction = 0.5;
 constexpr double kHeadWidths = 4.0;
 
 constexpr double kThin_px = 1.5, kBold_px = 2.5, kFelt_px = 6;  // in a picture 480 lines high
@@ -32,7 +32,7 @@ std::optional<ArrowHead> head_of(const Arrow& arrow) {
   if (!(length_px >= kShortest_px)) return std::nullopt;
   const Eigen::Vector2d unit = along_px / length_px;
   const Eigen::Vector2d side(-unit.y(), unit.x());
-  const double head_px = std::min(kHeadShare * length_px, kHeadWidths * arrow.width_px);
+  const double head_px = std::min(kHeadFraction * length_px, kHeadWidths * arrow.width_px);
   const Eigen::Vector2d neck_px = arrow.tip_px - head_px * unit;
   const Eigen::Vector2d half_px = std::max(head_px / 2, arrow.width_px) * side;
   return ArrowHead{{neck_px - half_px, arrow.tip_px, neck_px + half_px}};
@@ -76,7 +76,7 @@ std::optional<Arrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style) {
   const double px_N = kFeltLength * style.height_px / style.max_force_N;
   // Up is +y in the device frame and −y in the picture.
   const Eigen::Vector2d along_px =
-      px_N * style.turn.to_coded(Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y()));
+      px_N * style.turn.to_stored(Eigen::Vector2d(wrench.force_N.x(), -wrench.force_N.y()));
   Arrow felt;
   felt.width_px = felt_width_px(style);
   if (!(along_px.norm() >= felt.width_px)) return std::nullopt;

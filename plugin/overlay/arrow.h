@@ -50,7 +50,7 @@ struct ArrowStyle {
   double height_px = 480;    ///< height of the picture; line widths scale with it
   double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
-  PictureTurn turn;                                     ///< of what is drawn, before it is shown
+  Orientation turn;                                     ///< of what is drawn, before it is shown
 };
 
 /// Shaft width of the arrow of the felt force.

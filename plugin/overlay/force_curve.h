@@ -32,17 +32,18 @@ class ForceCurve {
   /// compared.
   PlotAxis axis() const { return make_axis(0, round_step(std::max(largest_N_, kLeastTop_N)), 1); }
 
-  /// Oldest first, as shares: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,
+  /// Oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,
   /// the upper end of axis().
-  std::vector<Eigen::Vector2d> places() const {
-    std::vector<Eigen::Vector2d> places;
-    places.reserve(points_.size());
+  std::vector<Eigen::Vector2d> positions() const {
+    std::vector<Eigen::Vector2d> positions;
+    positions.reserve(points_.size());
     const PlotAxis y = axis();
     for (const Point& point : points_) {
       const auto ago_ns = static_cast<double>(points_.back().time_ns - point.time_ns);
-      places.emplace_back(1 - ago_ns / static_cast<double>(kLength_ns), y.share(point.force_N));
+      positions.emplace_back(1 - ago_ns / static_cast<double>(kLength_ns),
+                             y.fraction(point.force_N));
     }
-    return places;
+    return positions;
   }
 
  private:

@@ -34,7 +34,7 @@ struct PlotAxis {
     return text;
   }
   /// 0 at `low`, 1 at `high`; values beyond are beyond.
-  double share(double value) const { return (value - low) / (high - low); }
+  double fraction(double value) const { return (value - low) / (high - low); }
 };
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below `least` (> 0).

@@ -17,10 +17,10 @@ namespace {
 
 constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130};
 /// Height of a number, of the picture's.
-constexpr double kNumberShare = 0.035;
-/// The strip with the curve at the lower edge, as shares of the height of the picture: all of it,
-/// and from 0 N to the upper end of the axis. The curve ends so far from the right edge.
-constexpr double kStripShare = 0.17, kBelowShare = 0.02, kCurveShare = 0.12;
+constexpr double kNumberFraction = 0.035;
+/// The strip with the curve at the lower edge, as fractions of the height of the picture: all of
+/// it, and from 0 N to the upper end of the axis. The curve ends so far from the right edge.
+constexpr double kStripFraction = 0.17, kBelowFraction = 0.02, kCurveFraction = 0.12;
 constexpr double kCurveEnd = 0.985;
 /// So much of the picture is seen through the strip.
 constexpr double kStripOpacity = 0.5;
@@ -40,9 +40,9 @@ int thickness(double width_px) {
 }
 
 /// A picture in the coding of a picture that is turned by `turn` before it is shown.
-cv::Mat coded(cv::Mat shown, const PictureTurn& turn) {
-  const Eigen::Vector2d right = turn.to_coded(Eigen::Vector2d(1, 0));
-  const Eigen::Vector2d down = turn.to_coded(Eigen::Vector2d(0, 1));
+cv::Mat coded(cv::Mat shown, const Orientation& turn) {
+  const Eigen::Vector2d right = turn.to_stored(Eigen::Vector2d(1, 0));
+  const Eigen::Vector2d down = turn.to_stored(Eigen::Vector2d(0, 1));
   if (turn.is_sideways()) cv::transpose(shown, shown);
   const bool is_mirrored = (turn.is_sideways() ? down : right).x() < 0;
   const bool is_upside_down = (turn.is_sideways() ? right : down).y() < 0;
@@ -82,7 +82,7 @@ class Sheet {
     pixels_ = cv::Mat::zeros(visible.height, static_cast<int>(width_px), CV_8UC4);
   }
 
-  /// Of a place in pixels of the frame, whose first one keeps its left edge.
+  /// Of a position in pixels of the frame, whose first one keeps its left edge.
   Eigen::Vector2d at_px(const Eigen::Vector2d& frame_px) const {
     return {(frame_px.x() - visible_.x + 0.5) * pixel_aspect_ - 0.5, frame_px.y() - visible_.y};
   }
@@ -128,7 +128,7 @@ class Sheet {
   }
   /// Upright as it is shown, `along` from `beyond_px`, or where there is room.
   void text(const std::string& text, const Eigen::Vector2d& beyond_px, const Eigen::Vector2d& along,
-            const PictureTurn& turn);
+            const Orientation& turn);
 
   /// Blends it into a frame that is mapped for writing, whatever its format.
   void blend_into(GstVideoFrame& frame) const;
@@ -152,9 +152,9 @@ class Sheet {
 };
 
 void Sheet::text(const std::string& text, const Eigen::Vector2d& beyond_px,
-                 const Eigen::Vector2d& along, const PictureTurn& turn) {
+                 const Eigen::Vector2d& along, const Orientation& turn) {
   constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-  const double height_px = kNumberShare * visible_.height;
+  const double height_px = kNumberFraction * visible_.height;
   const int line = whole(height_px / 7), margin = 2 * line;
   const double scale = cv::getFontScaleFromHeight(kFont, whole(height_px), line);
   int below = 0;
@@ -169,11 +169,11 @@ void Sheet::text(const std::string& text, const Eigen::Vector2d& beyond_px,
   if (!is_near(beyond_px) || most_px.minCoeff() < 0) return;
   const Eigen::Vector2d corner_px =
       (beyond_px + along.cwiseProduct(label_px / 2) - label_px / 2).cwiseMin(most_px).cwiseMax(0.0);
-  const cv::Rect place(static_cast<int>(corner_px.x()), static_cast<int>(corner_px.y()), label.cols,
-                       label.rows);
+  const cv::Rect position(static_cast<int>(corner_px.x()), static_cast<int>(corner_px.y()),
+                          label.cols, label.rows);
   cv::Mat covered;
   cv::extractChannel(label, covered, 3);
-  label.copyTo(pixels_(place), covered);
+  label.copyTo(pixels_(position), covered);
 }
 
 void Sheet::blend_into(GstVideoFrame& frame) const {
@@ -222,10 +222,10 @@ void draw_felt(const Wrench& wrench, const ArrowStyle& style, Sheet& sheet) {
 
 void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle style,
                 Sheet& sheet) {
-  // Place 0 is the left edge of the first pixel, half a pixel from its centre.
-  const auto at_px = [&](const Eigen::Vector2d& place) {
-    return sheet.at_px({visible.x + place.x() * visible.width - 0.5,
-                        visible.y + place.y() * visible.height - 0.5});
+  // Position 0 is the left edge of the first pixel, half a pixel from its centre.
+  const auto at_px = [&](const Eigen::Vector2d& position) {
+    return sheet.at_px({visible.x + position.x() * visible.width - 0.5,
+                        visible.y + position.y() * visible.height - 0.5});
   };
   const double ring_px = finger_radius_px(style.height_px), line_px = ring_px / 4;
   const Eigen::Vector2d finger_px = at_px(touch.finger);
@@ -253,29 +253,29 @@ void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& v
 }
 
 /// Along the lower edge of the picture as it is shown.
-void draw_curve(const ForceCurve& curve, const PictureTurn& turn, Sheet& sheet) {
+void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) {
   const Eigen::Vector2d size_px = sheet.size_px();
   const double height_px = turn.is_sideways() ? size_px.x() : size_px.y();
   const double thin_px = height_px / kReferenceHeight_px;
   const auto at_px = [&](double x, double y) -> Eigen::Vector2d {
-    return turn.place_coded(Eigen::Vector2d(x, y)).cwiseProduct(size_px).array() - 0.5;
+    return turn.stored_position(Eigen::Vector2d(x, y)).cwiseProduct(size_px).array() - 0.5;
   };
-  const auto level_px = [&](double x, double share) {
-    return at_px(x, 1 - kBelowShare - kCurveShare * share);
+  const auto level_px = [&](double x, double fraction) {
+    return at_px(x, 1 - kBelowFraction - kCurveFraction * fraction);
   };
-  sheet.shade(at_px(0, 1 - kStripShare), at_px(1, 1), kStripOpacity);
-  for (const double share : {0.0, 1.0}) {
-    sheet.line(level_px(0, share), level_px(1, share), thin_px, kGrid);
+  sheet.shade(at_px(0, 1 - kStripFraction), at_px(1, 1), kStripOpacity);
+  for (const double fraction : {0.0, 1.0}) {
+    sheet.line(level_px(0, fraction), level_px(1, fraction), thin_px, kGrid);
   }
   std::optional<Eigen::Vector2d> before_px;
-  for (const Eigen::Vector2d& place : curve.places()) {
-    const Eigen::Vector2d now_px = level_px(kCurveEnd * place.x(), place.y());
+  for (const Eigen::Vector2d& position : curve.positions()) {
+    const Eigen::Vector2d now_px = level_px(kCurveEnd * position.x(), position.y());
     if (before_px) sheet.line(*before_px, now_px, 3 * thin_px, kProxy);
     before_px = now_px;
   }
   if (before_px) sheet.circle(*before_px, 5 * thin_px, 0, kProxy);
   const PlotAxis axis = curve.axis();
-  sheet.text(axis.label(axis.high) + " N", level_px(0, 1), turn.to_coded(Eigen::Vector2d(1, 0)),
+  sheet.text(axis.label(axis.high) + " N", level_px(0, 1), turn.to_stored(Eigen::Vector2d(1, 0)),
              turn);
 }
 

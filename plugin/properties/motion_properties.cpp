@@ -22,9 +22,9 @@ void set_pointer(MotionProperties& properties, const GValue* value) {
   const std::optional<Pointer> pointer = parse_pointer(text ? text : "");
   if (pointer) {
     properties.pointer = pointer->kind;
-    properties.analyzer.pointer = pointer->place;
+    properties.analyzer.pointer = pointer->position;
   } else {
-    g_warning("pointer=\"%s\" is neither 'grip' nor 'mouse' nor a place X,Y, each from 0 to 1",
+    g_warning("pointer=\"%s\" is neither 'grip' nor 'mouse' nor a position X,Y, each from 0 to 1",
               text ? text : "");
   }
 }
@@ -53,8 +53,8 @@ MotionRow pointer_row() {
       [](const MotionProperties&) {
         return g_param_spec_string(
             "pointer", "Pointer",
-            "Which place weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
-            "shares of the picture from its top left corner",
+            "Which position weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
+            "fractions of the picture from its top left corner",
             kMiddle, kPlaying);
       },
       set_pointer,
@@ -207,11 +207,11 @@ std::vector<MotionRow> touch_rows() {
            "Lateral force of the picture's fine detail, as a multiple of the slope that it "
            "has in the relief; 0 turns it off"},
           0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
-      MotionRow::number(
-          {"motion-share", "Motion share",
-           "With touch, the share of the force of the film's motion that is felt besides. Without "
-           "touch, all of it is"},
-          0, 1, kControllable, KEPT_IN(touch.motion_share)),
+      MotionRow::number({"motion-fraction", "Motion fraction",
+                         "With touch, the fraction of the force of the film's motion that is felt "
+                         "besides. Without "
+                         "touch, all of it is"},
+                        0, 1, kControllable, KEPT_IN(touch.motion_fraction)),
   };
 }
 
@@ -286,7 +286,7 @@ std::optional<Pointer> parse_pointer(const std::string& text) {
   const double y = g_ascii_strtod(second, &end);
   if (end == second || *end != '\0') return std::nullopt;
   if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) return std::nullopt;
-  pointer.place = {x, y};
+  pointer.position = {x, y};
   return pointer;
 }
 
@@ -294,8 +294,8 @@ std::string text_of(const Pointer& pointer) {
   if (pointer.kind == PointerKind::kGrip) return "grip";
   if (pointer.kind == PointerKind::kMouse) return "mouse";
   char x[G_ASCII_DTOSTR_BUF_SIZE], y[G_ASCII_DTOSTR_BUF_SIZE];
-  return std::string(g_ascii_formatd(x, sizeof x, "%g", pointer.place.x())) + "," +
-         g_ascii_formatd(y, sizeof y, "%g", pointer.place.y());
+  return std::string(g_ascii_formatd(x, sizeof x, "%g", pointer.position.x())) + "," +
+         g_ascii_formatd(y, sizeof y, "%g", pointer.position.y());
 }
 
 }  // namespace spidar

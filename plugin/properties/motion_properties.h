@@ -23,9 +23,9 @@ struct TouchProperties {
   TouchKind kind = TouchKind::kOff;
   double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
-  double friction = 0.3;    ///< μs; μd is 0.8 of it
-  double texture = 0;       ///< gain of the fine detail's slope
-  double motion_share = 0;  ///< of the film's motion, which is felt besides
+  double friction = 0.3;       ///< μs; μd is 0.8 of it
+  double texture = 0;          ///< gain of the fine detail's slope
+  double motion_fraction = 0;  ///< of the film's motion, which is felt besides
 
   /// Where in its frames the film has depth that is touched; nothing where they are all picture.
   std::optional<DepthLayout> packed() const {
@@ -80,7 +80,7 @@ struct Pointer {
   PointerKind kind = PointerKind::kFixed;
   /// Of kFixed; of the others, where they are until the device runs or the mouse moves. (0, 0) is
   /// the top left corner of the picture, (1, 1) its bottom right one.
-  Eigen::Vector2d place{0.5, 0.5};
+  Eigen::Vector2d position{0.5, 0.5};
 };
 
 /// As it is by default.

@@ -158,7 +158,7 @@ class PropertyTable {
     for (const Rows& part : parts) rows_.insert(rows_.end(), part.begin(), part.end());
   }
 
-  /// Class initialisation. The id of a property is its place in the table, from 1 on.
+  /// Class initialisation. The id of a property is its position in the table, from 1 on.
   void install(GObjectClass* object_class) const {
     const Settings defaults;
     guint id = 0;

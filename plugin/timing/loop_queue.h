@@ -21,7 +21,7 @@ template <typename Entry>
 class LoopQueue {
  public:
   /// What comes while so many entries wait is refused. `kept`: as many stay here after they were
-  /// handed on, for hand_on_again().
+  /// forwarded, for forward_again().
   explicit LoopQueue(size_t most_waiting, size_t kept = 0)
       : most_waiting_(most_waiting), kept_(kept) {}
   virtual ~LoopQueue() = default;
@@ -45,12 +45,12 @@ class LoopQueue {
     }
     entries_.push_back(entry);
     enter(entries_.back());
-    hand_on_locked();
+    forward_locked();
   }
   /// Again what waits. To be called while playing, more often than every 50 ms.
-  void hand_on() {
+  void forward_waiting() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    hand_on_locked();
+    forward_locked();
   }
   /// Everything added so far.
   void forget() {
@@ -79,10 +79,10 @@ class LoopQueue {
     handed_ = 0;
   }
   /// All that is still here.
-  void hand_on_again() {
+  void forward_again() {
     handed_ = 0;
     if (loop_) loop_->cancel_scheduled();
-    hand_on_locked();
+    forward_locked();
   }
 
   mutable std::mutex mutex_;
@@ -93,7 +93,7 @@ class LoopQueue {
   static uint64_t samples_in(const TimedWrench&) { return 1; }
   static uint64_t samples_in(const TrackBlock& block) { return block.count; }
 
-  void hand_on_locked() {
+  void forward_locked() {
     if (!loop_) return;
     while (handed_ < entries_.size() && loop_->schedule(shown(entries_[handed_]))) ++handed_;
     for (; handed_ > kept_; --handed_) entries_.pop_front();

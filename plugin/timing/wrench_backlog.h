@@ -34,7 +34,7 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     while (entries_.size() > 1 && entries_[1].time_ns <= static_cast<int64_t>(upstream + skipped)) {
       entries_.pop_front();
     }
-    hand_on_again();
+    forward_again();
   }
   double rate_multiplier() const {
     const std::lock_guard<std::mutex> lock(mutex_);

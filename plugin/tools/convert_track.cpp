@@ -72,7 +72,7 @@ std::string lost_in(const std::string& path, const TrackSummary& summary,
   return "";
 }
 
-/// The channel in which most happens, as a share of its full scale.
+/// The channel in which most happens, as a fraction of its full scale.
 size_t liveliest_channel(const TrackSummary& summary) {
   size_t most = kUsualAxis;
   for (size_t i = 0; i < kTrackChannels; ++i) {

@@ -183,8 +183,8 @@ class Answering {
   const int descriptor_;
 };
 
-/// What the track says of itself: duration_s, felt (the share of the time with a force that can be
-/// felt), largest_force_N, fingerprint and settings.
+/// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
+/// be felt), largest_force_N, fingerprint and settings.
 std::string summary_of(const std::string& track) {
   Summariser summariser;
   const TrackCondition condition =

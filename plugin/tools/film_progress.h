@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// Nothing comes for so long from a share that is slow.
-constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
+constexpr GstClockTime kSlowFraction = 60 * GST_SECOND;
 
 constexpr const char* kEndMissing = "its end is missing: it is damaged or cut off";
 

@@ -30,7 +30,8 @@ class FilmWatch {
   std::string problem(const std::string& error) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
-  /// What share of its frames is felt, and the commonest reason of the others, in whole sentences.
+  /// What fraction of its frames is felt, and the commonest reason of the others, in whole
+  /// sentences.
   std::string felt() const;
 
  private:

@@ -101,7 +101,8 @@ Properties of spidarmotion that change the force come last, after two dashes:
         ->check(CLI::IsMember({"flac", "mka", "wav"}))
         ->type_name("FORMAT");
     app->add_option("--manifest", record_.manifest,
-                    "append a line of JSON to this file for each film: what became of it, and what "
+                    "append a line of JSON to this file for each film: the result of processing "
+                    "it, and what "
                     "is in its track")
         ->type_name("FILE");
     app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
@@ -128,8 +129,8 @@ Properties of spidarmotion that change the force come last, after two dashes:
         add("info", "print how long and how strong a track is", &CommandLine::info);
     app->footer(
         R"(Prints the length of the track, its largest force and torque and their steepest change; and
-of each channel the peak and the root mean square, as shares of the full scale (10 N, 1 N m),
-and the share of its energy above 30 Hz. Of a film, also where its track is, and whether it
+of each channel the peak and the root mean square, as fractions of the full scale (10 N, 1 N m),
+and the fraction of its energy above 30 Hz. Of a film, also where its track is, and whether it
 is that of this film.)");
     add_track(app, "TRACK", info_.path);
     app->add_flag("--json", info_.json, "print it as JSON");
@@ -179,7 +180,7 @@ An existing TO is replaced when the new file is complete. Prints what TO cannot 
         ->check(number(1e-3, 1e6))
         ->type_name("FACTOR");
     app->add_option("--tolerance", convert_.save.tolerance,
-                    "largest error of curves, as a share of the full scale; default: 0.0004 for "
+                    "largest error of curves, as a fraction of the full scale; default: 0.0004 for "
                     "HJIF, 0.02 for AHAP, 0.01 for a funscript")
         ->check(number(0, 1))
         ->type_name("SHARE");

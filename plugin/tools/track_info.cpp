@@ -103,9 +103,9 @@ int check_track(const CheckOptions& options) {
               << kMaxSlew_N_s << " N/s\n";
   }
   for (size_t i = 0; i < kTrackChannels; ++i) {
-    const double share = summary.channels[i].above_30_Hz;
-    if (share > kMostFast) {
-      problem() << 100 * share << " % of the energy of " << channel_name(i)
+    const double fraction = summary.channels[i].above_30_Hz;
+    if (fraction > kMostFast) {
+      problem() << 100 * fraction << " % of the energy of " << channel_name(i)
                 << " is above 30 Hz: is it sound for ears?\n";
     }
   }

@@ -12,11 +12,11 @@
 
 namespace spidar {
 
-/// Statistics of one channel, in shares of the full scale.
+/// Statistics of one channel, in fractions of the full scale.
 struct ChannelSummary {
   double peak = 0;
   double rms = 0;
-  double above_30_Hz = 0;  ///< share of the energy; no motion in a film is this fast
+  double above_30_Hz = 0;  ///< fraction of the energy; no motion in a film is this fast
 };
 
 struct TrackSummary {
@@ -25,8 +25,8 @@ struct TrackSummary {
   double largest_force_N = 0;
   double largest_torque_Nm = 0;
   double steepest_N_s = 0;  ///< largest rate of change of the force
-  /// Share of the time with at least kFeltForce_N, where torque counts as the force at the radius
-  /// of the grip (size_N()).
+  /// Fraction of the time with at least kFeltForce_N, where torque counts as the force at the
+  /// radius of the grip (size_N()).
   double felt = 0;
 };
 

@@ -41,7 +41,7 @@ class OpenTrack {
 
 /// The haptic track of a file, else its first sound, from any container that GStreamer has a
 /// decoder for. Returns when its first second has been read. Throws std::runtime_error, which says
-/// what was wrong, when there is none, when it is no haptic track (TrackInput::set_caps()), when
+/// what was wrong, when there is none, when it is not a haptic track (TrackInput::set_caps()), when
 /// the file is damaged or not a regular one, or when `stopped` has become true.
 std::unique_ptr<OpenTrack> open_track(const std::string& path,
                                       const std::atomic<bool>* stopped = nullptr);

@@ -66,7 +66,7 @@ bool remove_left(const std::string& path, const fs::path& target) {
   if (left < 0 || fstat(left, &status) != 0 || !S_ISREG(status.st_mode)) {
     if (left >= 0) close(left);
     throw std::runtime_error(target.string() + ": cannot be written while there is " + path +
-                             ", which is no file of this program; remove it");
+                             ", which is not a file of this program; remove it");
   }
   // Some network file systems have no locks: only this process is then kept from writing it twice.
   const bool is_owned = flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;

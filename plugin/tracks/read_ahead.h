@@ -22,7 +22,7 @@ inline int64_t end_of(const TrackBlock& block) {
   return block.begin_ns + block.duration_ns;
 }
 
-/// The file is read from one place to the next: a pass. Each seek() begins another one.
+/// The file is read from one position to the next: a pass. Each seek() begins another one.
 class ReadAhead {
  public:
   /// So much is read before it is played: more than a disk takes to start.
@@ -32,15 +32,15 @@ class ReadAhead {
 
   // --- what reads
 
-  /// Waits for room. Blocks before the place that was sought, and such as do not rise, are left
+  /// Waits for room. Blocks before the position that was sought, and such as do not rise, are left
   /// out. False when nothing more of this pass is wanted.
   bool put(const TrackBlock& block, const TrackFaults& faults);
   /// The file ends here; `problem` says why it cannot be read further, if that is not its end. What
   /// has ended with a problem stays so.
   void end(const std::string& problem = "");
-  /// Waits for a seek(), whose place it returns; nothing after stop().
+  /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
-  /// What comes from now on is read from the place that await_seek() returned last.
+  /// What comes from now on is read from the position that await_seek() returned last.
   void begin_pass();
 
   // --- what plays

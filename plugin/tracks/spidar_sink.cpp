@@ -309,7 +309,7 @@ static void gst_spidar_sink_init(GstSpidarSink* self) {
   g_mutex_init(&self->setting);
   self->properties = new SinkProperties;
   self->queue = new BlockQueue;
-  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->queue->hand_on(); });
+  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->queue->forward_waiting(); });
   self->input = new spidar::TrackInput;
   self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
   self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));

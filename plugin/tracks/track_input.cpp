@@ -53,7 +53,7 @@ std::string TrackInput::set_caps(const GstCaps* caps) {
   const int rate_Hz = GST_AUDIO_INFO_RATE(&info);
   if (channels != static_cast<int>(kTrackChannels)) {
     return "Sound of " + std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
-           " is no haptic track: it has 6, force x, y, z and torque x, y, z.";
+           " is not a haptic track: it has 6, force x, y, z and torque x, y, z.";
   }
   if (rate_Hz < kLowestRate_Hz || rate_Hz > kHighestRate_Hz) {
     return "A haptic track has from " + std::to_string(kLowestRate_Hz) + " to " +

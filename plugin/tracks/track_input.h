@@ -19,7 +19,7 @@ namespace spidar {
 
 /// What was wrong with the samples of a stream.
 struct TrackFaults {
-  uint64_t not_finite = 0;   ///< samples of which a channel is no number: at rest instead
+  uint64_t not_finite = 0;   ///< samples of which a channel is not a number: at rest instead
   uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
   int sound_channel = -1;    ///< a channel that is sound for ears, see TrackBand; -1: none
 };
@@ -32,7 +32,8 @@ class TrackInput {
   static constexpr int kLowestRate_Hz = 200;
   static constexpr int kHighestRate_Hz = 8000;
 
-  /// Empty, or why sound of these caps is no haptic track, in a sentence that says what would be.
+  /// Empty, or why sound of these caps is not a haptic track, in a sentence that says what would
+  /// be.
   std::string set_caps(const GstCaps* caps);
   /// The next buffer has nothing to do with the one before.
   void restart();

@@ -124,9 +124,9 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
     const bool is_played = track && loaded.problem.empty();
     reading->set_opened(loaded);
     while (is_played) {
-      const std::optional<int64_t> place_ns = loaded.blocks->await_seek();
-      if (!place_ns) break;
-      track->seek(*place_ns);
+      const std::optional<int64_t> position_ns = loaded.blocks->await_seek();
+      if (!position_ns) break;
+      track->seek(*position_ns);
     }
     track = nullptr;
     reading->set_done();

@@ -31,7 +31,7 @@ constexpr const char* kNotOpen = "the debug window is not open";
 
 }  // namespace
 
-/// What the thread and the owner of a Window share; the thread may outlive the owner.
+/// What the thread and the owner of a Window fraction; the thread may outlive the owner.
 class Window::Session {
  public:
   explicit Session(std::shared_ptr<WindowSource> source) : source_(std::move(source)) {}
@@ -259,7 +259,7 @@ void Window::Session::obey(Channel& channel, FromWindow&& message) {
   } else if (const auto* lead = std::get_if<LeadHand>(&message)) {
     source_->lead_hand(lead->to_m);
   } else if (const auto* choose = std::get_if<ChooseObject>(&message)) {
-    source_->choose(choose->place);
+    source_->choose(choose->position);
   } else if (const auto* save = std::get_if<SaveChoices>(&message)) {
     channel.send(to_bytes(source_->save(save->film, save->edits)));
   } else if (const auto* play = std::get_if<PlayFilm>(&message)) {

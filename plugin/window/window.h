@@ -28,7 +28,7 @@ class WindowSource {
   virtual void set(const std::string& setting, double value) = 0;
   virtual void load_preset(const std::string& name) = 0;
   virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
-  virtual void choose(const std::optional<Eigen::Vector2d>& place) = 0;
+  virtual void choose(const std::optional<Eigen::Vector2d>& position) = 0;
   /// From then on the rules hold.
   virtual ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
   /// Asks the player, which may not do it.

@@ -213,8 +213,8 @@ bool gst_spidar_device_held(const GstSpidarDevice* device) {
   return device->device.held();
 }
 
-double gst_spidar_device_vibration_share(const GstSpidarDevice* device) {
-  return device->device.vibration_share();
+double gst_spidar_device_vibration_fraction(const GstSpidarDevice* device) {
+  return device->device.vibration_fraction();
 }
 
 void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench) {

@@ -40,7 +40,7 @@ spidar::Profile profile_for(const std::string& device, const std::string& profil
     if (name.find('\0') != std::string::npos)
       throw std::invalid_argument("a name has a NUL in it, behind \"" + std::string(name.c_str()) +
                                   "\"");
-  if (device == "none") throw std::runtime_error("\"none\" is no device that can be opened");
+  if (device == "none") throw std::runtime_error("\"none\" cannot be opened");
   spidar::Profile found = spidar::profile_for(device, profile);
   // That of its own drives.
   if (spidar::is_simulated(device)) found.drive_lag_known = true;
@@ -241,8 +241,8 @@ bool Device::held() const {
   return impl_->session.loop().snapshot().last.held;
 }
 
-double Device::vibration_share() const {
-  return impl_->session.loop().snapshot().vibration.share;
+double Device::vibration_fraction() const {
+  return impl_->session.loop().snapshot().vibration.fraction;
 }
 
 Wrench Device::felt() const {

@@ -35,20 +35,20 @@ struct BoardSettings {
 };
 
 /// How far a driver has been tested.
-enum class Trial {
+enum class Verification {
   kHardware,  ///< on the real board
   kEmulated,  ///< on an emulated board that follows the published description
   kInferred,  ///< parts of it are inferred, which an emulation cannot confirm
 };
 
 /// "tried on hardware", "emulated", "inferred".
-inline const char* to_string(Trial trial) noexcept {
-  switch (trial) {
-    case Trial::kHardware:
+inline const char* to_string(Verification verification) noexcept {
+  switch (verification) {
+    case Verification::kHardware:
       return "tried on hardware";
-    case Trial::kEmulated:
+    case Verification::kEmulated:
       return "emulated";
-    case Trial::kInferred:
+    case Verification::kInferred:
       return "inferred";
   }
   return "unknown";
@@ -116,8 +116,8 @@ inline bool pulls(const ForceOutput& output) noexcept {
   return output.on || !output.force_N.isZero(0);
 }
 
-inline ForceOutput scaled(ForceOutput output, double share) noexcept {
-  output.force_N *= share;
+inline ForceOutput scaled(ForceOutput output, double fraction) noexcept {
+  output.force_N *= fraction;
   return output;
 }
 

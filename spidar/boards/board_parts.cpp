@@ -16,9 +16,9 @@ constexpr double kLeast_m_per_count =
 }  // namespace
 
 void require_fitting(const std::string& device, const Profile& profile, const BoardTraits& board) {
-  const auto fail = [&](const std::string& what, Place place = Place::here()) {
+  const auto fail = [&](const std::string& what, SourceLocation location = SourceLocation::here()) {
     throw DeviceError(device + ": profile \"" + profile.name + "\" " + what,
-                      DeviceTrouble::kSettings, place);
+                      DeviceTrouble::kSettings, location);
   };
   if (profile.dac_bits != board.dac_bits)
     fail("has dac_bits = " + as_text(profile.dac_bits) + ", and the D/A of the board has " +

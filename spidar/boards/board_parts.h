@@ -40,11 +40,11 @@ inline int64_t soon_ns() noexcept {
 
 /// "usb:1-2: does not answer: stall"
 inline DeviceError no_answer(const std::string& board, LinkFault fault,
-                             Place place = Place::here()) {
+                             SourceLocation location = SourceLocation::here()) {
   return DeviceError(board + ": does not answer as it should: " + to_string(fault) +
                          "; switch it off and on, and check cable and supply",
                      fault == LinkFault::kGone ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed,
-                     place);
+                     location);
 }
 
 /// Tries the first exchange up to three times, because it may first receive data that an earlier

@@ -152,21 +152,21 @@ void FalconBoard::open() {
 
 /// From the counts, if they are counted from the marks.
 void FalconBoard::see() noexcept {
-  place_.reset();
+  position_.reset();
   if (!seen_.all_homed()) return;
   const Eigen::Vector3d angles_rad(falcon::angle_rad(seen_.count[0]),
                                    falcon::angle_rad(seen_.count[1]),
                                    falcon::angle_rad(seen_.count[2]));
   const auto position_m = falcon::grip_position(angles_rad);
   const auto jacobian = position_m ? falcon::jacobian(angles_rad, *position_m) : std::nullopt;
-  if (jacobian) place_ = {*position_m, *jacobian};
+  if (jacobian) position_ = {*position_m, *jacobian};
 }
 
 /// Shortened together, where one motor cannot give its part, so that the direction remains.
 std::array<int, 3> FalconBoard::digits_for(const Eigen::Vector3d& force_N) const noexcept {
   std::array<int, 3> digits{};
-  if (!place_ || !force_N.allFinite()) return digits;
-  Eigen::Vector3d wanted = falcon::kDigitsPerNm * (place_->jacobian.transpose() * force_N);
+  if (!position_ || !force_N.allFinite()) return digits;
+  Eigen::Vector3d wanted = falcon::kDigitsPerNm * (position_->jacobian.transpose() * force_N);
   const double most = wanted.cwiseAbs().maxCoeff();
   if (most > falcon::kMostDigit) wanted *= falcon::kMostDigit / most;
   for (size_t i = 0; i < digits.size(); ++i)
@@ -183,7 +183,7 @@ LinkFault FalconBoard::cycle(const ForceOutput& output, ForceReading& reading,
   if (fault != LinkFault::kNone) return fault;
   see();
   reading.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-  if (place_) reading.position_m = place_->position_m;
+  if (position_) reading.position_m = position_->position_m;
   reading.trouble = seen_.all_homed() ? PoseTrouble::kNoFit : PoseTrouble::kNotHomed;
   reading.buttons = seen_.buttons;
   return LinkFault::kNone;

@@ -43,7 +43,7 @@ class FalconBoard final : public ForceBoard {
                                             kMostForce_N,       1000,  4,    {0.035, 0.035, 0.023}};
 
   /// Where the grip was in the last answer.
-  struct Place {
+  struct Position {
     Eigen::Vector3d position_m;
     Eigen::Matrix3d jacobian;
   };
@@ -63,7 +63,7 @@ class FalconBoard final : public ForceBoard {
   const std::unique_ptr<Transport> transport_;
   falcon::Packet out_{};
   falcon::Reading seen_;
-  std::optional<Place> place_;
+  std::optional<Position> position_;
   bool stale_ = false;  ///< bytes of an exchange that failed may still arrive
 };
 

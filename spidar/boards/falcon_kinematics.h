@@ -20,7 +20,7 @@ namespace spidar::falcon {
 /// which use 0.075 to 0.175 m).
 constexpr double kCentre_m = 0.125;
 
-/// The grip reaches every place up to here from the origin, m, as the lengths give it. Often
+/// The grip reaches every position up to here from the origin, m, as the lengths give it. Often
 /// quoted is a cube of 4 inches.
 constexpr double kReach_m = 0.055;
 
@@ -34,8 +34,8 @@ constexpr double kMostAngle_rad = 1.9;
 std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noexcept;
 
 /// The position of the grip, device frame, m. Newton's method from the origin, which arrives from
-/// every place within kReach_m; without allocation, within kMaxSteps. Nothing if no position fits,
-/// or only one with a bent-back arm.
+/// every position within kReach_m; without allocation, within kMaxSteps. Nothing if no position
+/// fits, or only one with a bent-back arm.
 std::optional<Eigen::Vector3d> grip_position(const Eigen::Vector3d& angles_rad) noexcept;
 constexpr int kMaxSteps = 20;
 

@@ -44,7 +44,7 @@ class ForceFeedbackBoard final : public ForceBoard {
   LinkFault cycle(const ForceOutput& output, ForceReading& reading, int64_t) noexcept override {
     const LinkFault fault = effects_->cycle(output.force_N.head<2>(), pulls(output));
     if (fault != LinkFault::kNone) return fault;
-    reading.position_m.head<2>() = reach_m_.cwiseProduct(effects_->place());
+    reading.position_m.head<2>() = reach_m_.cwiseProduct(effects_->position());
     reading.buttons = effects_->buttons();
     return LinkFault::kNone;
   }
@@ -59,9 +59,10 @@ class ForceFeedbackBoard final : public ForceBoard {
     const ff::Description& found = effects_->description();
     std::string text = found.name.data();
     if (effects_->gain() < 1) {
-      char share[40];
-      std::snprintf(share, sizeof share, " at %.0f %% of its strength", 100 * effects_->gain());
-      text += share;
+      char fraction[40];
+      std::snprintf(fraction, sizeof fraction, " at %.0f %% of its strength",
+                    100 * effects_->gain());
+      text += fraction;
     }
     if (!found.constant)
       return text + ", rumble only: the strength of the force is felt, not its direction";

@@ -124,9 +124,9 @@ class Inverse3Board final : public ForceBoard {
   /// After it was lost, the same device is looked for: another hand may hold another one.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
   [[noreturn]] void refuse(const std::string& why, DeviceTrouble trouble = DeviceTrouble::kFailed,
-                           Place place = Place::here()) {
+                           SourceLocation location = SourceLocation::here()) {
     close();
-    throw DeviceError(name_ + ": " + why, trouble, place);
+    throw DeviceError(name_ + ": " + why, trouble, location);
   }
 
   const std::string name_;

@@ -30,11 +30,12 @@ namespace spidar {
 /// Motors pull only as long as every connection has its guardian. Without it, they are set to zero
 /// at once, and the device is lost until it is opened again with a new guardian.
 ///
-/// `Output` has a function pulls(output), whether it differs from rest, and scaled(output, share).
+/// `Output` has a function pulls(output), whether it differs from rest, and scaled(output,
+/// fraction).
 template <typename Output, typename Reading>
 class LinkThread final : public DeviceOf<Output, Reading> {
  public:
-  /// Share of a tick of 1 ms; the loop uses the rest.
+  /// Fraction of a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
   /// Time after which an exchange counts as failed.
   static constexpr int64_t kTransfer_ns = 5'000'000;

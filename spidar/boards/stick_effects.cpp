@@ -91,7 +91,7 @@ void StickEffects::start_updates() {
   const LinkFault fault =
       transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
   if (fault != LinkFault::kNone) throw no_answer(name_, fault);
-  place_.start(position, now_ns());
+  position_.start(position, now_ns());
   updated_.start(now_ns());
   cycled_ns_ = now_ns();
   if (updates_ == Updates::kInCycle) return;
@@ -185,16 +185,16 @@ int StickEffects::wanted_level(size_t effect) const noexcept {
   const double right = force_N_[0] / ff::kFullForce_N, up = force_N_[1] / ff::kFullForce_N;
   if (!std::isfinite(right) || !std::isfinite(up)) return 0;
   // A driver without a gain gets smaller levels instead.
-  const double share_used = description_.gain ? 1 : gain();
+  const double fraction_used = description_.gain ? 1 : gain();
   if (!description_.constant)
     return static_cast<int>(
-        std::lround(share_used * ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
+        std::lround(fraction_used * ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
   // A force that is too strong keeps its direction.
   const double largest =
       effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
   const double side = options_.flipped[effect] ? -1 : 1;
-  const double share = side * (effect == 0 ? right : up) / std::max(1.0, largest);
-  return static_cast<int>(std::lround(share_used * ff::kFullLevel * share));
+  const double fraction = side * (effect == 0 ? right : up) / std::max(1.0, largest);
+  return static_cast<int>(std::lround(fraction_used * ff::kFullLevel * fraction));
 }
 
 int64_t StickEffects::now_ns() const noexcept {
@@ -205,7 +205,7 @@ LinkFault StickEffects::read_and_set() noexcept {
   ff::Position position;
   LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
   if (fault != LinkFault::kNone) return fault;
-  place_.see(position, now_ns());
+  position_.see(position, now_ns());
   fault = take_settings();
   if (fault == LinkFault::kNone) fault = set_one_level();
   return fault == LinkFault::kNone ? refresh() : fault;
@@ -261,7 +261,7 @@ LinkFault StickEffects::cycle(const Eigen::Vector2d& force_N, bool pulls) noexce
   if (updates_ == Updates::kInCycle && cycle_++ % kUpdate_ms == 0) update();
   const int64_t now = now_ns();
   const LinkFault fault = updated_.report(now);
-  if (fault == LinkFault::kNone) place_.advance(now);
+  if (fault == LinkFault::kNone) position_.advance(now);
   return fault;
 }
 

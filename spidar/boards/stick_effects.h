@@ -30,7 +30,7 @@ namespace spidar {
 /// reading, when the position has just arrived.
 ///
 /// see() is called by the thread that makes the updates, everything else by the one that exchanges.
-class StickPlace {
+class StickPosition {
  public:
   /// The slowest that a position moves to a new reading.
   static constexpr int64_t kLongest_ns = 100'000'000;
@@ -40,7 +40,7 @@ class StickPlace {
     seen_ns_ = shown_ns_ = now_ns;
     aim_ = {position, now_ns};
     newest_.store(aim_);
-    shown_ = share_of(position);
+    shown_ = fraction_of(position);
   }
 
   void see(const ff::Position& position, int64_t now_ns) noexcept {
@@ -51,7 +51,7 @@ class StickPlace {
   /// Moves to where the position is at this time.
   void advance(int64_t now_ns) noexcept {
     newest_.try_load(aim_);  // keeps the previous one while a new one is being written
-    const Eigen::Vector2d to = share_of(aim_.position);
+    const Eigen::Vector2d to = fraction_of(aim_.position);
     const auto passed_ns = static_cast<double>(now_ns - shown_ns_);
     const auto left_ns = static_cast<double>(aim_.arrival_ns - shown_ns_);
     shown_ =
@@ -60,7 +60,7 @@ class StickPlace {
   }
 
   /// Right and up, −1 … 1, as of the last advance().
-  const Eigen::Vector2d& share() const noexcept { return shown_; }
+  const Eigen::Vector2d& fraction() const noexcept { return shown_; }
   /// See ff::Position, as of the last advance().
   uint32_t buttons() const noexcept { return aim_.position.buttons; }
 
@@ -70,7 +70,7 @@ class StickPlace {
     int64_t arrival_ns = 0;
   };
 
-  static Eigen::Vector2d share_of(const ff::Position& position) noexcept {
+  static Eigen::Vector2d fraction_of(const ff::Position& position) noexcept {
     return Eigen::Vector2d(position.right, position.up) / ff::Position::kFull;
   }
 
@@ -147,7 +147,7 @@ class UpdateWatch {
 /// by itself when this process hangs or is stopped.
 ///
 /// A call of a driver that hangs cannot be ended: the kernel lets no other call to the device pass
-/// until it returns, not even the guardian's. report() then returns a time-out, see UpdateWatch,
+/// until it returns, not even the guardian's. report() then returns a timeout, see UpdateWatch,
 /// and close() leaves the thread alone, which shares the ownership of this object and releases the
 /// device when the driver returns.
 ///
@@ -161,7 +161,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   static constexpr int kHang_ms = 300;
 
   struct Options {
-    /// The share of the device's strength that is used, at most 1; 0: kDefaultGain, or all of a
+    /// The fraction of the device's strength that is used, at most 1; 0: kDefaultGain, or all of a
     /// device that only rumbles.
     double gain = 0;
     /// The driver turns the force to the other side: right and up.
@@ -188,8 +188,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// exchange is to report. Does not wait.
   LinkFault cycle(const Eigen::Vector2d& force_N, bool pulls) noexcept;
   /// Position of the stick, −1 … 1, as of the last cycle().
-  const Eigen::Vector2d& place() const noexcept { return place_.share(); }
-  uint32_t buttons() const noexcept { return place_.buttons(); }
+  const Eigen::Vector2d& position() const noexcept { return position_.fraction(); }
+  uint32_t buttons() const noexcept { return position_.buttons(); }
 
   std::vector<LastWill> last_wills() const;
   /// What the open device can do.
@@ -212,9 +212,9 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   Transfer upload(size_t effect, int level) noexcept;
   Transfer play(size_t effect) noexcept;
   Transfer send(ByteView event) noexcept;
-  /// Once forces are switched on: sets gain to the share that is used and autocentre to off, which
-  /// earlier programs or the driver may have left otherwise, and which would scale the force or add
-  /// to it. Until both have been accepted, no level is set.
+  /// Once forces are switched on: sets gain to the fraction that is used and autocentre to off,
+  /// which earlier programs or the driver may have left otherwise, and which would scale the force
+  /// or add to it. Until both have been accepted, no level is set.
   LinkFault take_settings() noexcept;
   /// Gain to full and, if the driver had turned it on, autocentre by a ramp.
   void return_settings() noexcept;
@@ -250,7 +250,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   bool centring_off_ = false;          ///< autocentre may be off
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
-  StickPlace place_;
+  StickPosition position_;
 };
 
 }  // namespace spidar

@@ -105,7 +105,7 @@ double correlation_factor(const Fit& fit) {
 /// complement of bundle adjustment as a square root: it stays accurate where the information matrix
 /// is singular and its inverse does not exist.
 double largest_sd(const Fit& fit) {
-  // Singular values below this share of the largest one are rounding errors.
+  // Singular values below this fraction of the largest one are rounding errors.
   constexpr double kRank = 1e-10;
   const CalibrationModel& model = fit.model;
   const Eigen::Index left = fit.redundant(), samples = fit.errors_m.rows();

@@ -15,11 +15,11 @@
 
 namespace spidar {
 
-/// The parameters that all samples share, all in metres: an offset for each string; the scale minus
-/// one, times the mean length at the centre; the exits along the directions that neither shift nor
-/// turn the frame as a whole. (The position of the frame is not observable, because moving all
-/// exits and all poses together changes no length. This is the choice of "inner constraints" in
-/// geodesy.)
+/// The parameters that all samples share, all in metres: an offset for each string; the scale
+/// minus one, times the mean length at the centre; the exits along the directions that neither
+/// shift nor turn the frame as a whole. (The position of the frame is not observable, because
+/// moving all exits and all poses together changes no length. This is the choice of "inner
+/// constraints" in geodesy.)
 class CalibrationModel {
  public:
   CalibrationModel(const Profile& profile, const CalibrationSettings& settings);

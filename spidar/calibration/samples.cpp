@@ -11,9 +11,9 @@
 
 #include "core/grip/pose_solver.h"
 #include "spidar/as_text.h"
-#include "spidar/conformance/hold.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
+#include "spidar/selftest/hold.h"
 
 namespace spidar {
 namespace {

@@ -30,7 +30,7 @@ struct GripAbilities {
 
   /// Whether the grip can touch a picture, of which the depth is felt.
   bool can_touch() const noexcept { return force[2] && position[2]; }
-  /// Whether the grip can point at a place of a picture.
+  /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
 };
 
@@ -61,8 +61,8 @@ struct GripCommand {
   Wrench wrench;  ///< on the hand: within the limits, and no faster than they allow
   /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
   bool fresh = false;
-  /// Share of everything that pulls, 0 … 1: it rises after opening and falls before closing. At 0
-  /// the motors are off.
+  /// Fraction of everything that pulls, 0 … 1: it rises after opening and falls before closing. At
+  /// 0 the motors are off.
   double power = 0;
   SafetyLimits limits;
   double dt_s = 0;  ///< since the last tick

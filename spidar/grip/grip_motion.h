@@ -14,9 +14,9 @@
 
 namespace spidar {
 
-/// 1 − exp(−x) for x = `dt_s` / `time_s`: the share of the way that a first-order low-pass goes. By
-/// a series of the third order, because a tick needs five of them; at x = 0.5 it is 0.3 % less.
-inline double share_passed(double dt_s, double time_s) noexcept {
+/// 1 − exp(−x) for x = `dt_s` / `time_s`: the fraction of the way that a first-order low-pass goes.
+/// By a series of the third order, because a tick needs five of them; at x = 0.5 it is 0.3 % less.
+inline double fraction_passed(double dt_s, double time_s) noexcept {
   if (!(time_s > 0)) return 1;
   const double x = dt_s / time_s;
   return 1 - 1 / (1 + x * (1 + x * (0.5 + x / 6)));
@@ -45,13 +45,13 @@ class GripMotion {
     if (started_ && !(dt_s > 0)) return;
     if (started_) {
       std::copy_backward(velocity_.begin(), velocity_.end() - 1, velocity_.end());
-      const double share = share_passed(dt_s, 1 / (2 * M_PI * kCutoff_Hz));
+      const double fraction = fraction_passed(dt_s, 1 / (2 * M_PI * kCutoff_Hz));
       const Eigen::Quaterniond turn = pose.orientation * last_.orientation.conjugate();
       // For the small angles of a tick the rotation vector is twice the vector part.
       const Eigen::Vector3d turn_rad = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
       GripVelocity& now = velocity_[0];
-      now.linear_m_s += share * ((pose.position_m - last_.position_m) / dt_s - now.linear_m_s);
-      now.angular_rad_s += share * (turn_rad / dt_s - now.angular_rad_s);
+      now.linear_m_s += fraction * ((pose.position_m - last_.position_m) / dt_s - now.linear_m_s);
+      now.angular_rad_s += fraction * (turn_rad / dt_s - now.angular_rad_s);
       dt_s_ = dt_s;
     }
     started_ = true;

@@ -10,15 +10,15 @@ namespace spidar {
 StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& profile,
                                 double dt_s) noexcept {
   StringVector wanted_N = tension_N;
-  double share = 1;
+  double fraction = 1;
   for (int i = 0; i < profile.geometry.count; ++i) {
     const StringDrive& drive = profile.drives[static_cast<size_t>(i)];
     if (!std::isfinite(wanted_N[i])) wanted_N[i] = drive.min_tension_N;
     const double allowed_N = non_negative(dt_s) * pace_N_s(drive);
     const double change_N = std::fabs(wanted_N[i] - last_N_[i]);
-    if (change_N > allowed_N) share = std::min(share, allowed_N / change_N);
+    if (change_N > allowed_N) fraction = std::min(fraction, allowed_N / change_N);
   }
-  last_N_ = share < 1 ? StringVector(last_N_ + share * (wanted_N - last_N_)) : wanted_N;
+  last_N_ = fraction < 1 ? StringVector(last_N_ + fraction * (wanted_N - last_N_)) : wanted_N;
   return last_N_;
 }
 
@@ -81,7 +81,7 @@ void TensionCommand::reset() noexcept {
   solver_.reset();
   last_N_ = min_N_;
   last_size_N_ = 0;
-  share_ = 1;
+  fraction_ = 1;
   left_out_ = -1;
 }
 
@@ -106,11 +106,11 @@ double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& li
 }
 
 // When some strings may not use their full range, the others would produce a wrench in another
-// direction. The wanted wrench is therefore reduced to the share that can be produced. This share
-// varies continuously with pose, wrench and limits.
+// direction. The wanted wrench is therefore reduced to the fraction that can be produced. This
+// fraction varies continuously with pose, wrench and limits.
 StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
                                    const StringVector& limit_N) noexcept {
-  share_ = 1;
+  fraction_ = 1;
   const double size = last_size_N_ = size_N(wrench);
   last_N_ = min_N_;
   if (!(size > 0)) return last_N_;
@@ -121,8 +121,8 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);
   if (denied > 0) {
-    share_ = std::max(0.0, 1 - denied * result.residual_N / size);
-    pose_problem(share_ * wrench, limit_N);
+    fraction_ = std::max(0.0, 1 - denied * result.residual_N / size);
+    pose_problem(fraction_ * wrench, limit_N);
     problem_.wrench = problem_.wrench + at_rest;
     result = solver_.solve(problem_);
   }
@@ -134,8 +134,8 @@ double TensionCommand::stray_Nm(const SafetyLimits& limits) const noexcept {
   return kStrayLever * problem_.torque_length_m * limits.max_force_N;
 }
 
-double TensionCommand::share_within(const StructureMatrix& W,
-                                    const SafetyLimits& limits) const noexcept {
+double TensionCommand::fraction_within(const StructureMatrix& W,
+                                       const SafetyLimits& limits) const noexcept {
   const Wrench whole = wrench_of(W, last_N_);
   const Wrench rest = wrench_of(W, min_N_);
   const Wrench added = whole - rest;
@@ -169,13 +169,13 @@ StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits&
   if (stays_within(W, limits, pose, way_m)) return last_N_;
   const StructureMatrix there = structure_matrix(geometry_, motion.pose_in(pose, ahead_s_));
   // The structure matrix changes little on the way: its ends bound the wrench between them.
-  const double share = std::min(share_within(W, limits), share_within(there, limits));
-  if (share < 1) last_N_ = min_N_ + share * (last_N_ - min_N_);
+  const double fraction = std::min(fraction_within(W, limits), fraction_within(there, limits));
+  if (fraction < 1) last_N_ = min_N_ + fraction * (last_N_ - min_N_);
   return last_N_;
 }
 
 StringVector TensionCommand::fade(const Wrench& wrench, double pace) noexcept {
-  share_ = 1;
+  fraction_ = 1;
   if (!(last_size_N_ > 0)) return min_N_;
   const double gone = 1 - size_N(wrench) / last_size_N_;
   return min_N_ + std::clamp(1 - pace * gone, 0.0, 1.0) * (last_N_ - min_N_);

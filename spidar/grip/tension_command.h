@@ -79,7 +79,7 @@ class TensionSlew {
 
   explicit TensionSlew(const Profile& profile) { reset(profile); }
 
-  /// All strings make the same share of their step, so that no bound is exceeded and the wrench
+  /// All strings make the same fraction of their step, so that no bound is exceeded and the wrench
   /// lies between the previous and the wanted one. A tension that is not a number counts as the
   /// minimum.
   StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
@@ -149,20 +149,20 @@ class TensionCommand {
                      const GripMotion& motion) noexcept;
 
   /// Without a wrench that is wanted or a pose that is known: takes `wrench`, which is ramping to
-  /// zero, as a share of the wrench of the last solve(), and returns the tensions to rest by the
-  /// same share, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
+  /// zero, as a fraction of the wrench of the last solve(), and returns the tensions to rest by the
+  /// same fraction, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
-  /// share of the wrench that is used grows, its tension decreases from the minimum to zero. At
+  /// fraction of the wrench that is used grows, its tension decreases from the minimum to zero. At
   /// rest it keeps its minimum tension like the others, because it may not really be broken, and
   /// then seven strings would pull the grip aside. −1: none.
   void leave_out(int string) noexcept { left_out_ = string; }
 
-  /// Share of the wrench that the last solve() used. It is below 1 if a string is left out or
+  /// Fraction of the wrench that the last solve() used. It is below 1 if a string is left out or
   /// limited, because the other strings alone would give a different wrench.
-  double share() const noexcept { return share_; }
-  bool held_back() const noexcept { return share_ < 1; }
+  double fraction() const noexcept { return fraction_; }
+  bool held_back() const noexcept { return fraction_ < 1; }
 
   /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
@@ -171,13 +171,13 @@ class TensionCommand {
   double size_N(const Wrench& wrench) const noexcept;
 
  private:
-  /// Sets the wrench of the problem and the corresponding bounds. Returns the share of their range
-  /// that strings may not use, 0 … 1.
+  /// Sets the wrench of the problem and the corresponding bounds. Returns the fraction of their
+  /// range that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;
 
-  /// The share, 0 … 1, of what the last solve() adds to rest that is within `limits` at a pose with
-  /// the structure matrix `W`.
-  double share_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
+  /// The fraction, 0 … 1, of what the last solve() adds to rest that is within `limits` at a pose
+  /// with the structure matrix `W`.
+  double fraction_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
   /// Whether the last solve() is within `limits` at all poses that are reached from `pose` when no
   /// point of the grip moves by more than `way_m`. False when a bound cannot tell.
   bool stays_within(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
@@ -195,7 +195,7 @@ class TensionCommand {
   int left_out_ = -1;
   StringVector last_N_;  ///< of the last solve()
   double last_size_N_ = 0;
-  double share_ = 1;
+  double fraction_ = 1;
 };
 
 }  // namespace spidar

@@ -8,11 +8,11 @@
 namespace spidar::brake {
 
 // --- A grip, a hand
-constexpr double kBareGrip_kg = 0.1;     // mass without a hand: from a third of it to a fifth more
+constexpr double kUnheldGrip_kg = 0.1;   // mass without a hand: from a third of it to a fifth more
 constexpr double kFirmHand_N_m = 200;    // a firm hand has 300 or more, a light one 100
 constexpr double kLooseHand_N_m = 100;   // a softer hold is a loose hand or none
 constexpr double kFastest_m_s = 1.5;     // faster than any film moves a hand: 0.45
-constexpr double kFastest_rad_s = 20;    // a hand to and fro by 45°, 4 a second; a bare grip: 40
+constexpr double kFastest_rad_s = 20;    // a hand to and fro by 45°, 4 a second; a unheld grip: 40
 constexpr double kTellingForce_N = 0.1;  // less force moves a hand less than it moves by itself
 constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any force
 
@@ -28,7 +28,7 @@ constexpr double kLongestFall_s = 0.02;  // in a loose hand the acceleration is 
 // --- From the whole wrench to none, and back
 constexpr double kRelease_s = 0.01;  // full force at the slew limit, 3 N by 300 N/s
 constexpr double kRest_s = 1.0;      // a released grip swings out, see ItsForceRestsAndReturns
-constexpr double kReturn_s = 1.0;    // slow enough that a bare grip gives itself away
+constexpr double kReturn_s = 1.0;    // slow enough that a unheld grip gives itself away
 constexpr double kEases_s = 0.1;     // with kRelease_s, strings throw a grip that they balance
 
 // --- A grip that moves as the strings alone would move it
@@ -36,17 +36,17 @@ constexpr double kMemory_s = 0.05;           // a hand of 100 N/m takes 30 ms to
 constexpr double kSlowest_m_s = 0.55;        // no film moves a hand of 300 N/m as fast, …
 constexpr double kSlowestAtRest_m_s = 0.15;  // … and none at all while there is no force
 constexpr double kAligned = 0.8;             // cosine of 37° between both ways
-constexpr double kLeastShare = 0.85;         // of both speeds: a grip that is a fifth heavier
-constexpr double kMostShare = 3;             // a grip that is a third as heavy
+constexpr double kLeastFraction = 0.85;      // of both speeds: a grip that is a fifth heavier
+constexpr double kMostFraction = 3;          // a grip that is a third as heavy
 constexpr double kSpins_s = 0.01;  // 0.015: 1.10 m/s; wrong poses turn for 5 ms, seldom 15
 
 // --- A grip that yields, or stores energy
 constexpr double kYieldTime_s = 0.05;  // in which a grip in a loose hand follows a force
 constexpr double kFirmForce_N = 0.3;   // that proves a hand, with kFirmHand_N_m, …
-constexpr double kWithstands_s = 0.3;  // … for so long: a bare grip follows in 0.07
+constexpr double kWithstands_s = 0.3;  // … for so long: a unheld grip follows in 0.07
 constexpr double kThrown_m = 0.025;    // 0.03: 1.07 m/s; 0.02: firm hands lose 3 times as much
 constexpr double kThrown_m_s = 0.4;    // along the force; a film moves a hand by 0.45 at most
 constexpr double kStored_s = 0.2;      // until the smoothed force has turned, and the grip is back
-constexpr double kThrows_J = 0.05;     // twice what throws a bare grip of 50 g at 1 m/s
+constexpr double kThrows_J = 0.05;     // twice what throws a unheld grip of 50 g at 1 m/s
 
 }  // namespace spidar::brake

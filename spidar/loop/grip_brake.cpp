@@ -30,8 +30,8 @@ double left_at(double speed_m_s) {
   return std::clamp((kFadeTo_m_s - speed_m_s) / kWay_m_s, 0.0, 1.0);
 }
 
-/// Reduces the part of `vector` along `velocity` to the share that the speed leaves. A turn has the
-/// speed at the end of an arm of `metres`. `earlier_m_s` is added to the speed.
+/// Reduces the part of `vector` along `velocity` to the fraction that the speed leaves. A turn has
+/// the speed at the end of an arm of `metres`. `earlier_m_s` is added to the speed.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double metres,
                       double earlier_m_s) {
   const double size = velocity.norm();
@@ -70,10 +70,10 @@ void GripBrake::reset() noexcept {
 
 void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept {
   // What was told before acts until now.
-  acting_N_ += share_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
-  late_N_ += share_passed(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
-  given_m_s_ += dt_s / kBareGrip_kg * late_N_;
-  given_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
+  acting_N_ += fraction_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
+  late_N_ += fraction_passed(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
+  given_m_s_ += dt_s / kUnheldGrip_kg * late_N_;
+  given_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   strings_N_ = strings.force_N;
   rest_N_ = at_rest.force_N;
 }
@@ -84,7 +84,7 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   compare_with_force(position_m, now_m_s, dt_s);
   spun_s_ = motion.velocity().angular_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : 0;
   seen_m_s_ += now_m_s - last_m_s_;
-  seen_m_s_ *= 1 - share_passed(dt_s, kMemory_s);
+  seen_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   last_m_s_ = now_m_s;
 }
 
@@ -97,10 +97,10 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
     withstood_s_ = loose_s_ = 0;
     located_ = true;
   }
-  const double share = share_passed(dt_s, kYieldTime_s);
+  const double fraction = fraction_passed(dt_s, kYieldTime_s);
   const Eigen::Vector3d way_m = position_m - from_m_;
-  gone_m_ += share * (way_m - gone_m_);
-  pulled_N_ += share * (strings_N_ - pulled_N_);
+  gone_m_ += fraction * (way_m - gone_m_);
+  pulled_N_ += fraction * (strings_N_ - pulled_N_);
   const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
   balanced_ = is_balanced(way_m);
   loose_s_ = has_yielded() || thrown || balanced_ ? kStored_s : loose_s_ - dt_s;
@@ -125,7 +125,7 @@ bool GripBrake::is_loose(const Eigen::Vector3d& way_m) const noexcept {
 /// If there was no hand that withstood the force, it has also gone far.
 bool GripBrake::has_yielded() const noexcept {
   if (!is_loose(gone_m_)) return false;
-  return share_ < 1 || (!is_withstood() && gone_m_.norm() > kThrown_m);
+  return fraction_ < 1 || (!is_withstood() && gone_m_.norm() > kThrown_m);
 }
 
 /// Springs store by where the grip is now: at 0.5 m/s the smoothed way is 25 mm behind. To a loose
@@ -136,14 +136,14 @@ bool GripBrake::has_stored(const Eigen::Vector3d& way_m) const noexcept {
   return twice_J > kLooseHand_N_m * kThrown_m * kThrown_m;
 }
 
-/// A bare grip follows a force that rises slowly to where the strings at rest balance it.
+/// A unheld grip follows a force that rises slowly to where the strings at rest balance it.
 bool GripBrake::is_balanced(const Eigen::Vector3d& way_m) const noexcept {
   return !is_withstood() && pulled_N_.norm() <= kTellingForce_N && -rest_N_.dot(way_m) > kThrows_J;
 }
 
 bool GripBrake::yields(const GripMotion& motion) const noexcept {
   if (!has_yielded()) return false;
-  if (share_ < 1) return true;
+  if (fraction_ < 1) return true;
   const Eigen::Vector3d& velocity_m_s = motion.velocity().linear_m_s;
   const double speed_m_s = velocity_m_s.norm();
   return speed_m_s > kThrown_m_s &&
@@ -154,10 +154,10 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
   if (spun_s_ >= kSpins_s) return true;
   const double speed_m_s = motion.velocity().linear_m_s.norm();
   if (speed_m_s > kFastest_m_s) return true;
-  const double slowest_m_s = kSlowestAtRest_m_s + share_ * (kSlowest_m_s - kSlowestAtRest_m_s);
+  const double slowest_m_s = kSlowestAtRest_m_s + fraction_ * (kSlowest_m_s - kSlowestAtRest_m_s);
   if (speed_m_s < slowest_m_s) return false;
   const double seen_m_s = seen_m_s_.norm(), given_m_s = given_m_s_.norm();
-  return seen_m_s >= kLeastShare * given_m_s && seen_m_s <= kMostShare * given_m_s &&
+  return seen_m_s >= kLeastFraction * given_m_s && seen_m_s <= kMostFraction * given_m_s &&
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 
@@ -166,19 +166,20 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double m
   if (is_released(motion) || (resting_s_ <= 0 && yields(motion))) release();
   if (resting_s_ > 0) {
     resting_s_ -= dt_s;
-    share_ = std::max(0.0, share_ - dt_s / kRelease_s);
+    fraction_ = std::max(0.0, fraction_ - dt_s / kRelease_s);
   } else {
-    share_ = std::clamp(share_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
+    fraction_ = std::clamp(fraction_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
   }
   const bool loose = loose_s_ > 0;
   const double earlier_m_s = loose ? kEarlier_m_s : 0;
   const double falls_s =
       loose ? still_pushes_s(strings_N_, motion.velocity().linear_m_s, max_slew_N_s) : 0;
   const GripVelocity then = motion.velocity_in(kLoop_s + drive_lag_s_ + falls_s);
-  const Eigen::Vector3d force_N = faded(share_ * wanted.force_N, then.linear_m_s, 1, earlier_m_s) +
-                                  damping(then.linear_m_s, 1, earlier_m_s);
+  const Eigen::Vector3d force_N =
+      faded(fraction_ * wanted.force_N, then.linear_m_s, 1, earlier_m_s) +
+      damping(then.linear_m_s, 1, earlier_m_s);
   const Eigen::Vector3d torque_Nm =
-      faded(share_ * wanted.torque_Nm, then.angular_rad_s, radius_m_, earlier_m_s) +
+      faded(fraction_ * wanted.torque_Nm, then.angular_rad_s, radius_m_, earlier_m_s) +
       damping(then.angular_rad_s, radius_m_, earlier_m_s);
   // The strings cannot do both: what a torque takes, the damper of the way misses.
   return {force_N, left_at(then.linear_m_s.norm() + earlier_m_s) * torque_Nm};

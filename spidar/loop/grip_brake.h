@@ -17,7 +17,7 @@ namespace spidar {
 ///   fades out, because the damper needs the strings.
 /// - A damper acts above kDampedFrom_m_s.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
-///   faster than kFastest_rad_s, or moves as the strings alone would move a bare grip. After
+///   faster than kFastest_rad_s, or moves as the strings alone would move a unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
 ///   still is no hand.
 /// - It also goes to rest again if the grip yields to the force that returns as only a loose hand
@@ -28,10 +28,10 @@ namespace spidar {
 ///   a fast grip that has gone far along the force is one that yields, too. With a slow one, and
 ///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
 ///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
-///   that is reversed. The speed is then foreseen for as long as the force that still acts along it
-///   needs to fall.
+///   that is reversed. The speed is then predicted for as long as the force that still acts along
+///   it needs to fall.
 ///
-/// The speeds, times and shares are in brake_table.h, with their sources.
+/// The speeds, times and fractions are in brake_table.h, with their sources.
 ///
 /// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
 /// at no more than 0.45 m/s when a force of 3 N is reversed.
@@ -58,7 +58,7 @@ class GripBrake {
                double dt_s) noexcept;
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
-  bool held() const noexcept { return share_ >= 1 && resting_s_ <= 0; }
+  bool held() const noexcept { return fraction_ >= 1 && resting_s_ <= 0; }
 
  private:
   bool is_released(const GripMotion& motion) const noexcept;
@@ -73,7 +73,7 @@ class GripBrake {
 
   const double radius_m_;
   const double drive_lag_s_;
-  // What the strings gave a bare grip in the last kMemory_s, and what was seen.
+  // What the strings gave a unheld grip in the last kMemory_s, and what was seen.
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< told
   Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();     ///< what of it pulls to the centre
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
@@ -90,7 +90,7 @@ class GripBrake {
   bool balanced_ = false;   ///< whether the strings at rest balance what has brought it there
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
   double loose_s_ = 0;      ///< for how long the grip still counts as one that has stored energy
-  double share_ = 1;        ///< of the wrench
+  double fraction_ = 1;     ///< of the wrench
   double resting_s_ = 0;    ///< until it begins to return
 };
 

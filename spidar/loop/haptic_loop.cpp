@@ -210,7 +210,7 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
     state_ = power_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   const GripReading& grip = grip_->reading();
-  const Wrench allowed = vibration_.share() * record.wanted;
+  const Wrench allowed = vibration_.fraction() * record.wanted;
   const Wrench braked = grip_->traits().can_fly
                             ? brake_.apply(allowed, grip.motion, limits_.max_slew_N_s, dt_s)
                             : allowed;

@@ -92,12 +92,12 @@ Wrench WrenchCallback::bounded(const Wrench& wanted, const CallbackInput& input,
                                const Eigen::Vector3d& beside_N, const ForcePath& path) noexcept {
   constexpr double kAny_J = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& grip_m = input.pose.position_m;
-  const Eigen::Vector3d way_m = has_place_ ? grip_m - place_m_ : Eigen::Vector3d(0, 0, 0);
-  place_m_ = grip_m;
-  has_place_ = true;
+  const Eigen::Vector3d way_m = has_position_ ? grip_m - position_m_ : Eigen::Vector3d(0, 0, 0);
+  position_m_ = grip_m;
+  has_position_ = true;
   budget_.follow(way_m, input.velocity.linear_m_s, 0, pushes_ ? kAny_J : 0);
   Wrench passive;
-  passive.force_N = wanted.force_N * budget_.allowed_share(wanted.force_N, path, input.dt_s);
+  passive.force_N = wanted.force_N * budget_.allowed_fraction(wanted.force_N, path, input.dt_s);
   pushes_ = !passive.force_N.isZero(0);
   budget_.command(passive.force_N, beside_N, path, input.dt_s);
   return passive;

@@ -63,7 +63,7 @@ class WrenchCallback {
   /// A tick in which the pose is not known.
   void rest() noexcept {
     budget_ = {};
-    has_place_ = false;
+    has_position_ = false;
   }
 
  private:
@@ -88,8 +88,8 @@ class WrenchCallback {
   int slow_in_a_row_ = 0;
   uint64_t last_ = 0;  // number of the function that was called last
   EnergyBudget budget_;
-  Eigen::Vector3d place_m_ = Eigen::Vector3d::Zero();
-  bool has_place_ = false;
+  Eigen::Vector3d position_m_ = Eigen::Vector3d::Zero();
+  bool has_position_ = false;
   bool pushes_ = false;  // the last wrench had a force
 };
 

@@ -72,17 +72,18 @@ Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& l
 double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept {
   const double step = limits.ramp_s > 0 ? non_negative(dt_s) / limits.ramp_s : 1.0;
   way_ = fresh ? std::min(way_ + step, 1.0) : std::max(way_ - step, 0.0);
-  return share();
+  return fraction();
 }
 
 Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
                            const SafetyLimits& limits) noexcept {
   slew_before_ = slew_;
   stale_before_ = stale_;
-  const double before = stale_.share();
-  const double share = stale_.apply(fresh, dt_s, limits);
-  if (fresh) return slew_.apply(share * limit_total(finite_.apply(wanted), limits), dt_s, limits);
-  const double left = before > 0 ? share / before : 0;
+  const double before = stale_.fraction();
+  const double fraction = stale_.apply(fresh, dt_s, limits);
+  if (fresh)
+    return slew_.apply(fraction * limit_total(finite_.apply(wanted), limits), dt_s, limits);
+  const double left = before > 0 ? fraction / before : 0;
   const Wrench last = slew_.last();
   const Wrench within = limit_total(left * last, limits);
   const auto step = [&](double size, double max_slew) {
@@ -116,7 +117,7 @@ constexpr double kHighPassQ = 0.7071067812;
 constexpr double kTransition_rad_s = 100;
 constexpr double kTransitionQ = 0.64;
 /// Mean of the squared acceleration. A jolt of a slow film is spread over this time; a strong
-/// vibration still lowers the force at once, because a small share of its mean is enough.
+/// vibration still lowers the force at once, because a small fraction of its mean is enough.
 constexpr double kMean_s = 2;
 /// Added to the acceleration, m/s². A constant passes no high-pass, and keeps the numbers of a
 /// filter without input from becoming denormal, which takes long to compute with.
@@ -164,15 +165,15 @@ void VibrationBudget::pass(const Wrench& strings, double dt_s, int64_t now_ns) n
   const double left_m2_s3 = std::max(0.0, kStore_m2_s3 - kRefill_m2_s4 * empty_s);
   state_.left = 1 / kStore_m2_s3 * left_m2_s3;
 
-  // The share is constant over a period of what is shaken, so that the vibration without it follows
-  // from what was passed.
-  const double least_share = 1e-3;
-  const double passed = std::max(state_.share, least_share);
+  // The fraction is constant over a period of what is shaken, so that the vibration without it
+  // follows from what was passed.
+  const double least_fraction = 1e-3;
+  const double passed = std::max(state_.fraction, least_fraction);
   const double whole_m2_s4 = squared_m2_s4 / (passed * passed);
   mean_m2_s4_ += 1 / kMean_s * dt_s * (whole_m2_s4 - mean_m2_s4_);
   most_m2_s4_ = std::max(mean_m2_s4_, most_m2_s4_ * (1 - 1 / kReturn_s * dt_s));
   const double permitted_m2_s4 = std::max(kAlways_m2_s4, 1 / kEmptied_s * left_m2_s3);
-  state_.share = most_m2_s4_ > permitted_m2_s4 ? std::sqrt(permitted_m2_s4 / most_m2_s4_) : 1;
+  state_.fraction = most_m2_s4_ > permitted_m2_s4 ? std::sqrt(permitted_m2_s4 / most_m2_s4_) : 1;
 }
 
 }  // namespace spidar

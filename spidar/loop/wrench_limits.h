@@ -57,11 +57,11 @@ class SlewLimit {
 /// hardly any difference.
 class StaleRamp {
  public:
-  /// Returns the share of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh`: there is
-  /// a valid command now. A ramp_s of zero switches at once.
+  /// Returns the fraction of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh`: there
+  /// is a valid command now. A ramp_s of zero switches at once.
   double apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
   void reset() noexcept { way_ = 0; }
-  double share() const noexcept { return way_ * way_ * (3 - 2 * way_); }
+  double fraction() const noexcept { return way_ * way_ * (3 - 2 * way_); }
 
   /// Slope of the steepest part, relative to a straight line.
   static constexpr double kSteepest = 1.5;
@@ -72,7 +72,7 @@ class StaleRamp {
 
 /// The four steps in a row, from a wanted wrench to the commanded one.
 ///
-/// On the way to rest, the stale share is the last step, so that no slew setting, however low,
+/// On the way to rest, the stale fraction is the last step, so that no slew setting, however low,
 /// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
 /// that both together do not exceed that limit. A fresh command therefore changes by at most
 /// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
@@ -102,16 +102,17 @@ class WrenchLimits {
 };
 
 struct VibrationState {
-  /// Share of the wanted wrench that may be exerted, 0 … 1.
-  double share = 1;
+  /// Fraction of the wanted wrench that may be exerted, 0 … 1.
+  double fraction = 1;
   /// What is left in the store, 0 … 1.
   double left = 1;
 
   /// A hand notices that the force is lowered: a force must change by 7 % for that.
-  bool lowered() const noexcept { return share < 0.93; }
+  bool lowered() const noexcept { return fraction < 0.93; }
 };
 
-/// Measures the vibration that the strings cause and finds the share of the force that may go on.
+/// Measures the vibration that the strings cause and finds the fraction of the force that may go
+/// on.
 ///
 /// The alternating part of the force, divided by kMoved_kg, is an acceleration. It is weighted with
 /// W_h of ISO 5349-1, squared and integrated. A torque counts as the force at the grip's radius
@@ -121,7 +122,7 @@ struct VibrationState {
 /// There is a store of kStore_m2_s3, from which the vibration takes, and which is refilled with
 /// kRefill_m2_s4. In any 24 hours a hand therefore gets at most kStore_m2_s3 + 24 h ·
 /// kRefill_m2_s4, which is the daily action value of Directive 2002/44/EC: 2.5 m/s² for eight
-/// hours. The share falls so that the vibration takes at most 1/kEmptied_s of what is left each
+/// hours. The fraction falls so that the vibration takes at most 1/kEmptied_s of what is left each
 /// second, and is 1 as long as this is no restriction.
 class VibrationBudget {
  public:
@@ -146,7 +147,7 @@ class VibrationBudget {
   /// The strings exert `strings` until the next tick, `dt_s` later. `now_ns` rises.
   void pass(const Wrench& strings, double dt_s, int64_t now_ns) noexcept;
 
-  double share() const noexcept { return state_.share; }
+  double fraction() const noexcept { return state_.fraction; }
   /// The state after the last pass().
   const VibrationState& state() const noexcept { return state_; }
 

@@ -73,7 +73,7 @@ void check_hold(const TomlField& in, const StringGeometry& geometry) {
       if ((geometry.exit_m[i] - geometry.exit_m[k]).norm() < kMinLength_m &&
           (geometry.grip_m[i] - geometry.grip_m[k]).norm() < kMinLength_m)
         exits[i].fail("is that of string " + as_text(k) +
-                      ", with the same grip point: two strings cannot be in one place");
+                      ", with the same grip point: two strings cannot be in one position");
   const double radius_m = geometry.grip_radius_m();
   if (radius_m < kMinLength_m)
     in["grip"].fail("has all points within " + as_text(kMinLength_m) +

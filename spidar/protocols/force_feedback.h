@@ -81,7 +81,7 @@ EventBytes encode_autocentre(int strength) noexcept;
 /// An effect as a device receives it.
 struct Effect {
   int16_t number = kNewEffect;
-  double right = 0;  ///< shares of the full level
+  double right = 0;  ///< fractions of the full level
   double up = 0;
   double rumble = 0;
   int length_ms = 0;  ///< 0: no limit

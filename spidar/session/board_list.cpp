@@ -38,7 +38,7 @@ void describe(BoardInfo& board, const DeviceKind& kind) {
   if (board.name.empty()) board.name = kind.title;
   if (board.note.empty()) board.note = kind.note;
   board.profile_board = kind.profile_board;
-  board.trial = kind.trial;
+  board.verification = kind.verification;
   board.has_strings = kind.has_strings();
   if (!board.has_strings) board.profile = kind.profile;
 }

@@ -18,7 +18,7 @@ struct BoardInfo {
   std::string path;    ///< on the bus: "1-2"; empty for simulated devices
   std::string serial;  ///< empty when it has none
   std::string usb_id;  ///< "0cec:0205"; empty when not on USB
-  Trial trial = Trial::kEmulated;
+  Verification verification = Verification::kEmulated;
   std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
   /// The profile with which it is driven if none is named: that of a simulation, that of a device

@@ -59,7 +59,7 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   if (kinds.empty() || !name.has_end || (kinds[0]->needs_rest() && name.rest.empty())) {
     // Only an element, which analyses pictures, does without a device: this is not asked about it.
     const bool is_none = text == "none";
-    throw DeviceError((is_none ? "\"none\" is no device" : "unknown device \"" + text + "\"") +
+    throw DeviceError((is_none ? "\"none\" is not a device" : "unknown device \"" + text + "\"") +
                           "; known are: " + known_names(!is_none),
                       DeviceTrouble::kSettings);
   }

@@ -23,7 +23,7 @@ struct DeviceKind : BoardKind {
   /// With which it is driven if none is named: its simulation, and the real one, too, if it has no
   /// strings.
   const char* profile;
-  Trial trial;
+  Verification verification;
   const char* note;  ///< what is inferred
   /// The emulation of the board, connected to these motors.
   std::unique_ptr<EmulatedBoard> (*emulate)(std::shared_ptr<EmulatedMotors> motors);

@@ -79,8 +79,8 @@ std::string misfit(const BoardInfo& board, const Profile& profile) {
 
 }  // namespace
 
-NoProfile::NoProfile(const BoardInfo& board, Place place)
-    : DeviceError(without_profile(board), DeviceTrouble::kSettings, place) {}
+NoProfile::NoProfile(const BoardInfo& board, SourceLocation location)
+    : DeviceError(without_profile(board), DeviceTrouble::kSettings, location) {}
 
 std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   std::vector<std::string> fitting;

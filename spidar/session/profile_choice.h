@@ -21,7 +21,7 @@ namespace spidar {
 /// Nobody has named a profile for this board. what() lists those that fit it.
 class NoProfile : public DeviceError {
  public:
-  explicit NoProfile(const BoardInfo& board, Place place = Place::here());
+  explicit NoProfile(const BoardInfo& board, SourceLocation location = SourceLocation::here());
 };
 
 /// The names of the profiles that fit a board: it can drive them, and their source names a board of

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "spidar/as_text.h"
-#include "spidar/conformance/encoder_signs.h"
-#include "spidar/conformance/hold.h"
+#include "spidar/selftest/encoder_signs.h"
+#include "spidar/selftest/hold.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"

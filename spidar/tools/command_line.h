@@ -24,8 +24,8 @@ class UsageError : public std::runtime_error {
 };
 
 /// The exit status of a program that has printed to the standard output: `status`, or kFailed in
-/// the place of kDone when that has not arrived, on a full disk for example. It says so, unless a
-/// reader has gone that had enough.
+/// the place of kDone when that has not arrived, on a full disk for example. It says so, unless
+/// a reader has gone that had enough.
 inline int status_after_printing(const std::string& program, int status) {
   errno = 0;
   std::cout.flush();

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "spidar/boards/board.h"
-#include "spidar/conformance/hold.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/selftest/hold.h"
 #include "spidar/session/board_list.h"
 #include "spidar/tools/cli_program.h"
 

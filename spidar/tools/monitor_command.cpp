@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/conformance/report_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/encoder_scale.h"
+#include "spidar/selftest/report_text.h"
 #include "spidar/simulation/grip_model.h"
 #include "spidar/tools/device_command.h"
 

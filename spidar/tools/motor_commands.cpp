@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <iostream>
 
-#include "spidar/conformance/report_text.h"
-#include "spidar/conformance/wiring_answers.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/encoder_scale.h"
+#include "spidar/selftest/report_text.h"
+#include "spidar/selftest/wiring_answers.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar {

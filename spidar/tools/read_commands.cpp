@@ -6,7 +6,7 @@
 #include <iostream>
 #include <limits>
 
-#include "spidar/conformance/report_text.h"
+#include "spidar/selftest/report_text.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
 #include "spidar/transports/tty_transport.h"
@@ -28,7 +28,7 @@ Json found_devices() {
   for (const BoardInfo& board : list_boards())
     devices.push_back({{"device", board.device},
                        {"board", board.name},
-                       {"evidence", to_string(board.trial)},
+                       {"evidence", to_string(board.verification)},
                        {"path", board.path},
                        {"serial", board.serial},
                        {"usb_id", board.usb_id},
@@ -166,7 +166,7 @@ void print_axes(const GripAbilities& can, const FoundBoard& found) {
 
 void print(const ChosenDevice& chosen, const FoundBoard& found) {
   std::cout << "device    " << chosen.board.device << "\nboard     " << chosen.board.name
-            << "\nevidence  " << to_string(chosen.board.trial);
+            << "\nevidence  " << to_string(chosen.board.verification);
   if (!chosen.board.note.empty()) std::cout << "; " << chosen.board.note;
   if (!found.description.empty()) std::cout << "\nfound     " << found.description;
   if (!chosen.board.path.empty()) std::cout << "\npath      " << chosen.board.path;
@@ -191,7 +191,7 @@ Json counts_of(const Profile& profile, const DeviceReading& reading) {
 Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
   Json json{{"device", chosen.board.device},
             {"board", chosen.board.name},
-            {"evidence", to_string(chosen.board.trial)},
+            {"evidence", to_string(chosen.board.verification)},
             {"note", chosen.board.note},
             {"found", found.description},
             {"path", chosen.board.path},

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "spidar/conformance/conformance_report.h"
-#include "spidar/conformance/delay_test.h"
-#include "spidar/conformance/stick_test.h"
-#include "spidar/conformance/wiring_report.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/selftest/delay_test.h"
+#include "spidar/selftest/selftest_report.h"
+#include "spidar/selftest/stick_test.h"
+#include "spidar/selftest/wiring_report.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/tools/device_command.h"
 

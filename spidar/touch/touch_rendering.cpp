@@ -69,18 +69,18 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   if (next != nullptr && leads_to(*now, *next)) {
     surface.after = &next->relief;
     surface.displacement_m = next->displacement_m;
-    surface.share = share_of_next(running_ns);
+    surface.fraction = fraction_of_next(running_ns);
     jumped_ = jumped_ || jumps(surface, grip_m.head<2>());
     if (jumped_) {
       surface = {&now->relief};
-    } else if (surface.share >= 0.5) {
+    } else if (surface.fraction >= 0.5) {
       nearest = next;
     }
   }
   ContactSettings settings = nearest->contact;
-  if (stiffness_N_m_ <= 0) stiffness_N_m_ = shake_watch_.share() * settings.stiffness_N_m;
+  if (stiffness_N_m_ <= 0) stiffness_N_m_ = shake_watch_.fraction() * settings.stiffness_N_m;
   const double most_N_m = kStiffening_N_m_s * std::clamp(dt_s, 0.0, kLongestTick_s);
-  settings.stiffness_N_m *= shake_watch_.share();
+  settings.stiffness_N_m *= shake_watch_.fraction();
   stiffness_N_m_ += std::clamp(settings.stiffness_N_m - stiffness_N_m_, -most_N_m, most_N_m);
   settings.stiffness_N_m = stiffness_N_m_;
   settings.max_force_N = max_force_N_;
@@ -92,7 +92,7 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
                                  settings, grip_m, dt_s);
   const TouchProxy& proxy = contact_.proxy();
   result.touching = proxy.touching();
-  result.stiffness_share = shake_watch_.share();
+  result.stiffness_fraction = shake_watch_.fraction();
   if (result.touching) {
     shake_watch_.see(contact_.velocity_m_s(), proxy.normal(), dt_s);
     result.proxy_m = proxy.position_m();
@@ -163,19 +163,19 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
 
 /// Whether the surface rises faster at this position than kRise_m_s.
 bool TouchRendering::jumps(const MovingRelief& surface,
-                           const Eigen::Vector2d& place_m) const noexcept {
-  const Eigen::Vector2d before_m = place_m - surface.share * surface.displacement_m;
+                           const Eigen::Vector2d& position_m) const noexcept {
+  const Eigen::Vector2d before_m = position_m - surface.fraction * surface.displacement_m;
   const Eigen::Vector2d after_m = before_m + surface.displacement_m;
   const double rise_m = surface.after->at(after_m.x(), after_m.y()).z_m -
                         surface.before->at(before_m.x(), before_m.y()).z_m;
   return rise_m > TouchProxy::kRise_m_s * 1e-9 * static_cast<double>(to_ns_ - from_ns_);
 }
 
-double TouchRendering::share_of_next(int64_t running_ns) const noexcept {
+double TouchRendering::fraction_of_next(int64_t running_ns) const noexcept {
   if (to_ns_ <= from_ns_) return 1;
-  const double share =
+  const double fraction =
       static_cast<double>(running_ns - from_ns_) / static_cast<double>(to_ns_ - from_ns_);
-  return std::clamp(share, 0.0, 1.0);
+  return std::clamp(fraction, 0.0, 1.0);
 }
 
 }  // namespace spidar

@@ -99,7 +99,7 @@ class ShakeWatch {
   static constexpr int kIntervals = 8;
   /// Each time, so much of the stiffness is left.
   static constexpr double kLeft = 0.7;
-  static constexpr double kLeastShare = 0.1;
+  static constexpr double kLeastFraction = 0.1;
 
   /// A tick in contact, with the velocity of the grip and the unit normal of the surface.
   void see(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
@@ -118,12 +118,12 @@ class ShakeWatch {
     since_s_ = most_m_s_ = 0;
     if (intervals_ < kIntervals) return;
     intervals_ = 0;
-    share_ = std::max(kLeastShare, kLeft * share_);
+    fraction_ = std::max(kLeastFraction, kLeft * fraction_);
   }
 
   /// What is left of the stiffness: 1 until the grip was shaken. It does not rise again, because
   /// the lag is that of the device.
-  double share() const noexcept { return share_; }
+  double fraction() const noexcept { return fraction_; }
 
  private:
   static constexpr double kSlow_s = 0.02;  ///< 8 Hz
@@ -133,7 +133,7 @@ class ShakeWatch {
   double since_s_ = 0;
   bool rises_ = false;
   int intervals_ = 0;
-  double share_ = 1;
+  double fraction_ = 1;
 };
 
 /// State of the contact in one tick.
@@ -144,8 +144,8 @@ struct Contact {
   /// The touched point of the surface, device frame; 0 unless touching.
   Eigen::Vector3d proxy_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip, device frame
-  /// Share of the stiffness that is left after shaking, see ShakeWatch.
-  double stiffness_share = 1;
+  /// Fraction of the stiffness that is left after shaking, see ShakeWatch.
+  double stiffness_fraction = 1;
 };
 
 /// Follows the frames of a mailbox by running time and renders the contact with the surface
@@ -187,8 +187,8 @@ class TouchRendering {
   void drop_forgotten(TouchMailbox& mailbox) noexcept;
   const TouchFrame* frame(const TouchMailbox& mailbox, size_t nth) const noexcept;
   void advance(TouchMailbox& mailbox, int64_t running_ns) noexcept;
-  double share_of_next(int64_t running_ns) const noexcept;
-  bool jumps(const MovingRelief& surface, const Eigen::Vector2d& place_m) const noexcept;
+  double fraction_of_next(int64_t running_ns) const noexcept;
+  bool jumps(const MovingRelief& surface, const Eigen::Vector2d& position_m) const noexcept;
 
   uint32_t generation_ = 0;
   bool reached_ = false;   ///< the oldest frame of the mailbox has become due

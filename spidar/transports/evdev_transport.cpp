@@ -50,13 +50,14 @@ LinkFault fault_of_input(int error) noexcept {
 }
 
 /// Position on an axis, −kFull … kFull; false when the device is gone.
-bool place_on(int file, int axis, int16_t& place) noexcept {
+bool position_on(int file, int axis, int16_t& position) noexcept {
   input_absinfo info{};
   if (call_ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
   const double range = double{1} * info.maximum - info.minimum;
-  const double share =
+  const double fraction =
       range > 0 ? (double{2} * info.value - info.maximum - info.minimum) / range : 0;
-  place = static_cast<int16_t>(std::lround(ff::Position::kFull * std::clamp(share, -1.0, 1.0)));
+  position =
+      static_cast<int16_t>(std::lround(ff::Position::kFull * std::clamp(fraction, -1.0, 1.0)));
   return true;
 }
 
@@ -76,7 +77,8 @@ EvdevTransport::~EvdevTransport() {
   close();
 }
 
-void EvdevTransport::fail(const std::string& path, const std::string& what, Place place) {
+void EvdevTransport::fail(const std::string& path, const std::string& what,
+                          SourceLocation location) {
   const int error = errno;
   close();
   std::string advice;
@@ -87,7 +89,7 @@ void EvdevTransport::fail(const std::string& path, const std::string& what, Plac
   if (error == ENOTTY) advice = "; it is no input device, write ff:/dev/input/eventN";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice,
-                    trouble_of(error), place);
+                    trouble_of(error), location);
 }
 
 void EvdevTransport::open() {
@@ -160,8 +162,8 @@ bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
   // A device without axes is queried as well, because the answer shows that it is still connected.
   if (call_ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
-  if (right_axis_ >= 0 && !place_on(file_, right_axis_, position.right)) return false;
-  if (up_axis_ >= 0 && !place_on(file_, up_axis_, position.up)) return false;
+  if (right_axis_ >= 0 && !position_on(file_, right_axis_, position.right)) return false;
+  if (up_axis_ >= 0 && !position_on(file_, up_axis_, position.up)) return false;
   position.up = static_cast<int16_t>(-position.up);  // y of a stick points down
   return read_buttons(position);
 }

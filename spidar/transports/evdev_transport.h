@@ -34,7 +34,7 @@ class EvdevTransport final : public Transport {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what,
-                         Place place = Place::here());
+                         SourceLocation location = SourceLocation::here());
   void find_axes(const std::string& path, const EvdevTraits& traits);
   void find_buttons(const EvdevTraits& traits);
   LinkFault send(ByteView packet, MutableBytes reply, size_t& received) noexcept;

@@ -86,7 +86,7 @@ TtyTransport::~TtyTransport() {
   close();
 }
 
-void TtyTransport::fail(const std::string& what, Place place) {
+void TtyTransport::fail(const std::string& what, SourceLocation location) {
   const int error = errno;
   close();
   std::string advice;
@@ -98,7 +98,7 @@ void TtyTransport::fail(const std::string& what, Place place) {
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice, trouble_of(error),
-                    place);
+                    location);
 }
 
 void TtyTransport::open() {

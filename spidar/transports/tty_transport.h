@@ -36,7 +36,7 @@ class TtyTransport final : public Transport {
   void close() noexcept override;
 
  private:
-  [[noreturn]] void fail(const std::string& what, Place place = Place::here());
+  [[noreturn]] void fail(const std::string& what, SourceLocation location = SourceLocation::here());
   LinkFault wait_for(short events, int64_t deadline_ns) noexcept;
 
   const std::string name_;

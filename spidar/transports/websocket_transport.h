@@ -15,7 +15,7 @@ namespace spidar {
 /// functions. It was preferred to libsoup, which aborts the process if the player has loaded
 /// libsoup 2.4 as well.
 ///
-/// A message is sent only when the one before has been answered. After a time-out the next exchange
+/// A message is sent only when the one before has been answered. After a timeout the next exchange
 /// waits for that answer first, and drops it, so that messages never queue up in the service.
 class WebSocketTransport final : public Transport {
  public:

@@ -58,7 +58,7 @@ class Devices(unittest.TestCase):
             self.assertAlmostEqual(device.pose().orientation.w, 1, delta=0.01)
             self.assertLess(abs(device.velocity().x), 0.5)
             self.assertTrue(device.held())
-            self.assertEqual(device.vibration_share(), 1)
+            self.assertEqual(device.vibration_fraction(), 1)
             self.assertEqual(device.last_fault(), "")
             self.assertTrue(device.capabilities().force_z)
             self.assertEqual(device.capabilities().rate_Hz, 1000)
@@ -135,7 +135,7 @@ class Devices(unittest.TestCase):
                 self.assertIn("RuntimeError: not within a callback", device.callback_error())
             self.assertRaisesRegex(TypeError, "function of a GripState", device.set_callback, 3)
 
-    def test_threads_share_a_device(self):
+    def test_threads_fraction_a_device(self):
         with Device("sim") as device:
             self.assertTrue(device.wait_until_running(30))
             raised = []
@@ -242,7 +242,7 @@ called.wait(30)
                 self.assertEqual(done.returncode, status, done.stderr)
                 self.assertNotIn("Fatal", done.stderr)
 
-    def test_threads_share_a_device_until_one_closes_it(self):
+    def test_threads_fraction_a_device_until_one_closes_it(self):
         device = Device("sim")
         ends = []
 

@@ -148,7 +148,7 @@ TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
   ASSERT_TRUE(device.velocity().has_value());
   EXPECT_LT(std::abs(device.velocity()->x), 0.5);  // a hand holds the simulated grip
   EXPECT_TRUE(device.held());
-  EXPECT_EQ(device.vibration_share(), 1);
+  EXPECT_EQ(device.vibration_fraction(), 1);
   // An encoder step of this profile is less than a tenth of a millimetre; the simulated hand is
   // soft.
   EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);
@@ -289,7 +289,7 @@ TEST(Device, WhatIsWrongIsNamed) {
             std::string::npos);
   EXPECT_NE(message_of([] { Device("sim", "nosuch"); }).find("unknown profile \"nosuch\""),
             std::string::npos);
-  EXPECT_EQ(message_of([] { Device("none"); }), "\"none\" is no device that can be opened");
+  EXPECT_EQ(message_of([] { Device("none"); }), "\"none\" cannot be opened");
   EXPECT_THROW(Device("uart:/nosuch"), std::runtime_error);
   Device device("sim");
   EXPECT_THROW(device.push(to_the_right(std::nan(""))), std::invalid_argument);

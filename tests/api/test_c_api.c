@@ -101,7 +101,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(gst_spidar_device_velocity(device, &velocity_m_s) && fabs(velocity_m_s.z) < 0.5);
   REQUIRE(gst_spidar_device_held(device));
   REQUIRE(gst_spidar_device_buttons(device) == 0);
-  REQUIRE(gst_spidar_device_vibration_share(device) == 1);
+  REQUIRE(gst_spidar_device_vibration_fraction(device) == 1);
   REQUIRE(gst_spidar_device_last_fault(device, text, sizeof text) == 0 && text[0] == '\0');
   gst_spidar_device_capabilities(device, &can);
   REQUIRE(can.force_x && can.force_y && can.force_z && can.torque && can.direction);

@@ -44,9 +44,10 @@ using spidar::RobustFitter;
 using spidar::WeightedDisplacements;
 
 constexpr int kGrid_px = 16;
-/// What differs from the background by a pixel of a frame 480 lines high and by this share of how
-/// it moved moves by itself: of four thresholds tried, the one with which DIS is right most often.
-constexpr double kLeastShare = 0.2;
+/// What differs from the background by a pixel of a frame 480 lines high and by this fraction of
+/// how it moved moves by itself: of four thresholds tried, the one with which DIS is right most
+/// often.
+constexpr double kLeastFraction = 0.2;
 
 int64_t cpu_ns() {
   timespec now;
@@ -91,7 +92,7 @@ class LargestRegion {
     for (size_t i = 0; i < flow.known.size(); ++i) {
       if (!flow.known[i]) continue;
       rest_px_[i] = flow.moved_px[i] - last_.displacement_px(flow.at_px(i));
-      moves_[i] = rest_px_[i].norm() > px_of_480_lines + kLeastShare * flow.moved_px[i].norm();
+      moves_[i] = rest_px_[i].norm() > px_of_480_lines + kLeastFraction * flow.moved_px[i].norm();
     }
     std::vector<size_t> largest;
     for (size_t i = 0; i < moves_.size(); ++i) {

@@ -36,10 +36,10 @@ Eigen::Vector3d direction(std::mt19937_64& random) {
 }
 
 Pose pose(std::mt19937_64& random, double reach_m, double turn_rad) {
-  std::uniform_real_distribution<double> share(0, 1);
+  std::uniform_real_distribution<double> fraction(0, 1);
   Pose pose;
-  pose.position_m = share(random) * reach_m * direction(random);
-  pose.orientation = Eigen::AngleAxisd(share(random) * turn_rad, direction(random));
+  pose.position_m = fraction(random) * reach_m * direction(random);
+  pose.orientation = Eigen::AngleAxisd(fraction(random) * turn_rad, direction(random));
   return pose;
 }
 

@@ -86,10 +86,10 @@ void print_head() {
   std::printf("|---|---|---|---|---|---|---|---|---|\n");
 }
 
-/// `share` between 0 and 1: of the sizes.
-double size_of(std::vector<double> values, double share) {
+/// `fraction` between 0 and 1: of the sizes.
+double size_of(std::vector<double> values, double fraction) {
   for (double& value : values) value = std::abs(value);
-  return quantile(std::move(values), share);
+  return quantile(std::move(values), fraction);
 }
 
 void print_row(const Scenario& scenario, const char* cores, const Measurement& m) {

@@ -54,12 +54,13 @@ class Errors {
     double least_px = -1;  // of several objects, that whose motion is nearest
     for (const test::FilmObject& object : film.objects) {
       if (!film.is_in_view(frame, object)) continue;
-      // Of an object that turns, the truth is that of the place that the velocity is said to be of.
-      const Vector2d place_px =
+      // Of an object that turns, the truth is that of the position that the velocity is said to be
+      // of.
+      const Vector2d position_px =
           (found ? Vector2d(found->position_px - found->on_screen_px_s * kFrame_s)
                  : object.centre_px(frame - 1)) +
           film.middle_px();
-      const Vector2d moved_px = film.object_displacement_px(frame, object, place_px);
+      const Vector2d moved_px = film.object_displacement_px(frame, object, position_px);
       const Vector2d found_px = found ? found->relative_px_s * kFrame_s : Vector2d(0, 0);
       const double error_px = unit * (found_px - moved_px).norm();
       if (least_px < 0 || error_px < least_px) least_px = error_px;

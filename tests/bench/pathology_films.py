@@ -20,7 +20,7 @@ def ffmpeg(*arguments):
     subprocess.run(["ffmpeg", "-v", "error", "-nostdin", "-y", *map(str, arguments)], check=True)
 
 
-def made_texture(seed, file, size):
+def synthetic_texture(seed, file, size):
     """Shapes of all sizes as photographs have them: noise, blurred by several amounts and added."""
     w, h = size
     layers = [(2, 1.0), (5, 2.2), (14, 5.0)]
@@ -34,8 +34,8 @@ def made_texture(seed, file, size):
 def make_films(folder):
     """At twice the size, then reduced, so that things move by halves of a pixel, too."""
     wall, thing = folder / "wall.png", folder / "thing.png"
-    made_texture(1, wall, (2000, 1100))
-    made_texture(7, thing, (240, 240))
+    synthetic_texture(1, wall, (2000, 1100))
+    synthetic_texture(7, thing, (240, 240))
     pan = "crop=1280:720:x='200+150*sin(0.9*t+0.3)+60*t':y='150+40*cos(0.7*t)'"
     disc = "format=yuva420p,geq=lum='lum(X,Y)':cb=128:cr=128:a='255*lt(hypot(X-120,Y-120),115)'"
     way = "x='520+200*sin(1.3*t)':y='240+120*cos(1.3*t)'"

@@ -24,8 +24,8 @@ inline void add_object(TrackSource& source, std::vector<Displacement>& points, i
   model.shift_px = moved_px;
   for (int i = 0; i < count; ++i) {
     const double dx = source.uniform(-50, 50);
-    const Eigen::Vector2d place = at_px + Eigen::Vector2d(dx, source.uniform(-50, 50));
-    points.push_back(source.moved(model, place, sigma_px));
+    const Eigen::Vector2d position = at_px + Eigen::Vector2d(dx, source.uniform(-50, 50));
+    points.push_back(source.moved(model, position, sigma_px));
   }
 }
 

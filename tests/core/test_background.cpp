@@ -13,9 +13,9 @@ namespace {
 
 using namespace background_votes;
 
-class EachRung : public testing::TestWithParam<ModelKind> {};
+class EachModelKind : public testing::TestWithParam<ModelKind> {};
 
-TEST_P(EachRung, IsTheOneThatTheTracksNeed) {
+TEST_P(EachModelKind, IsTheOneThatTheTracksNeed) {
   const MotionModel truth = sample_model(GetParam());
   for (const int strays : {0, 40}) {
     for (uint32_t seed = 1; seed <= 10; ++seed) {
@@ -26,9 +26,9 @@ TEST_P(EachRung, IsTheOneThatTheTracksNeed) {
         // From the first frame on, and without ever changing.
         ASSERT_EQ(to_string(found.model.kind), std::string(to_string(truth.kind)))
             << "seed " << seed << ", frame " << n << ", strays " << strays;
-        // 160 points at least; eight parameters share 2 · 160 equations, so that a displacement has
-        // on average σ √(8 / 320) = 0.16 σ of noise in each coordinate, and in a corner, where the
-        // leverage of a homography's points is largest, up to five times that; 4 deviations.
+        // 160 points at least; eight parameters fraction 2 · 160 equations, so that a displacement
+        // has on average σ √(8 / 320) = 0.16 σ of noise in each coordinate, and in a corner, where
+        // the leverage of a homography's points is largest, up to five times that; 4 deviations.
         for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(300, 160)}) {
           EXPECT_LT((found.model.displacement_px(at) - truth.displacement_px(at)).norm(),
                     4 * 5 * 0.16 * kSigma_px)
@@ -39,17 +39,17 @@ TEST_P(EachRung, IsTheOneThatTheTracksNeed) {
   }
 }
 
-TEST_P(EachRung, FallsToStillWhenTheCameraStops) {
+TEST_P(EachModelKind, FallsToStillWhenTheCameraStops) {
   TrackSource source(3);
   BackgroundEstimator estimator;
   settle(estimator, source, sample_model(GetParam()), 5, kSigma_px);
-  // At most four rungs, five frames each.
+  // At most four models, five frames each.
   const Background found = settle(estimator, source, MotionModel(), 4 * 5, kSigma_px);
   EXPECT_EQ(found.model.kind, ModelKind::kStill);
   EXPECT_EQ(found.model.displacement_px({100, 100}), Eigen::Vector2d(0, 0));
 }
 
-INSTANTIATE_TEST_SUITE_P(Ladder, EachRung,
+INSTANTIATE_TEST_SUITE_P(Hierarchy, EachModelKind,
                          testing::Values(ModelKind::kStill, ModelKind::kTranslation,
                                          ModelKind::kSimilarity, ModelKind::kAffine,
                                          ModelKind::kHomography),
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Ladder, EachRung,
 
 TEST(Background, DoesNotFlickerWhereTwoRungsAreEquallyGood) {
   // A pan so slow that the gain of GRIC is about the price of its parameters: n |t|² / 2σ² ≈ 2 λ₂.
-  // Without hysteresis every other frame would change the rung.
+  // Without hysteresis every other frame would change the model.
   TrackSource source(7);
   BackgroundEstimator estimator;
   MotionModel slow;

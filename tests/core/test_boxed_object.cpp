@@ -30,10 +30,10 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
 
 /// Around the middle, in px from the middle of the frame.
 PictureBox box(const char* name, const Vector2d& middle_px, const Vector2d& size_px) {
-  const auto place = [](const Vector2d& px) {
+  const auto position = [](const Vector2d& px) {
     return Vector2d(0.5 + px.x() / kWidth, 0.5 + px.y() / kHeight);
   };
-  return {name, place(middle_px - size_px / 2), place(middle_px + size_px / 2)};
+  return {name, position(middle_px - size_px / 2), position(middle_px + size_px / 2)};
 }
 
 const Vector2d kLeft(-100, 0), kRight(100, 0), kSize(40, 80);
@@ -61,7 +61,7 @@ class Watcher {
     return last;
   }
 
-  PictureTurn turn_;
+  Orientation turn_;
   ChoiceState state_ = ChoiceState::kGood;
 
  private:
@@ -98,7 +98,7 @@ TEST(BoxedObject, ItsBoxMayBeAPartOfItOrItAPartOfTheBox) {
 
 TEST(BoxedObject, OfATurnedPictureBoxesAreWhereTheyAreShown) {
   Watcher watcher("box");
-  watcher.turn_ = PictureTurn(2);
+  watcher.turn_ = Orientation(2);
   EXPECT_EQ(watcher.see(two(), {box("", kLeft, kSize)}), 2u);
 }
 

@@ -45,8 +45,8 @@ bool in_box(const Vector2d& at, double left, double top, double width, double he
   return at.x() >= left && at.x() < left + width && at.y() >= top && at.y() < top + height;
 }
 
-/// Whether a place is in the stroke of a letter: 5 × 7 cells with gaps of one around them, of which
-/// each letter has its own half.
+/// Whether a position is in the stroke of a letter: 5 × 7 cells with gaps of one around them, of
+/// which each letter has its own half.
 bool in_letter(const Vector2d& at, double cell_px, uint32_t text) {
   const auto i = static_cast<int>(std::floor(at.x() / cell_px));
   const auto j = static_cast<int>(std::floor(at.y() / cell_px));
@@ -76,11 +76,11 @@ struct Burned {
   Caption caption;
 };
 
-double logo(const Vector2d& at, double share, double film) {
+double logo(const Vector2d& at, double fraction, double film) {
   if (!in_box(at, 540, 24, 70, 50)) return film;
   const double own =
       (at - Vector2d(575, 49)).norm() < 20 || in_box(at, 545, 60, 60, 8) ? kWhite : 60;
-  return share * own + (1 - share) * film;
+  return fraction * own + (1 - fraction) * film;
 }
 
 const std::vector<Burned>& captions() {

@@ -37,8 +37,8 @@ Picture fields(double step_px, int width = 640, int height = 480) {
   return picture;
 }
 
-/// comb_share() pixel by pixel: of every 16 lines the middle four are looked at.
-double defined_share(const ImageView& picture) {
+/// comb_fraction() pixel by pixel: of every 16 lines the middle four are looked at.
+double defined_fraction(const ImageView& picture) {
   int combs = 0;
   int pixels = 0;
   for (int y = 8; y + 4 <= picture.height; y += 16) {
@@ -55,16 +55,16 @@ double defined_share(const ImageView& picture) {
   return static_cast<double>(combs) / pixels;
 }
 
-TEST(Combing, TheShareIsThatOfItsDefinition) {
+TEST(Combing, TheFractionIsThatOfItsDefinition) {
   std::vector<uint8_t> lines;
   std::mt19937 random(1);
   for (const int width : {16, 47, 640}) {
     Picture noise(width, 480);
     noise.fill([&](double, double) { return static_cast<double>(random() % 256); });
     for (const Picture& picture : {noise, fields(6, width)}) {
-      const double share = defined_share(picture.view());
-      EXPECT_GT(share, 0);
-      EXPECT_EQ(comb_share(picture.view(), lines), share);
+      const double fraction = defined_fraction(picture.view());
+      EXPECT_GT(fraction, 0);
+      EXPECT_EQ(comb_fraction(picture.view(), lines), fraction);
     }
   }
 }

@@ -73,7 +73,7 @@ constexpr double kRadius_px = 20;
 constexpr double kRim_1_px = 110;  ///< grey levels a pixel, at its edge
 
 /// Moves approximately like videotestsrc's ball in 320 × 240 px.
-Eigen::Vector2d place(int frame) {
+Eigen::Vector2d position(int frame) {
   return {160 + 140 * std::sin(2 * M_PI * frame / 200),
           120 + 100 * std::sin(2 * M_PI * frame / 200 * M_SQRT2)};
 }
@@ -85,7 +85,7 @@ TEST_P(CompressedDisc, IsFollowed) {
   MotionAnalyzer analyzer;
   for (int n = 0; n < 60; ++n) {
     SCOPED_TRACE(n);
-    const Eigen::Vector2d centre = place(n);
+    const Eigen::Vector2d centre = position(n);
     picture.fill([&](double x, double y) {
       const double inside_px = kRadius_px - std::hypot(x - centre.x(), y - centre.y());
       return 16 + std::clamp(kRim_1_px * inside_px, 0.0, 219.0);
@@ -97,7 +97,7 @@ TEST_P(CompressedDisc, IsFollowed) {
     const Eigen::Vector2d moved_px = frame.motion.velocity_px_s * 1e-9 * kFrame_ns;
     // What a search by whole pixels leaves: blocks on the rim show both disc and background, which
     // the codec changes, so that the refinement may not gain anything.
-    EXPECT_LT((moved_px - (centre - place(n - 1))).norm(), 0.5);
+    EXPECT_LT((moved_px - (centre - position(n - 1))).norm(), 0.5);
   }
 }
 

@@ -63,7 +63,7 @@ Film swinging_object() {
   FilmStudio studio(kWidth, kHeight, 1);
   Film film = studio.still_film();
   film.noise = 1.5;
-  film.objects = {studio.object(FilmStudio::kShare, [](double t) {
+  film.objects = {studio.object(FilmStudio::kFraction, [](double t) {
     return Affine2d(Translation2d(-60 + 10 * t + 6 * std::sin(t), 0));
   })};
   return film;
@@ -141,9 +141,9 @@ double bound_of_blocks_px(double across, int side) {
 
 TEST(ErrorBound, BlocksOfAnEdgeAgreeAndAreUnsureAllTheSame) {
   EXPECT_GT(bound_of_blocks_px(0, 1), 2 * bound_of_blocks_px(50, 1));
-  // A sum of what all blocks share and of a part that falls with their number: 1, 1/4, 1/16. That
-  // of one block has a standard error of √(2 · 2 / 256) = 12 % from its residual and its texture,
-  // that of four 6 % of a difference that is 3/4 of it: together 14 %, and three of them.
+  // A sum of what all blocks fraction and of a part that falls with their number: 1, 1/4, 1/16.
+  // That of one block has a standard error of √(2 · 2 / 256) = 12 % from its residual and its
+  // texture, that of four 6 % of a difference that is 3/4 of it: together 14 %, and three of them.
   const auto variance = [](int side) { return std::pow(bound_of_blocks_px(0, side), 2); };
   const double falls = (variance(1) - variance(4)) / (variance(2) - variance(4));
   EXPECT_NEAR(falls, 5, 3 * 0.14 * 5);
@@ -153,7 +153,7 @@ TEST(ErrorBound, AnObjectThatStopsIsAtRestWithinTheNoise) {
   FilmStudio studio(kWidth, kHeight, 3);
   Film film = studio.still_film();
   film.noise = 1.5;
-  film.objects = {studio.object(FilmStudio::kShare, [](double t) {
+  film.objects = {studio.object(FilmStudio::kFraction, [](double t) {
     return Affine2d(Translation2d(-30 + 6 * std::min(t, 6.0), 0));
   })};
   const std::vector<Frame> frames = frames_of(film);

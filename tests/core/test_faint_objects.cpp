@@ -59,7 +59,7 @@ TEST(FaintObjects, OneOfASingleBlockIsFoundWhenItHasLasted) {
   // Where it is on two blocks alike, neither may show it.
   int right = 0;
   for (size_t n = 12; n < found.size(); ++n) {
-    right += (moved_px(found[n]) - step_px).norm() < kAlikeShare * step_px.norm();
+    right += (moved_px(found[n]) - step_px).norm() < kAlikeFraction * step_px.norm();
   }
   EXPECT_GE(right, 6);
 }

@@ -31,7 +31,7 @@ double distance(const ImagePoint& a, const ImagePoint& b) {
                     static_cast<double>(a.y_px) - static_cast<double>(b.y_px));
 }
 
-/// Share of the interval [from, to] that a pixel around `x` covers.
+/// Fraction of the interval [from, to] that a pixel around `x` covers.
 double cover(double x, double from, double to) {
   return std::max(0.0, std::min(x + 0.5, to) - std::max(x - 0.5, from));
 }

@@ -35,12 +35,12 @@ TEST(FeelRules, AreALineEachWithRemarksAndEmptyLines) {
   const FeelRule& dancer = rules.rules()[0];
   EXPECT_EQ(dancer.line, 3);
   EXPECT_EQ(dancer.kind, FeelKind::kObjectAt);
-  EXPECT_EQ(dancer.place, Eigen::Vector2d(0.31, 0.62));
+  EXPECT_EQ(dancer.position, Eigen::Vector2d(0.31, 0.62));
   EXPECT_EQ(dancer.gain, 1.5);
   EXPECT_EQ(dancer.to_ns, 12 * kSecond);
   const FeelRule& region = rules.rules()[1];
   EXPECT_EQ(region.kind, FeelKind::kRegion);
-  EXPECT_EQ(region.place, Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(region.position, Eigen::Vector2d(0.5, 0));
   EXPECT_EQ(region.far_corner, Eigen::Vector2d(1, 1));
   EXPECT_EQ(region.to_ns, 3723 * kSecond + kSecond / 2);
   const FeelRule& last = rules.rules()[2];
@@ -89,8 +89,9 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   const std::string all =
       "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y "
       "to X,Y; camera; nothing";
-  const std::string no_place =
-      " is no place such as 0.31,0.62: shares, from 0 to 1, of the picture's width and height, "
+  const std::string no_position =
+      " is not a position such as 0.31,0.62: fractions, from 0 to 1, of the picture's width and "
+      "height, "
       "from its top left corner";
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"", "line 1: there is no rule, which is one of: " + all},
@@ -102,19 +103,19 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
       {"0:12 largest", "line 1: \"0:12\" has no end: FROM-TO, or FROM- up to the end of the film"},
       {"0:12-0:05 largest", "line 1: \"0:12-0:05\" ends before it begins"},
       {"0:12-0:12 largest", "line 1: \"0:12-0:12\" ends before it begins"},
-      {"0:1x-0:20 largest", "line 1: \"0:1x\" is no time such as 12.5, 0:12 or 1:02:03"},
-      {"0-1:75 largest", "line 1: \"1:75\" is no time such as 12.5, 0:12 or 1:02:03"},
-      {"0-1:0:0:0 largest", "line 1: \"1:0:0:0\" is no time such as 12.5, 0:12 or 1:02:03"},
-      {"-5 largest", "line 1: \"\" is no time such as 12.5, 0:12 or 1:02:03"},
-      {"0-100000 largest", "line 1: \"100000\" is no time such as 12.5, 0:12 or 1:02:03"},
+      {"0:1x-0:20 largest", "line 1: \"0:1x\" is not a time such as 12.5, 0:12 or 1:02:03"},
+      {"0-1:75 largest", "line 1: \"1:75\" is not a time such as 12.5, 0:12 or 1:02:03"},
+      {"0-1:0:0:0 largest", "line 1: \"1:0:0:0\" is not a time such as 12.5, 0:12 or 1:02:03"},
+      {"-5 largest", "line 1: \"\" is not a time such as 12.5, 0:12 or 1:02:03"},
+      {"0-100000 largest", "line 1: \"100000\" is not a time such as 12.5, 0:12 or 1:02:03"},
       {"1-3 largest\n2-4 camera",
        "line 2: it begins at 0:02, before line 1 ends, which does so at 0:03"},
       {"largest\n2-4 camera", "line 2: it begins at 0:02, before line 1 ends, which never does"},
       {"object 0.5,0.5", "line 1: an object is object at X,Y, as in object at 0.31,0.62"},
-      {"object at 0.5", "line 1: \"0.5\"" + no_place},
-      {"object at here", "line 1: \"here\"" + no_place},
-      {"object at 31,62", "line 1: \"31,62\"" + no_place},
-      {"object at nan,0.5", "line 1: \"nan,0.5\"" + no_place},
+      {"object at 0.5", "line 1: \"0.5\"" + no_position},
+      {"object at here", "line 1: \"here\"" + no_position},
+      {"object at 31,62", "line 1: \"31,62\"" + no_position},
+      {"object at nan,0.5", "line 1: \"nan,0.5\"" + no_position},
       {"region 0,0", "line 1: a region is region X,Y to X,Y, from corner to corner"},
       {"region 0,0 to 0,1", "line 1: the region is empty: its corners are opposite ones"},
       {"box \"traffic light",
@@ -124,8 +125,8 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
       {"box traffic light", "line 1: \"light\" follows the rule; only gain G can, as in gain 1.5"},
       {"box " + std::string(64, 'x'), "line 1: the name of a box has at most 63 bytes, and \"" +
                                           std::string(40, 'x') + "…\" more"},
-      {"largest gain 11", "line 1: \"11\" is no gain from 0 to 10"},
-      {"largest gain", "line 1: \"\" is no gain from 0 to 10"},
+      {"largest gain 11", "line 1: \"11\" is not a gain from 0 to 10"},
+      {"largest gain", "line 1: \"\" is not a gain from 0 to 10"},
       {"largest 1.5", "line 1: \"1.5\" follows the rule; only gain G can, as in gain 1.5"},
       {"leftmost gän", "line 1: \"g??n\" follows the rule; only gain G can, as in gain 1.5"},
       {std::string(100, 'x'), "line 1: \"" + std::string(40, 'x') + "…\" is none of: " + all},
@@ -133,7 +134,8 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   for (const auto& [text, wanted] : mistakes) {
     EXPECT_EQ(problem(text), wanted) << text;
   }
-  EXPECT_EQ(problem("0-nan largest"), "line 1: \"nan\" is no time such as 12.5, 0:12 or 1:02:03");
+  EXPECT_EQ(problem("0-nan largest"),
+            "line 1: \"nan\" is not a time such as 12.5, 0:12 or 1:02:03");
   EXPECT_NE(problem(std::string("largest\0camera", 14)), "");
 }
 

@@ -162,7 +162,7 @@ double block_tolerance_px(double step_px, double weakest_texture, double rounded
 /// In both pictures.
 constexpr double kRounded = 2;
 
-/// How far from the true place the search in whole pixels ends: at the nearest pixel of a strong
+/// How far from the true position the search in whole pixels ends: at the nearest pixel of a strong
 /// texture that is about the same in all directions, else perhaps at the next one along an edge.
 double step_px(const MotionBlock& block, double nearest_px) {
   const float weakest = block.weakest_texture();

@@ -36,19 +36,19 @@ struct Fine {
   ReducedFrame reduced;
   BlockField field;
   FineWindows windows;
-  FieldPlace place;
+  FieldPosition position;
 
   void see(const Picture& picture) {
     reduced.read(picture.view());
     field.update(reduced.base());
-    place.scale = reduced.factor() * field.scale();
-    place.centre_px = {(place.scale * field.picture().width() - 1) / 2,
-                       (place.scale * field.picture().height() - 1) / 2};
+    position.scale = reduced.factor() * field.scale();
+    position.centre_px = {(position.scale * field.picture().width() - 1) / 2,
+                          (position.scale * field.picture().height() - 1) / 2};
   }
   void keep_all(const Picture& picture) {
     std::vector<size_t> blocks(field.blocks().size());
     std::iota(blocks.begin(), blocks.end(), size_t{0});
-    windows.keep(picture.view(), field, place, blocks);
+    windows.keep(picture.view(), field, position, blocks);
   }
 };
 
@@ -58,11 +58,11 @@ double worst_px(const Picture& before, const Picture& now, const Vector2d& by_px
   fine.see(before);
   fine.keep_all(before);
   fine.see(now);
-  const auto& found = fine.windows.find(now.view(), fine.field, fine.place);
+  const auto& found = fine.windows.find(now.view(), fine.field, fine.position);
   EXPECT_GT(found.size(), FineWindows::kMost / 2);
   double worst = 0;
   for (const FineMotion& window : found) {
-    worst = std::max(worst, (fine.place.scale * window.moved_px - by_px).norm());
+    worst = std::max(worst, (fine.position.scale * window.moved_px - by_px).norm());
   }
   return worst;
 }
@@ -90,13 +90,13 @@ TEST(FineWindows, WhatShowsSomethingElseOrTooLittleIsLeftOut) {
   fine.keep_all(before);
   const Picture now = moved({501.3, 333.7});  // unrelated
   fine.see(now);
-  const size_t lucky = fine.windows.find(now.view(), fine.field, fine.place).size();
+  const size_t lucky = fine.windows.find(now.view(), fine.field, fine.position).size();
   EXPECT_LT(lucky, FineWindows::kMost / 8);
   Picture plain(kWidth, kHeight);
   plain.fill([](double, double) { return 100.0; });
   fine.keep_all(plain);
   fine.see(plain);
-  EXPECT_TRUE(fine.windows.find(plain.view(), fine.field, fine.place).empty());
+  EXPECT_TRUE(fine.windows.find(plain.view(), fine.field, fine.position).empty());
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST(Hjif, SaysWhatIsWrongAndWhere) {
   const std::string good = keyframe("0", "0") + "," + keyframe("10", "1");
   const std::pair<std::string, std::string> cases[] = {
       {"", "no JSON"},
-      {"[]", "no object"},
+      {"[]", "not an object"},
       {"{}", "has no perceptions"},
       {R"({"perceptions":[]})", "no perception of modality Force"},
       {R"({"perceptions":[{"perception_modality":"Force","channels":[]}]})", "0 channels"},

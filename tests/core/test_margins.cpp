@@ -101,16 +101,16 @@ TEST(Margins, MakeAnewWhatWasAnObjectAndIsAtTheirBorder) {
 TEST(Margins, AreNotWhatIsAroundALargeObject) {
   // A box of two thirds of width and height moves to and fro, five frames each, in front of a still
   // scene without noise.
-  const auto place = [](int n) { return 4.0 * std::abs(n % 10 - 5); };
+  const auto position = [](int n) { return 4.0 * std::abs(n % 10 - 5); };
   const auto felt_px = feel([&](int n, const Vector2d& at) {
-    const double x = at.x() - place(n);
+    const double x = at.x() - position(n);
     return in_box({x, at.y()}, 97, 60, 426, 240) ? kForeground.at(x, at.y())
                                                  : kBackground.at(at.x(), at.y());
   });
   // It is the same object for two frames after it has turned round.
   for (int n = static_cast<int>(kKnown); n < kFrames; ++n) {
     if ((n + 4) % 5 < 2) continue;
-    EXPECT_NEAR(felt_px[static_cast<size_t>(n)].x(), place(n) - place(n - 1), 0.15) << n;
+    EXPECT_NEAR(felt_px[static_cast<size_t>(n)].x(), position(n) - position(n - 1), 0.15) << n;
   }
 }
 

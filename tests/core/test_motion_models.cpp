@@ -52,8 +52,8 @@ TEST_P(EachModel, IsEfficient) {
   const int k = parameters(truth.kind);
   constexpr int kRuns = 400;
   constexpr double kSigma_px = 0.1;
-  TrackSource places(2);
-  const auto exact = places.moved(truth, 60, 0);
+  TrackSource positions(2);
+  const auto exact = positions.moved(truth, 60, 0);
   double mean = 0;
   for (int run = 0; run < kRuns; ++run) {
     TrackSource noise(100 + static_cast<uint32_t>(run));
@@ -136,13 +136,13 @@ std::string name_of(const testing::TestParamInfo<ModelKind>& instance) {
   return to_string(instance.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ladder, EachModel,
+INSTANTIATE_TEST_SUITE_P(Hierarchy, EachModel,
                          testing::Values(ModelKind::kStill, ModelKind::kTranslation,
                                          ModelKind::kSimilarity, ModelKind::kAffine,
                                          ModelKind::kHomography),
                          name_of);
 
-INSTANTIATE_TEST_SUITE_P(Ladder, EachMovingModel,
+INSTANTIATE_TEST_SUITE_P(Hierarchy, EachMovingModel,
                          testing::Values(ModelKind::kTranslation, ModelKind::kSimilarity,
                                          ModelKind::kAffine, ModelKind::kHomography),
                          name_of);

@@ -111,14 +111,14 @@ Comparison follow_disc(MotionKind kind, double radius_px, const Eigen::Vector2d&
   if (plain) scene.plain_background();
   scene.add_disc(radius_px);
   MotionAnalyzer analyzer(with(kind));
-  const auto place = [speed](int n) {
+  const auto position = [speed](int n) {
     return Eigen::Vector2d(110 * std::sin(0.06 * speed * n), 50 * std::cos(0.1 * speed * n));
   };
   Comparison comparison;
   for (int n = 0; n < 40; ++n) {
-    const Frame frame = analyzer.analyze(scene.draw({n * pan_px}, {{place(n)}}), n * kFrame_ns);
+    const Frame frame = analyzer.analyze(scene.draw({n * pan_px}, {{position(n)}}), n * kFrame_ns);
     // The object is known from the second pair of frames on; a birth may take longer.
-    if (n > 4) comparison.add(frame, place(n) - place(n - 1) - pan_px);
+    if (n > 4) comparison.add(frame, position(n) - position(n - 1) - pan_px);
   }
   return comparison;
 }

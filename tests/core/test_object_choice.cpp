@@ -65,16 +65,16 @@ class Player {
     settings_.feel = std::make_shared<FeelRules>(text);
     analyzer_.configure(settings_);
   }
-  void click(uint32_t count, const Vector2d& place) {
-    settings_.kept = {count, place};
+  void click(uint32_t count, const Vector2d& position) {
+    settings_.kept = {count, position};
     analyzer_.configure(settings_);
   }
 
   const Frame& next() {
-    std::vector<Placement> places;
-    for (const Disc& disc : discs_) places.push_back({disc.centre_px(frames_)});
+    std::vector<Placement> positions;
+    for (const Disc& disc : discs_) positions.push_back({disc.centre_px(frames_)});
     const int64_t now_ns = frames_ * kFrame_ns;
-    frame_ = analyzer_.analyze(scene_.draw({pan_px * frames_}, places), now_ns, {now_ns, {}});
+    frame_ = analyzer_.analyze(scene_.draw({pan_px * frames_}, positions), now_ns, {now_ns, {}});
     ++frames_;
     return frame_;
   }
@@ -95,8 +95,8 @@ class Player {
     }
     return -1;
   }
-  /// Share of the frames up to `end` in which that disc is felt.
-  double share_felt(int disc, int end) {
+  /// Fraction of the frames up to `end` in which that disc is felt.
+  double fraction_felt(int disc, int end) {
     int all = 0, right = 0;
     while (frames_ < end) {
       next();
@@ -128,9 +128,9 @@ TEST(ObjectChoice, FollowsTheObjectOfEachRule) {
   Player player({large(), middle(), small()}, false);
   player.set_rules(rule_at(0, 1, small()) + rule_at(1, 2, large()) + rule_at(2, 3, middle()));
   player.play_to(kKnown);
-  EXPECT_GE(player.share_felt(2, 25), kMostFrames);
-  EXPECT_GE(player.share_felt(0, 50), kMostFrames);
-  EXPECT_GE(player.share_felt(1, 75), kMostFrames);
+  EXPECT_GE(player.fraction_felt(2, 25), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 50), kMostFrames);
+  EXPECT_GE(player.fraction_felt(1, 75), kMostFrames);
 }
 
 /// An object that rests is none for the tracker after a second.
@@ -142,7 +142,7 @@ TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   Player player({walker, middle()});
   player.set_rules(rule_at(0, 9, walker));
   player.play_to(kKnown);
-  EXPECT_GE(player.share_felt(0, 30), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 30), kMostFrames);
   double felt_N = 0;
   for (int n = 40; n < 90; ++n) {
     const Frame& frame = player.next();
@@ -151,7 +151,7 @@ TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   }
   EXPECT_EQ(felt_N, 0);
   player.play_to(94 + kKnown);
-  EXPECT_GE(player.share_felt(0, 130), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 130), kMostFrames);
 }
 
 TEST(ObjectChoice, TheOneThatBeginsToMoveLaterIsFound) {
@@ -163,7 +163,7 @@ TEST(ObjectChoice, TheOneThatBeginsToMoveLaterIsFound) {
   EXPECT_EQ(player.next().choice.state, ChoiceState::kNotThere) << "this is told";
   EXPECT_EQ(player.felt(), -1);
   player.play_to(50 + kKnown);
-  EXPECT_GE(player.share_felt(0, 110), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 110), kMostFrames);
 }
 
 TEST(ObjectChoice, AnObjectThatHasLeftIsLostAndItsForceFades) {
@@ -214,7 +214,7 @@ TEST(ObjectChoice, ARuleThatIsThereAsBeforeGoesOnWithItsObject) {
   EXPECT_EQ(player.felt(), 0);
   player.set_rules(rule_at(0, 2, large()));
   player.next();
-  EXPECT_EQ(player.felt(), -1) << "its object was at that place long ago";
+  EXPECT_EQ(player.felt(), -1) << "its object was at that position long ago";
 }
 
 TEST(ObjectChoice, OfTheLargestAndOfThoseAtTheSides) {
@@ -222,7 +222,7 @@ TEST(ObjectChoice, OfTheLargestAndOfThoseAtTheSides) {
       {"largest", 1}, {"leftmost", 1}, {"rightmost", 2}, {"bottommost", 3}};
   const std::pair<const char*, uint32_t> turned[] = {
       {"leftmost", 2}, {"rightmost", 1}, {"topmost", 3}};
-  const auto play = [](const char* rule, const PictureTurn& turn) {
+  const auto play = [](const char* rule, const Orientation& turn) {
     ObjectChoice choice;
     choice.set_rules(std::make_shared<FeelRules>(rule));
     std::vector<int> frames(4, 0);
@@ -238,7 +238,7 @@ TEST(ObjectChoice, OfTheLargestAndOfThoseAtTheSides) {
     SCOPED_TRACE(rule);
     EXPECT_EQ(play(rule, {})[disc], 100);
   }
-  const PictureTurn upside_down(2);
+  const Orientation upside_down(2);
   for (const auto& [rule, disc] : turned) {
     SCOPED_TRACE(rule);
     EXPECT_EQ(play(rule, upside_down)[disc], 100);
@@ -313,9 +313,9 @@ TEST(ObjectChoice, AClickKeepsWhatIsThereAndComesBeforeRules) {
   EXPECT_EQ(player.felt(), 0);
   const Vector2d at_px = small().centre_px(19);
   player.click(1, {0.5 + at_px.x() / kWidth, 0.5 + at_px.y() / kHeight});
-  EXPECT_GE(player.share_felt(2, 60), kMostFrames);
+  EXPECT_GE(player.fraction_felt(2, 60), kMostFrames);
   player.click(0, {0, 0});
-  EXPECT_GE(player.share_felt(0, 80), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 80), kMostFrames);
   player.click(2, {0.05, 0.95});
   player.next();
   EXPECT_EQ(player.felt(), 0) << "there is nothing";

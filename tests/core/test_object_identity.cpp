@@ -31,7 +31,7 @@ using test::Texture;
 /// An object is one from the second pair of frames on in which it moves.
 constexpr int kFound = 2;
 
-/// A disc of texture that goes its way, places in px from the upper left corner.
+/// A disc of texture that goes its way, positions in px from the upper left corner.
 struct Disc {
   uint32_t texture;  ///< seed
   double radius_px;
@@ -98,14 +98,14 @@ std::vector<std::vector<Seen>> watch(const Film& film, int frames) {
 }
 
 /// Blocks are 24 px of these frames wide: the middle of those on a disc is within one of its own.
-constexpr double kPlace_px = 24;
+constexpr double kPosition_px = 24;
 
 /// The id of what moves as the disc does and is where it is; 0 when nothing is.
 uint32_t id_of(const std::vector<Seen>& seen, const Disc& disc, int n) {
   const Vector2d centre_px = disc.centre_px(n);
   const Vector2d moved_px = centre_px - disc.centre_px(n - 1);
   for (const Seen& object : seen) {
-    if ((object.at_px - centre_px).norm() < kPlace_px &&
+    if ((object.at_px - centre_px).norm() < kPosition_px &&
         (object.moved_px - moved_px).norm() < 0.25 * moved_px.norm()) {
       return object.id;
     }

@@ -128,7 +128,7 @@ TEST(PoseFaults, ADeadEncoderIsNamed) {
   }
 }
 
-// Seven strings of which one is dead fit closely in many places, and the pose that they agree on
+// Seven strings of which one is dead fit closely in many positions, and the pose that they agree on
 // may be centimetres off: 5 to 6 % of the ticks, as long as nothing looked at counts that stand
 // still. Those give it away, but not before they have stood still for longer than strings do
 // anyway, and not where the six others hardly tell the pose.

@@ -29,7 +29,7 @@ float highest(const HeightField& field) {
   return *std::max_element(field.row(0), field.row(0) + HeightField::kCells);
 }
 
-/// The steepest place, looked for twice as densely as the samples lie.
+/// The steepest position, looked for twice as densely as the samples lie.
 double steepest(const HeightField& field) {
   double most = 0;
   for (int y = 0; y < 2 * kRows; ++y) {
@@ -106,7 +106,7 @@ TEST(Relief, IsNowhereSteeperThanTheLimit) {
     ReliefBuilder builder;
     ASSERT_TRUE(builder.from_brightness(picture.view(), {}, field));
     // Where the edge goes from one row of pixels to the next, the slopes across and down are those
-    // of places up to two cells apart, on flanks whose directions differ: 1/1000 at most.
+    // of positions up to two cells apart, on flanks whose directions differ: 1/1000 at most.
     const double slope = steepest(field);
     EXPECT_LE(slope, 1.001 * ReliefBuilder::kMaxSlope) << degrees;
     EXPECT_GE(slope, 0.9 * ReliefBuilder::kMaxSlope) << "the limit has something to do";

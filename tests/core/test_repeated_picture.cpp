@@ -90,11 +90,11 @@ TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
 TEST(RepeatedPicture, AMotionThatReversesIsNoRepeat) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1);
-  double place = 0;
+  double position = 0;
   for (uint32_t n = 1; n < 100; ++n) {
     const double speed = 4 - std::abs(static_cast<double>(n % 16) - 8);  // −4 … 4 px a frame
-    place += speed;
-    const Picture now = moved(place, n + 1);
+    position += speed;
+    const Picture now = moved(position, n + 1);
     EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
@@ -117,8 +117,8 @@ TEST(RepeatedPicture, NoiseMayBeLargerWhereARepeatIsDue) {
     const float change = largest_change(before.view(), now.view());
     if (again) {
       // As of an encoder that spends its bits on the repeated field.
-      ASSERT_GT(change, RepeatedPicture::kShare * large) << n;
-      ASSERT_LT(change, RepeatedPicture::kShareWhenDue * large) << n;
+      ASSERT_GT(change, RepeatedPicture::kFraction * large) << n;
+      ASSERT_LT(change, RepeatedPicture::kFractionWhenDue * large) << n;
     } else {
       large = change;
     }
@@ -133,12 +133,12 @@ TEST(RepeatedPicture, NoiseMayBeLargerWhereARepeatIsDue) {
 TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1, 5);
-  double place = 0;
+  double position = 0;
   for (uint32_t n = 1; n < 60; ++n) {
     // Standing for a frame now and then, never twice after the same time.
     const bool stands = n == 9 || n == 22 || n == 28 || n == 43;
-    if (!stands) place += 4;
-    const Picture now = moved(place, n + 1, 5);
+    if (!stands) position += 4;
+    const Picture now = moved(position, n + 1, 5);
     EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
@@ -147,7 +147,7 @@ TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
 TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1);
-  double place = 0;
+  double position = 0;
   float large = 0;
   int stood = 0;
   int gap = 3;  // pictures from one repeat to the next: 3, 4, 5, 6, 3 ...
@@ -158,12 +158,12 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
       gap = gap == 6 ? 3 : gap + 1;
       ++stood;
     } else {
-      place += 4;
+      position += 4;
     }
-    const Picture now = moved(place, n + 1);
+    const Picture now = moved(position, n + 1);
     const float change = largest_change(before.view(), now.view());
     if (stands) {
-      ASSERT_LT(change, RepeatedPicture::kShare * large) << n;
+      ASSERT_LT(change, RepeatedPicture::kFraction * large) << n;
     } else {
       large = change;
     }

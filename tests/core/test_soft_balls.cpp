@@ -29,41 +29,41 @@ constexpr double kMoves_px = 2;
 std::vector<Vector2d> path(double radius_px) {
   constexpr double kFalls_px = 2.2;  // more in each frame
   const double lowest_px = kHeight - 40 - radius_px;
-  std::vector<Vector2d> places{{200, 100}};
+  std::vector<Vector2d> positions{{200, 100}};
   double down_px = 0;
-  while (places.size() < kFrames) {
+  while (positions.size() < kFrames) {
     down_px += kFalls_px;
-    Vector2d next_px = places.back() + Vector2d(1.5, down_px);
+    Vector2d next_px = positions.back() + Vector2d(1.5, down_px);
     if (next_px.y() > lowest_px) {
       next_px.y() = lowest_px;
       down_px *= -0.97;
     }
-    places.push_back(next_px);
+    positions.push_back(next_px);
   }
-  return places;
+  return positions;
 }
 
-/// Share of the moving frames in which the ball's motion is right, as in the benchmark of real
+/// Fraction of the moving frames in which the ball's motion is right, as in the benchmark of real
 /// films: within 30 degrees and a factor of 2.
-double right_share(double radius_px, double edge_px) {
+double right_fraction(double radius_px, double edge_px) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 1);
   std::vector<double> wall(kWidth * kHeight);
   for (double& grey : wall) grey = 75 + 2 * noise(random);
-  // Every frame begins at another place of it.
+  // Every frame begins at another position of it.
   std::vector<double> grain(2 * kWidth * kHeight);
   for (double& grey : grain) grey = noise(random);
-  const std::vector<Vector2d> places = path(radius_px);
+  const std::vector<Vector2d> positions = path(radius_px);
   Picture picture(kWidth, kHeight);
   MotionAnalyzer analyzer;
   int moving = 0;
   int right = 0;
-  for (size_t n = 0; n < places.size(); ++n) {
-    const Vector2d step_px = n == 0 ? Vector2d(0, 0) : Vector2d(places[n] - places[n - 1]);
+  for (size_t n = 0; n < positions.size(); ++n) {
+    const Vector2d step_px = n == 0 ? Vector2d(0, 0) : Vector2d(positions[n] - positions[n - 1]);
     const size_t first = random() % wall.size();
     const double reach_px = radius_px + edge_px + step_px.norm();
     picture.fill([&](double x, double y) {
-      const Vector2d from_px = Vector2d(x, y) - places[n];
+      const Vector2d from_px = Vector2d(x, y) - positions[n];
       const auto at = static_cast<size_t>(y) * kWidth + static_cast<size_t>(x);
       const double behind = wall[at] + grain[first + at];
       if (from_px.squaredNorm() > reach_px * reach_px) return behind;
@@ -91,7 +91,7 @@ class SoftBall : public testing::TestWithParam<int> {};
 TEST_P(SoftBall, IsFollowedHoweverFarOutOfFocus) {
   // It begins to move three times, of which each may take two frames.
   for (const int edge_px : {2, 8, 16, 24}) {
-    EXPECT_GE(right_share(GetParam(), edge_px), 0.9) << "edge of " << edge_px << " px";
+    EXPECT_GE(right_fraction(GetParam(), edge_px), 0.9) << "edge of " << edge_px << " px";
   }
 }
 

@@ -15,16 +15,16 @@ using namespace background_votes;
 
 TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
   // Up to 100 of 900 each, far apart: some similarity explains any two of them.
-  const std::vector<Eigen::Vector2d> places_px{{-250, 100}, {250, 100}};
+  const std::vector<Eigen::Vector2d> positions_px{{-250, 100}, {250, 100}};
   const std::vector<Eigen::Vector2d> moved_px{{-3, 0}, {3, 0}};
   for (const int count : {50, 100})
-    for (size_t objects = 1; objects <= places_px.size(); ++objects) {
+    for (size_t objects = 1; objects <= positions_px.size(); ++objects) {
       TrackSource source(8);
       BackgroundEstimator estimator;
       for (int n = 0; n < 10; ++n) {
         std::vector<Displacement> points;
         for (size_t i = 0; i < objects; ++i) {
-          add_object(source, points, count, places_px[i], moved_px[i], kSigma_px);
+          add_object(source, points, count, positions_px[i], moved_px[i], kSigma_px);
         }
         const Background& found = estimator.estimate(votes(points, 900));
         EXPECT_EQ(found.model.kind, ModelKind::kStill)

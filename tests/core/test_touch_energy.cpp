@@ -81,12 +81,12 @@ std::pair<double, double> sink_N(double slew_N_s) {
   ContactForce force;
   double before_N = 0, after_N = 0;
   for (int n = -1; n < kIn_ticks + kRest_ticks + kSink_ticks; ++n) {
-    const double share =
+    const double fraction =
         std::clamp((n - kIn_ticks - kRest_ticks) / static_cast<double>(kSink_ticks), 0.0, 1.0);
     const double depth_m = 0.003 * std::min(1.0, n / static_cast<double>(kIn_ticks));
     after_N = force
-                  .tick({&high, &low, share}, nullptr, settings, {0, 0, -0.005 * share - depth_m},
-                        TouchedGrip::kTick_s)
+                  .tick({&high, &low, fraction}, nullptr, settings,
+                        {0, 0, -0.005 * fraction - depth_m}, TouchedGrip::kTick_s)
                   .z();
     if (n == kIn_ticks + kRest_ticks - 1) before_N = after_N;
   }

@@ -92,7 +92,7 @@ TEST(TouchProxy, ItsOwnMoveNeverMakesTheSpringLonger) {
       // The surface stands still and is not shifted: all that moves the proxy is its walk.
       if (was_touching && proxy.touching() && proxy.shift_m() == 0) {
         ++touched;
-        // 1e-12: rounding of the height at the same place, carried from the tick before.
+        // 1e-12: rounding of the height at the same position, carried from the tick before.
         ASSERT_LE((proxy.position_m() - grip_m).norm(), before_m + 1e-12) << scene.name;
       }
     }
@@ -165,7 +165,7 @@ TEST(TouchProxy, NeverGoesThrough) {
       surface.after = &scenes[random() % scenes.size()].relief;
       surface.displacement_m = 0.002 * Eigen::Vector2d(uniform(random), uniform(random));
     }
-    surface.share = n % 33 / 33.0;
+    surface.fraction = n % 33 / 33.0;
     if (n % 50 == 0)
       velocity_m_s = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
     grip_m += kTick_s * velocity_m_s;
@@ -208,8 +208,8 @@ double error_half_way_m(const Eigen::Vector2d& displacement_m) {
 }
 
 TEST(MovingRelief, WithItsDisplacementLeavesNoGhost) {
-  // 2 mm are 8.53 cells: the two spheres are sampled at other places than the one between them. A
-  // spline takes cell²/6 · d²z/dx² off a surface; the kink at the foot of the sphere, a change of
+  // 2 mm are 8.53 cells: the two spheres are sampled at other positions than the one between them.
+  // A spline takes cell²/6 · d²z/dx² off a surface; the kink at the foot of the sphere, a change of
   // slope of 1.36, is off by at most 1.36 · cell / 4 wherever it lies between samples.
   const double cell_m = kPictureWidth_m / HeightField::kColumns;
   EXPECT_LT(error_half_way_m({0.004, 0}), 1.36 * cell_m / 4);

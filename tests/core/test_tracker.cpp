@@ -37,7 +37,7 @@ TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
     for (int n = 1; n <= 3; ++n) {
       const TrackedFrame& frame = tracker.track(scene.frame(n));
       ASSERT_NE(frame.picture, PictureKind::kFirst);
-      // All but those that leave: the share that leaves a frame is at most the displaced margin.
+      // All but those that leave: the fraction that leaves a frame is at most the displaced margin.
       const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
       EXPECT_GE(static_cast<double>(frame.tracks.size()), looked_for * (0.9 - 2 * margin)) << n;
       double sum_x = 0;
@@ -250,7 +250,7 @@ int found_on_entering_ball(uint32_t seed) {
   return most;
 }
 
-TEST(OpenCvTracker, AnObjectThatEntersAFullPictureGetsItsShareOfThePoints) {
+TEST(OpenCvTracker, AnObjectThatEntersAFullPictureGetsItsFractionOfThePoints) {
   // All 200 points are taken when it comes. Away from its edge it covers 60² π of 626 × 346 px, 5.2
   // % or 10 points if all textures were equally strong: half of that on average over six textures,
   // and at least one on the weakest.

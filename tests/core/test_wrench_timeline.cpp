@@ -32,9 +32,9 @@ TEST(WrenchTimeline, IsLevelWhereTheNextFrameIsNotKnown) {
     const TimelineResult result = timeline.at(time_ns);
     EXPECT_EQ(result.found, Found::kInterpolated);
     EXPECT_EQ(result.frame_time_ns, 0);
-    const double share = s * s * (3 - 2 * s);
+    const double fraction = s * s * (3 - 2 * s);
     const Eigen::Matrix<double, 6, 1> expected =
-        (1 - share) * wrench_of(1).stacked() + share * wrench_of(3).stacked();
+        (1 - fraction) * wrench_of(1).stacked() + fraction * wrench_of(3).stacked();
     // Values below 1, a few roundings of 2^-53.
     EXPECT_LT((result.wrench.stacked() - expected).cwiseAbs().maxCoeff(), 1e-15) << time_ns;
   }

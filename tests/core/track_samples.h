@@ -30,7 +30,7 @@ class TrackSource {
   }
 
   /// Anywhere in the frame, from its centre.
-  Eigen::Vector2d place_px() {
+  Eigen::Vector2d position_px() {
     const double x = uniform(-0.48, 0.48) * width_;
     return {x, uniform(-0.48, 0.48) * height_};
   }
@@ -41,13 +41,13 @@ class TrackSource {
 
   std::vector<Displacement> moved(const MotionModel& model, int count, double sigma_px) {
     std::vector<Displacement> points;
-    for (int i = 0; i < count; ++i) points.push_back(moved(model, place_px(), sigma_px));
+    for (int i = 0; i < count; ++i) points.push_back(moved(model, position_px(), sigma_px));
     return points;
   }
 
   /// Something that has nothing to do with the rest: up to 30 px anywhere.
   Displacement stray() {
-    const Eigen::Vector2d at = place_px();
+    const Eigen::Vector2d at = position_px();
     const double dx = uniform(-30, 30);
     return {next_id_++, at, {dx, uniform(-30, 30)}};
   }

@@ -112,7 +112,7 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   device().set_fault(LinkFault::kGone);
   tick(2);
   for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
-  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once a frame";
+  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once per frame";
   EXPECT_NE(h->warnings()[0].find("device"), std::string::npos);
   EXPECT_TRUE(h->errors().empty());
 
@@ -166,7 +166,7 @@ TEST_F(DeviceTest, AFaultyStringIsNamedOnceAndInTheStats) {
   device().set_count_error(5, 100);  // 1.5 mm
   tick(2);
   for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
-  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once a frame";
+  ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once per frame";
   EXPECT_NE(h->warnings()[0].find("String 5"), std::string::npos) << h->warnings()[0];
 
   GstStructure* stats = nullptr;

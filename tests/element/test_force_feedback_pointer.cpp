@@ -81,7 +81,7 @@ TEST_F(StickTest, PointsAtWhatIsFelt) {
   scene.add_disc(36);
   for (const int side : {-1, 1}) {
     open_with_stick_at(side);
-    // For the share of each disc see DeviceTest.TheGripPointsAtWhatIsFelt.
+    // For the fraction of each disc see DeviceTest.TheGripPointsAtWhatIsFelt.
     EXPECT_GT(side * felt_px_s(-80, 80), 0.64 * 50) << side;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The place in the picture at which the grip points.
+// The position in the picture at which the grip points.
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -20,22 +20,22 @@ TEST(GripPointer, HalfOfTheWayToTheFrameIsTheEdgeOfThePicture) {
   // Exits at ±59, ±64, ±59 mm.
   EXPECT_NEAR(pointer.half_size_m().x(), 0.0295, kRounding);
   EXPECT_NEAR(pointer.half_size_m().y(), 0.032, kRounding);
-  EXPECT_EQ(pointer.place({0, 0, 0}), Eigen::Vector2d(0.5, 0.5));
-  EXPECT_EQ(pointer.place({0, 0, 0.05}), Eigen::Vector2d(0.5, 0.5)) << "depth does not matter";
+  EXPECT_EQ(pointer.position({0, 0, 0}), Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(pointer.position({0, 0, 0.05}), Eigen::Vector2d(0.5, 0.5)) << "depth does not matter";
   // Right is right; up in the device is up in the picture, whose y goes down.
-  EXPECT_LT((pointer.place({0.0295 / 2, 0.032 / 2, 0}) - Eigen::Vector2d(0.75, 0.25)).norm(),
+  EXPECT_LT((pointer.position({0.0295 / 2, 0.032 / 2, 0}) - Eigen::Vector2d(0.75, 0.25)).norm(),
             kRounding);
-  EXPECT_LT((pointer.place({-0.0295, -0.032, 0}) - Eigen::Vector2d(0, 1)).norm(), kRounding);
+  EXPECT_LT((pointer.position({-0.0295, -0.032, 0}) - Eigen::Vector2d(0, 1)).norm(), kRounding);
 }
 
 TEST(GripPointer, BeyondTheEdgeIsTheEdge) {
   const GripPointer pointer(load_profile("spidar-gcc").geometry);
-  EXPECT_EQ(pointer.place({1, 1, 0}), Eigen::Vector2d(1, 0));
-  EXPECT_EQ(pointer.place({-1, -1, 0}), Eigen::Vector2d(0, 1));
+  EXPECT_EQ(pointer.position({1, 1, 0}), Eigen::Vector2d(1, 0));
+  EXPECT_EQ(pointer.position({-1, -1, 0}), Eigen::Vector2d(0, 1));
 }
 
 TEST(GripPointer, WithoutADeviceItIsTheMiddle) {
-  EXPECT_EQ(GripPointer().place({0.1, -0.1, 0}), Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(GripPointer().position({0.1, -0.1, 0}), Eigen::Vector2d(0.5, 0.5));
 }
 
 TEST(Pointer, IsAPlaceTheGripOrTheMouse) {

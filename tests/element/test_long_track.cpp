@@ -64,7 +64,8 @@ class LongTrack : public testing::TestWithParam<const char*> {
     const int step_ms = from_ms < to_ms ? kFrame_ms : -kFrame_ms;
     replay.restart();
     for (int at_ms = from_ms; at_ms != to_ms; at_ms += step_ms) {
-      const FramePlace frame{at_ms * kMs_ns, 0, kFrame_ms * kMs_ns, from_ms < to_ms ? 1.0 : -1.0};
+      const FramePosition frame{at_ms * kMs_ns, 0, kFrame_ms * kMs_ns,
+                                from_ms < to_ms ? 1.0 : -1.0};
       const auto deadline = std::chrono::steady_clock::now() + kLongest;
       do {
         replay.play(frame, [&](const TrackBlock& block) { take(block, frame, given); });
@@ -85,7 +86,7 @@ class LongTrack : public testing::TestWithParam<const char*> {
     return true;
   }
 
-  static void take(const TrackBlock& block, const FramePlace& frame,
+  static void take(const TrackBlock& block, const FramePosition& frame,
                    std::map<int64_t, TrackSample>& given) {
     for (size_t i = 0; i < block.count; ++i) {
       const double ms = static_cast<double>(frame.stream_ns) / kMs_ns +

@@ -131,7 +131,7 @@ TEST_F(ObjectMetas, HaveTheBoxAndTheVelocityOfEachObject) {
         EXPECT_NEAR(low_px[axis], middle_px[axis] - kRadius_px, kBlock_px + 1);
         EXPECT_NEAR(size_px[axis], 2 * kRadius_px, 2 * kBlock_px + 2);
       }
-      // A tenth of the velocity: the blocks at the rim have a share of the background.
+      // A tenth of the velocity: the blocks at the rim have a fraction of the background.
       const double off_px_s = 0.1 * step_px.norm() / kFrame_s;
       EXPECT_NEAR((region.screen_px_s - step_px / kFrame_s).norm(), 0, off_px_s);
       // The background goes to the right, too.

@@ -83,18 +83,19 @@ TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {
 
 TEST(Orientation, AMirrorReversesTheTorqueAboutTheViewAxis) {
   const Wrench wrench{{1, 2, 3}, {0.1, 0.2, 0.3}};
-  EXPECT_EQ(PictureTurn(1).to_shown(wrench).torque_Nm, Eigen::Vector3d(0.2, -0.1, 0.3));
-  EXPECT_EQ(PictureTurn(0, true).to_shown(wrench).torque_Nm, Eigen::Vector3d(0.1, -0.2, -0.3));
-  EXPECT_EQ(PictureTurn(0, true).to_shown(wrench).force_N, Eigen::Vector3d(-1, 2, 3));
+  EXPECT_EQ(Orientation(1).to_displayed(wrench).torque_Nm, Eigen::Vector3d(0.2, -0.1, 0.3));
+  EXPECT_EQ(Orientation(0, true).to_displayed(wrench).torque_Nm, Eigen::Vector3d(0.1, -0.2, -0.3));
+  EXPECT_EQ(Orientation(0, true).to_displayed(wrench).force_N, Eigen::Vector3d(-1, 2, 3));
 }
 
 TEST(Orientation, PlacesAreTurnedThereAndBack) {
   // Of a picture on its right side, the lower left corner is shown in the upper left one.
-  EXPECT_EQ(PictureTurn(1).place_coded({0, 0}), Eigen::Vector2d(0, 1));
+  EXPECT_EQ(Orientation(1).stored_position({0, 0}), Eigen::Vector2d(0, 1));
   for (int i = 0; i < 8; ++i) {
-    const PictureTurn turn(i % 4, i >= 4);
-    const Eigen::Vector2d place(0.25, 0.875);
-    EXPECT_EQ(turn.place_shown(turn.place_coded(place)), place) << "quarters are exact";
+    const Orientation turn(i % 4, i >= 4);
+    const Eigen::Vector2d position(0.25, 0.875);
+    EXPECT_EQ(turn.displayed_position(turn.stored_position(position)), position)
+        << "quarters are exact";
   }
 }
 

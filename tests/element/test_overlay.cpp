@@ -71,12 +71,12 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
     EXPECT_TRUE(canvas.is_drawn(2, 3));
     EXPECT_TRUE(canvas.is_drawn(3, 12));
     EXPECT_TRUE(canvas.is_drawn(32, 16)) << "the last pixel of an odd frame";
-    for (const Eigen::Vector2d& place :
+    for (const Eigen::Vector2d& position :
          {Eigen::Vector2d(0, 0), {1, 1}, {1e9, -1e9}, {static_cast<double>(none), 0.5}}) {
       FrameReport report;
       TouchMark& touch = report.touch_mark.emplace();
       touch.touching = true;
-      touch.finger = touch.proxy = place;
+      touch.finger = touch.proxy = position;
       touch.force_N = {3, 3, 3};
       canvas.draw(report);
     }
@@ -178,16 +178,17 @@ TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
   curve.add(0, 1.2);  // gone by the end: 7 s before it
   for (int i = 0; i <= 100; ++i) curve.add(2 * kSecond_ns + i * kSecond_ns / 20, i < 50 ? 0 : 1);
   EXPECT_EQ(curve.axis().high, 2) << "for 1.2 N, which the stream has had";
-  EXPECT_EQ(curve.places().size(), 101u);
+  EXPECT_EQ(curve.positions().size(), 101u);
   for (int quarters = 0; quarters < 4; ++quarters) {
     SCOPED_TRACE(quarters);
     FrameReport report;
-    report.turn = PictureTurn(quarters);
+    report.turn = Orientation(quarters);
     Canvas canvas("RGB", kSide, kSide);
     canvas.draw(report, 1, false, &curve);
     const auto shown = [&](double x, double y) {
-      const Eigen::Vector2d place = report.turn.place_coded(Eigen::Vector2d(x, y));
-      return canvas.at(static_cast<int>(kSide * place.x()), static_cast<int>(kSide * place.y()));
+      const Eigen::Vector2d position = report.turn.stored_position(Eigen::Vector2d(x, y));
+      return canvas.at(static_cast<int>(kSide * position.x()),
+                       static_cast<int>(kSide * position.y()));
     };
     // 0 N is 2 % of the height above the lower edge, and 2 N 12 % more; the end is at 98.5 %.
     EXPECT_EQ(shown(0.985, 0.92), kOrange) << "1 N";
@@ -201,18 +202,18 @@ TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
 
 TEST(Overlay, ACurveBeginsAnewWithItsStreamAndHasARoundAxis) {
   ForceCurve curve;
-  EXPECT_TRUE(curve.places().empty());
+  EXPECT_TRUE(curve.positions().empty());
   EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
   curve.add(5'000'000, 2.1);
   EXPECT_EQ(curve.axis().high, 5);
   curve.add(4'000'000, 0.1);
-  EXPECT_EQ(curve.places().size(), 1u);
+  EXPECT_EQ(curve.positions().size(), 1u);
   EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
 }
 
 /// The pixels of the newtons beyond the tip of an arrow to the right, in a picture of 481 x 481, as
-/// they are shown: places from the upper left one on, and colours.
-std::vector<std::tuple<int, int, Pixel>> newtons(const PictureTurn& turn) {
+/// they are shown: positions from the upper left one on, and colours.
+std::vector<std::tuple<int, int, Pixel>> newtons(const Orientation& turn) {
   constexpr int kSide = 481, kMiddle = kSide / 2;
   Canvas canvas("RGB", kSide, kSide);
   FrameReport report;
@@ -223,7 +224,7 @@ std::vector<std::tuple<int, int, Pixel>> newtons(const PictureTurn& turn) {
   int left = kSide, top = kSide;
   for (int y = 0; y < kSide; ++y) {
     for (int x = kMiddle + 40; x < kSide; ++x) {
-      const Eigen::Vector2d at_px = turn.to_coded(Eigen::Vector2d(x - kMiddle, y - kMiddle));
+      const Eigen::Vector2d at_px = turn.to_stored(Eigen::Vector2d(x - kMiddle, y - kMiddle));
       const int coded_x = kMiddle + static_cast<int>(at_px.x());
       const int coded_y = kMiddle + static_cast<int>(at_px.y());
       if (!canvas.is_drawn(coded_x, coded_y)) continue;
@@ -241,7 +242,7 @@ TEST(Overlay, NewtonsStandBeyondTheTipOfTheArrowUprightAsItIsShown) {
   ASSERT_GT(upright.size(), 300u) << "five letters of 17 px";
   for (const bool mirrored : {false, true}) {
     for (int quarters = 0; quarters < 4; ++quarters) {
-      EXPECT_EQ(newtons(PictureTurn(quarters, mirrored)), upright) << quarters << mirrored;
+      EXPECT_EQ(newtons(Orientation(quarters, mirrored)), upright) << quarters << mirrored;
     }
   }
 }

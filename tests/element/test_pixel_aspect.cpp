@@ -28,7 +28,7 @@ constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 constexpr double kDisc_px = 80;
 
-/// Grey level of frame n at a place of the shown picture, px from its middle.
+/// Grey level of frame n at a position of the shown picture, px from its middle.
 using Film = std::function<double(int n, double x_px, double y_px)>;
 
 double wall(double x_px, double y_px) {

@@ -19,8 +19,8 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr int kFrames = 4;
-/// 1.5 N to the right, in shares of 10 N.
-constexpr float kShare = 0.15F;
+/// 1.5 N to the right, in fractions of 10 N.
+constexpr float kFraction = 0.15F;
 /// Of a float.
 constexpr double kTolerance_N = 1e-6;
 
@@ -28,7 +28,7 @@ class TrackShown : public testing::Test {
  protected:
   void SetUp() override {
     path = (folder.path / "film.haptic.wav").string();
-    write_track(path, kFrames * 40, [](double) { return TrackSample{kShare, 0, 0, 0, 0, 0}; });
+    write_track(path, kFrames * 40, [](double) { return TrackSample{kFraction, 0, 0, 0, 0, 0}; });
   }
   /// The frame that comes out.
   GstBuffer* pass(ElementHarness& h, int number) {
@@ -47,7 +47,7 @@ TEST_F(TrackShown, EachFrameHasAMessageWithTheForceAndTheTrack) {
   ASSERT_EQ(h.motions().size(), static_cast<size_t>(kFrames));
   for (const MotionMessage& message : h.motions()) {
     EXPECT_EQ(message.track, path);
-    EXPECT_NEAR(message.wrench.force_N.x(), 10 * kShare, kTolerance_N);
+    EXPECT_NEAR(message.wrench.force_N.x(), 10 * kFraction, kTolerance_N);
     EXPECT_EQ(message.limit, "none");
   }
   EXPECT_EQ(h.motions()[2].running_time, 2 * kFrame);
@@ -77,7 +77,7 @@ TEST_F(TrackShown, TheMetaHasItsForce) {
   GstBuffer* const frame = pass(h, 0);
   GstSpidarFrameMotion motion{};
   ASSERT_TRUE(gst_buffer_get_spidar_motion(frame, &motion));
-  EXPECT_NEAR(motion.force_x, 10 * kShare, kTolerance_N);
+  EXPECT_NEAR(motion.force_x, 10 * kFraction, kTolerance_N);
   EXPECT_GT(motion.interval, 0u) << "for spidarextract, which takes it for rest otherwise";
   gst_buffer_unref(frame);
 }

@@ -26,7 +26,7 @@ struct Schedule : testing::Test {
   void expect_frames(int64_t first, int64_t last) {
     driver.play((first - 1) * kFrame);
     for (int64_t n = first; n < last; ++n) {
-      schedule.hand_on();
+      schedule.forward_waiting();
       const TickRecord record = driver.tick(kFrame);
       ASSERT_EQ(record.frame_ns, n * kFrame);
       ASSERT_EQ(record.wanted.force_N.x(), 0.001 * static_cast<double>(n % 1000));
@@ -49,9 +49,9 @@ TEST_F(Schedule, ForgetsWaitingWrenchesToo) {
   schedule.forget();
   for (int64_t n = 0; n < 5; ++n) add(100 * n);
   driver.play(0);
-  schedule.hand_on();
+  schedule.forward_waiting();
   driver.tick();
-  schedule.hand_on();
+  schedule.forward_waiting();
   for (int64_t n = 1; n < 5; ++n) EXPECT_EQ(driver.run(100 * kFrame).frame_ns / kFrame, 100 * n);
 }
 
@@ -61,7 +61,7 @@ TEST_F(Schedule, AChangeOfTheRateMovesWhatWaits) {
   driver.play(-kFrame);
   driver.tick(kFrame / 2);  // what was scheduled for the old rate leaves the loop's ring
   for (int64_t n = 0; n < 2000; ++n) {
-    schedule.hand_on();
+    schedule.forward_waiting();
     ASSERT_EQ(driver.tick(kFrame / 2).frame_ns, n * kFrame / 2);
   }
 }

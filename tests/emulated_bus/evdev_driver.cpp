@@ -99,8 +99,8 @@ int EvdevDriver::upload(ff_effect& wanted) {
     wanted.direction = static_cast<uint16_t>(ff::Direction::kLeft);
   const auto effect = ff::decode_effect({reinterpret_cast<const uint8_t*>(&wanted), sizeof wanted});
   EvdevPort::Effect& kept = port_.effect[at];
-  const auto rounded = [](double share, int full) {
-    return static_cast<int>(std::lround(share * full));
+  const auto rounded = [](double fraction, int full) {
+    return static_cast<int>(std::lround(fraction * full));
   };
   const int right = rounded(effect->right, ff::kFullLevel);
   const int up = rounded(effect->up, ff::kFullLevel);

@@ -75,8 +75,8 @@ uint64_t inode_of(int file) {
   return fstat(file, &status) == 0 && S_ISSOCK(status.st_mode) ? status.st_ino : 0;
 }
 
-/// A place for one more file of the bus, replacing the oldest.
-SharedFile& share(int file, size_t port) {
+/// Room for one more file of the bus, replacing the oldest.
+SharedFile& fraction(int file, size_t port) {
   SharedFile& shared = bus().file[bus().files_opened++ % kSharedFiles];
   shared.claimed = false;
   shared.port = port;
@@ -270,7 +270,7 @@ int open_usb_file(size_t port) {
   const int smallest = 1;
   setsockopt(ends[0], SOL_SOCKET, SO_SNDBUF, &smallest, sizeof smallest);
   const std::lock_guard<std::mutex> lock(mutex());
-  auto* f = new UsbFile(share(ends[0], port));
+  auto* f = new UsbFile(fraction(ends[0], port));
   f->file = ends[0];
   f->other_end = ends[1];
   make_unready(*f);

@@ -163,9 +163,9 @@ class File(InFolder):
         for content, message in [
                 ("hello\n", "answers.csv:1: not a file of answers"),
                 (header + good + "P1,2\n", "answers.csv:3: 2 columns"),
-                (header + good.replace(",3,", ",6,"), '"6" is no number from 1 to 5'),
-                (header + good.replace("linear", "sham"), '"controllers, sham" is no part'),
-                (header + good.replace(",1,", ",one,"), '"one" is no number of a trial')]:
+                (header + good.replace(",3,", ",6,"), '"6" is not a number from 1 to 5'),
+                (header + good.replace("linear", "sham"), '"controllers, sham" is not a part'),
+                (header + good.replace(",1,", ",one,"), '"one" is not a number of a trial')]:
             self.path.write_text(content)
             with self.assertRaisesRegex(ValueError, re.escape(message)):
                 records.read_answers(self.path)

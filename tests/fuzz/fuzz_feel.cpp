@@ -24,8 +24,8 @@ namespace {
   std::abort();
 }
 
-bool is_place(const Eigen::Vector2d& place) {
-  return (place.array() >= 0).all() && (place.array() <= 1).all();
+bool is_position(const Eigen::Vector2d& position) {
+  return (position.array() >= 0).all() && (position.array() <= 1).all();
 }
 
 bool is_sound(const FeelRule& rule) {
@@ -33,8 +33,8 @@ bool is_sound(const FeelRule& rule) {
   const bool has_direction =
       rule.kind != FeelKind::kFurthest || std::fabs(rule.direction.norm() - 1) < 1e-12;
   return rule.from_ns >= 0 && rule.to_ns > rule.from_ns && rule.line > 0 && has_end &&
-         has_direction && is_place(rule.place) && is_place(rule.far_corner) && rule.gain >= 0 &&
-         rule.gain <= 10;
+         has_direction && is_position(rule.position) && is_position(rule.far_corner) &&
+         rule.gain >= 0 && rule.gain <= 10;
 }
 
 void check(const FeelRules& rules) {

@@ -36,8 +36,8 @@ std::vector<int> force_feedback_of(UinputKind kind) {
   return {FF_RUMBLE};
 }
 
-int rounded(double share, int full) {
-  return static_cast<int>(std::lround(share * full));
+int rounded(double fraction, int full) {
+  return static_cast<int>(std::lround(fraction * full));
 }
 
 }  // namespace

@@ -64,15 +64,15 @@ class ChosenFilm {
     return kStart_px[i] + n * kStep_px[i];
   }
   /// Of the next frame: from (0, 0) to (1, 1).
-  Vector2d disc_place(int disc) const {
+  Vector2d disc_position(int disc) const {
     const Vector2d at_px = disc_px(disc, frames_);
     return {0.5 + at_px.x() / kWidth, 0.5 + at_px.y() / kHeight};
   }
 
   void next() {
-    std::vector<Placement> places;
-    for (int i = 0; i < kDiscs; ++i) places.push_back({disc_px(i, frames_)});
-    const ImageView picture = scene_.draw({}, places);
+    std::vector<Placement> positions;
+    for (int i = 0; i < kDiscs; ++i) positions.push_back({disc_px(i, frames_)});
+    const ImageView picture = scene_.draw({}, positions);
     GstBuffer* const frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
     for (int y = 0; y < kHeight; ++y) {
       gst_buffer_fill(frame, static_cast<gsize>(y) * kWidth, picture.at(0, y), kWidth);

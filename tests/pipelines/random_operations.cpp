@@ -39,7 +39,7 @@ void change_rate_instantly(TormentedPlayer& player, RandomSource& random) {
   const GstClockTime now = gst_element_get_current_running_time(player.element());
   const GstClockTime shown = GST_CLOCK_TIME_IS_VALID(now) ? now : 0;
   GstPad* pad = gst_element_get_static_pad(player.element(), "src");
-  gst_pad_send_event(pad, gst_event_new_instant_rate_sync_time(0.5 + 2 * random.share(), shown,
+  gst_pad_send_event(pad, gst_event_new_instant_rate_sync_time(0.5 + 2 * random.fraction(), shown,
                                                                random.below(2 * shown + 1)));
   gst_object_unref(pad);
 }
@@ -200,7 +200,7 @@ std::vector<Operation> other_operations() {
       {"segment seek without flush", 2,
        [](Player& p, Random& r) { append(p, r, GST_SEEK_FLAG_SEGMENT); }},
       {"unplug", 1, [](Player& p, Random&) { unplug(p, LinkFault::kGone); }},
-      {"time-outs", 1, [](Player& p, Random&) { unplug(p, LinkFault::kTimeout); }},
+      {"timeouts", 1, [](Player& p, Random&) { unplug(p, LinkFault::kTimeout); }},
       {"bad replies", 1, [](Player& p, Random&) { unplug(p, LinkFault::kWrongReply); }},
       {"plug in", 8, [](Player& p, Random&) { unplug(p, LinkFault::kNone); }},
       {"lost pulses", 1,

@@ -28,8 +28,8 @@ void add_region(GstBuffer* frame, const char* name, int disc, int n) {
       static_cast<guint>(static_cast<gint>(corner_px.y())), kBox_px, kBox_px);
 }
 
-/// Share of the frames in which the disc is felt alone, once objects are known.
-double share_felt(Film& film, int disc) {
+/// Fraction of the frames in which the disc is felt alone, once objects are known.
+double fraction_felt(Film& film, int disc) {
   constexpr int kFrames = 40;
   film.play_to(Film::kKnown);
   int right = 0;
@@ -48,7 +48,7 @@ TEST(Boxes, TheNamedOneChoosesTheObject) {
       add_region(frame, "dog", (disc + 1) % Film::kDiscs, n);
       add_region(frame, "face", disc, n);
     };
-    EXPECT_GE(share_felt(film, disc), Film::kMostFrames);
+    EXPECT_GE(fraction_felt(film, disc), Film::kMostFrames);
     EXPECT_TRUE(film.warnings_.empty());
   }
 }
@@ -70,7 +70,7 @@ TEST(Boxes, ThatASeldomDetectorGivesAreSufficient) {
   film.attach_ = [](GstBuffer* frame, int n) {
     if (n % 10 == 4) add_region(frame, "face", 1, n);
   };
-  EXPECT_GE(share_felt(film, 1), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 1), Film::kMostFrames);
 }
 
 TEST(Boxes, OfACroppedFrameAreThoseOfTheWholeOne) {
@@ -82,7 +82,7 @@ TEST(Boxes, OfACroppedFrameAreThoseOfTheWholeOne) {
     crop->width = Film::kWidth * 3 / 4;
     crop->height = Film::kHeight;
   };
-  EXPECT_GE(share_felt(film, 0), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 0), Film::kMostFrames);
 }
 
 TEST(Boxes, ThatAreMissingOrEmptyAreNamedOnceAndNothingIsFelt) {
@@ -115,7 +115,7 @@ TEST(Boxes, ThatMakeNoSenseHarmNothing) {
     gst_buffer_add_video_region_of_interest_meta(frame, "y", 100'000, 5, G_MAXUINT, G_MAXUINT);
     add_region(frame, "face", 1, n);
   };
-  EXPECT_GE(share_felt(film, 1), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 1), Film::kMostFrames);
 }
 
 /// Where no rule asks for them, boxes change nothing.

@@ -25,19 +25,19 @@ constexpr const char* kMirroredWindow =
     " ! videoscale ! video/x-raw,width=240,height=135,pixel-aspect-ratio=1/1 ! "
     "videoflip video-direction=horiz";
 
-Vector2d in_window_px(const Vector2d& place) {
-  return {(1 - place.x()) * kWidth / 2, place.y() * kHeight / 2};
+Vector2d in_window_px(const Vector2d& position) {
+  return {(1 - position.x()) * kWidth / 2, position.y() * kHeight / 2};
 }
 
-void move(const Film& film, const Vector2d& place) {
-  const Vector2d at_px = in_window_px(place);
+void move(const Film& film, const Vector2d& position) {
+  const Vector2d at_px = in_window_px(position);
   gst_harness_push_upstream_event(
       film.harness(),
       gst_navigation_event_new_mouse_move(at_px.x(), at_px.y(), GST_NAVIGATION_MODIFIER_NONE));
 }
 
-void click(const Film& film, const Vector2d& place, gint button = 1) {
-  const Vector2d at_px = in_window_px(place);
+void click(const Film& film, const Vector2d& position, gint button = 1) {
+  const Vector2d at_px = in_window_px(position);
   gst_harness_push_upstream_event(
       film.harness(), gst_navigation_event_new_mouse_button_press(button, at_px.x(), at_px.y(),
                                                                   GST_NAVIGATION_MODIFIER_NONE));
@@ -53,7 +53,7 @@ TEST(Mouse, OnItsPathOverThreeObjectsEachIsFelt) {
   constexpr int kFramesEach = 18;
   for (const int disc : {0, 1, 2}) {
     for (int n = 0; n < kFramesEach; ++n) {
-      move(film, film.disc_place(disc));
+      move(film, film.disc_position(disc));
       film.next();
       right += film.felt() == disc;
     }
@@ -67,23 +67,23 @@ TEST(Mouse, AClickKeepsTheObjectAndASecondOneLetsGo) {
     SCOPED_TRACE(motion);
     Film film(std::string(motion) + "pointer=mouse", kMirroredWindow);
     film.play_to(10);
-    move(film, film.disc_place(2));
-    click(film, film.disc_place(2));
-    move(film, film.disc_place(0));
+    move(film, film.disc_position(2));
+    click(film, film.disc_position(2));
+    move(film, film.disc_position(0));
     int right = 0;
     for (int n = 10; n < 30; ++n) {
       film.next();
-      // Alone: the others have no share in its motion.
+      // Alone: the others have no fraction in its motion.
       right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
     }
     EXPECT_GE(right, kMostFrames * 20);
     const guint kept = film.object_;
-    click(film, film.disc_place(0), 3);
+    click(film, film.disc_position(0), 3);
     film.next();
     EXPECT_EQ(film.object_, kept) << "another button";
-    click(film, film.disc_place(0));
+    click(film, film.disc_position(0));
     for (int n = 31; n < 40; ++n) {
-      move(film, film.disc_place(0));
+      move(film, film.disc_position(0));
       film.next();
     }
     if (std::string(motion) == "motion=objects ") {
@@ -101,7 +101,7 @@ TEST(Mouse, AClickBesideAllObjectsIsToldAndKeepsNone) {
   film.play_to(30);
   ASSERT_EQ(film.notes_.size(), 1u);
   EXPECT_EQ(film.notes_[0], "No object is at 0.02,0.98, where the mouse was clicked.");
-  click(film, film.disc_place(1));
+  click(film, film.disc_position(1));
   film.play_to(32);
   EXPECT_NE(film.object_, 0u) << "the next click is a first one";
   EXPECT_EQ(film.felt(), 1);
@@ -110,7 +110,7 @@ TEST(Mouse, AClickBesideAllObjectsIsToldAndKeepsNone) {
 TEST(Mouse, WhatIsKeptIsLostWhenItLeavesThePicture) {
   Film film("motion=objects pointer=mouse", kMirroredWindow);
   film.play_to(10);
-  click(film, film.disc_place(1));
+  click(film, film.disc_position(1));
   // Below the picture after 85 frames. It is expected for half a second, and lost a second later.
   film.play_to(85 + 13 + 26);
   ASSERT_EQ(film.notes_.size(), 1u);
@@ -142,7 +142,7 @@ TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
 TEST(Window, AClickKeepsTheObjectWhateverThePointerIs) {
   Film film("motion=objects", kMirroredWindow);
   film.play_to(10);
-  film.window().choose(film.disc_place(2));
+  film.window().choose(film.disc_position(2));
   int right = 0;
   for (int n = 10; n < 30; ++n) {
     film.next();

@@ -20,7 +20,7 @@ class Command(track_case.TrackCase):
         for arguments, status, said in (
                 ("", 2, "no PROGRAM given"), ("max-force=2", 2, "spidar-feel max-force=2 -- PROGRAM"),
                 ("max-force=2 true", 2, "spidar-feel max-force=2 -- PROGRAM"), ("max-force=2 --", 2, "no PROGRAM given"),
-                ("--dance", 2, "--dance is no option"),
+                ("--dance", 2, "--dance is not an option"),
                 ("max-farce=2 -- true", 2, 'spidarmotion has no property "max-farce" that can be set; did you mean max-force?'),
                 ("filter-cutof=2 -- true", 2, 'no property "filter-cutof" that can be set; gst-inspect'),
                 ("filter-min-cutof=2 -- true", 2, "did you mean filter-min-cutoff?"),

@@ -116,8 +116,8 @@ TEST(Pictures, AFlashIsNoMotion) {
 TEST(Pictures, ADissolveIsNoObject) {
   // Of the mean of all points no such thing can be said: what fades in is not told from what moves.
   const std::vector<Wrench> wanted = play_film(kSettings[0], 20, [](int n, int x, int y) {
-    const double share = std::clamp(n - 5, 0, 10) / 10.0;
-    return (1 - share) * kStill.at(x, y) + share * kOther.at(x, y);
+    const double fraction = std::clamp(n - 5, 0, 10) / 10.0;
+    return (1 - fraction) * kStill.at(x, y) + fraction * kOther.at(x, y);
   });
   for (size_t n = 0; n < wanted.size(); ++n) EXPECT_EQ(wanted[n].stacked().norm(), 0) << n;
 }

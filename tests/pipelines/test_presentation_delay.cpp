@@ -44,20 +44,21 @@ GstPad* pad_of(SteppedPipeline& pipeline, const char* element_name, GstPadDirect
 }
 
 TEST(PresentationDelay, OffsetsOfThePadsOnTheWay) {
-  struct Place {
+  struct Position {
     const char* element;
     GstPadDirection direction;
   };
-  for (const Place place : {Place{"motion", GST_PAD_SRC},
-                            {"queue", GST_PAD_SINK},
-                            {"queue", GST_PAD_SRC},
-                            {"box", GST_PAD_SINK},
-                            {"sink", GST_PAD_SINK}}) {
-    SCOPED_TRACE(std::string(place.element) + (place.direction == GST_PAD_SRC ? " src" : " sink"));
+  for (const Position position : {Position{"motion", GST_PAD_SRC},
+                                  {"queue", GST_PAD_SINK},
+                                  {"queue", GST_PAD_SRC},
+                                  {"box", GST_PAD_SINK},
+                                  {"sink", GST_PAD_SINK}}) {
+    SCOPED_TRACE(std::string(position.element) +
+                 (position.direction == GST_PAD_SRC ? " src" : " sink"));
     SteppedPipeline pipeline(kBall + kMotion +
                              "! queue name=queue bin.( name=box fakesink name=sink sync=true ) "
                              "queue. ! sink.");
-    GstPad* pad = pad_of(pipeline, place.element, place.direction);
+    GstPad* pad = pad_of(pipeline, position.element, position.direction);
     gst_pad_set_offset(pad, kDelay);
     gst_object_unref(pad);
     pipeline.set_state(GST_STATE_PLAYING);
@@ -77,7 +78,7 @@ TEST(PresentationDelay, AnElementThatWaitsForTheClockBeforeTheSink) {
   }
 }
 
-/// Puts the element between `place` and `queue` of a pipeline that plays.
+/// Puts the element between `position` and `queue` of a pipeline that plays.
 GstPadProbeReturn insert(GstPad* source, GstPadProbeInfo*, gpointer user) {
   auto& pipeline = *static_cast<SteppedPipeline*>(user);
   GstPad* next = gst_pad_get_peer(source);
@@ -95,7 +96,7 @@ TEST(PresentationDelay, PutIntoALivePipelineThatPlays) {
     SCOPED_TRACE(plays_before_it_is_linked);
     SteppedPipeline pipeline(
         "videotestsrc is-live=true pattern=ball ! "
-        "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! identity name=place ! "
+        "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! identity name=position ! "
         "queue ! fakesink name=sink sync=true processing-deadline=100000000 " +
         kMotion.substr(kMotion.find("spidarmotion")));
     if (!plays_before_it_is_linked) {
@@ -105,7 +106,7 @@ TEST(PresentationDelay, PutIntoALivePipelineThatPlays) {
     pipeline.play_live();
     pipeline.step();
     for (int n = 0; n < 10; ++n) pipeline.step(2);
-    GstPad* pad = pad_of(pipeline, "place", GST_PAD_SRC);
+    GstPad* pad = pad_of(pipeline, "position", GST_PAD_SRC);
     gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_IDLE, insert, &pipeline, nullptr);
     gst_object_unref(pad);
     if (!plays_before_it_is_linked) {

@@ -118,7 +118,7 @@ class Properties(ElementCase):
     def test_defaults_are_the_documented_ones(self):
         defaults = {"device": "sim", "profile": None, "max-force": 3, "alpha": .0025, "motion": "object", "pointer": "0.5,0.5",
                     "filter-min-cutoff": 1, "filter-beta": .08, "ts-offset": 0, "qos": False, "touch": "off",
-                    "touch-relief": 8, "touch-stiffness": 500, "touch-friction": .3, "touch-texture": 0, "motion-share": 0}
+                    "touch-relief": 8, "touch-stiffness": 500, "touch-friction": .3, "touch-texture": 0, "motion-fraction": 0}
         self.assertEqual(self.values(make(), defaults), list(defaults.values()))
 
     def test_every_setting_reads_back_what_was_written(self):
@@ -127,7 +127,7 @@ class Properties(ElementCase):
                       "pointer": "0.25,1", "max-force": 1.5, "alpha": .02, "filter-min-cutoff": 4, "filter-beta": .5,
                       "depth-gain": 2.5, "roll-gain": 0, "ts-offset": -5000000, "on-device-error": "error",
                       "post-messages": False, "trace": "/a", "haptic-trace": "/b", "touch": touch, "touch-relief": 12,
-                      "touch-stiffness": 300, "touch-friction": .1, "touch-texture": 2, "motion-share": .4}
+                      "touch-stiffness": 300, "touch-friction": .1, "touch-texture": 2, "motion-fraction": .4}
             element = make(" ".join(f"{name}={str(value).lower()}" for name, value in wanted.items()))
             self.assertEqual(self.values(element, wanted), list(wanted.values()))
 

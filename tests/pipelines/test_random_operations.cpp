@@ -71,7 +71,7 @@ TEST(RandomOperations, DoNoHarm) {
     player.drain_bus();
     // Mostly too short for anything to settle; sometimes long enough for a force.
     const std::chrono::milliseconds longest(random.chance(0.04) ? 300 : 4);
-    std::this_thread::sleep_for(longest * random.share());
+    std::this_thread::sleep_for(longest * random.fraction());
   }
   SCOPED_TRACE(replay + ", after all operations");
   expect_to_play(player);

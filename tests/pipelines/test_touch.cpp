@@ -84,7 +84,7 @@ TEST(Touch, OffIsAsIfThereWereNoSuchProperties) {
   Touched plain(touched_film(ball, ""));
   Touched off(touched_film(ball,
                            "touch=off touch-relief=20 touch-stiffness=800 touch-friction=1 "
-                           "touch-texture=3 motion-share=0.3"));
+                           "touch-texture=3 motion-fraction=0.3"));
   // Switched on, and off again before anything is shown.
   Touched was_on(touched_film(ball, "touch=luma touch=off"));
   for (Touched* touched : {&plain, &off, &was_on}) {
@@ -101,17 +101,17 @@ TEST(Touch, OffIsAsIfThereWereNoSuchProperties) {
   EXPECT_EQ(was_on.trace(), plain.trace());
 }
 
-TEST(Touch, TheFilmIsAddedByItsShare) {
-  for (const double share : {0.0, 0.5, 1.0}) {
+TEST(Touch, TheFilmIsAddedByItsFraction) {
+  for (const double fraction : {0.0, 0.5, 1.0}) {
     Touched plain(touched_film("pattern=ball", ""));
     Touched touched(
-        touched_film("pattern=ball", "touch=luma motion-share=" + std::to_string(share)));
+        touched_film("pattern=ball", "touch=luma motion-fraction=" + std::to_string(fraction)));
     for (Touched* pipeline : {&plain, &touched}) {
       pipeline->hold(0, 0, 0.004 + 0.01);  // above all that there is
       pipeline->play(50);
     }
     EXPECT_GT(plain.last().wanted.force_N.norm(), 0.1);
-    EXPECT_NEAR((touched.last().wanted.force_N - share * plain.last().wanted.force_N).norm(), 0,
+    EXPECT_NEAR((touched.last().wanted.force_N - fraction * plain.last().wanted.force_N).norm(), 0,
                 1e-12);
     EXPECT_TRUE(touched.last().contact.has_surface);
   }
@@ -227,14 +227,14 @@ TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
       const Contact& contact = touched.last().contact;
       ASSERT_TRUE(contact.touching);
       const Eigen::Vector3d grip_m = touched.last().pose.position_m;
-      const Eigen::Vector2d place = pointer.place(grip_m);
+      const Eigen::Vector2d position = pointer.position(grip_m);
       // The proxy is the surface's nearest point: up the slope of the wedge by the depth.
       const double slope = kRelief_m / (2 * pointer.half_size_m().y());
       const double z_m =
           grip_m.z() + contact.depth_m * std::sqrt(1 + slope * slope);  // straight above the grip
       // Steps of brightness, half a row of so few, and of the encoder.
       const double step_m = kRelief_m / 255 + 0.5 * kRelief_m / height + 2 * 1.6e-5;
-      EXPECT_NEAR(z_m, height_m(touched.luma(place.x(), place.y())), step_m) << y_m;
+      EXPECT_NEAR(z_m, height_m(touched.luma(position.x(), position.y())), step_m) << y_m;
     }
   }
 }

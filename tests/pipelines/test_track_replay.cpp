@@ -203,13 +203,13 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
   pipeline->set_state(GST_STATE_PLAYING);
   play(10);
   EXPECT_LT(number("vibration-left"), 1);
-  EXPECT_EQ(number("vibration-share"), 1);
+  EXPECT_EQ(number("vibration-fraction"), 1);
   // As after some minutes: the store is empty.
   const int64_t now_ns = pipeline->loop().snapshot().last.monotonic_ns;
   pipeline->loop().vibration().restore(now_ns + 24 * 3600 * 1'000'000'000LL);
   play(30);
-  const double left = number("vibration-left"), share = number("vibration-share");
-  EXPECT_LT(share, 0.1);
+  const double left = number("vibration-left"), fraction = number("vibration-fraction");
+  EXPECT_LT(fraction, 0.1);
   EXPECT_EQ(limit("device-limit"), "vibration");
   pipeline->await_message(GST_MESSAGE_WARNING);
   // Neither a seek nor a pause gives anything back, except what comes back with time.
@@ -219,7 +219,7 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
   pipeline->set_state(GST_STATE_PLAYING);
   pipeline->step();
   EXPECT_LT(number("vibration-left"), left + 1e-4);
-  EXPECT_LT(number("vibration-share"), 0.97);
+  EXPECT_LT(number("vibration-fraction"), 0.97);
 }
 
 }  // namespace

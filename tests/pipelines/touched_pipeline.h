@@ -58,7 +58,7 @@ class Touched {
   double fastest_m_s() { return std::exchange(fastest_m_s_, 0.0); }
   const std::string& trace() const { return trace_; }
 
-  /// Of the frame that is on the screen: a pixel at a share of width and height.
+  /// Of the frame that is on the screen: a pixel at a fraction of width and height.
   double luma(double x, double y) const {
     GstSample* sample = nullptr;
     g_object_get(pipeline.sink(), "last-sample", &sample, nullptr);

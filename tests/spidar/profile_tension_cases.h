@@ -18,7 +18,7 @@ inline TensionProblem random_problem(Random& random, const Profile& profile) {
   Eigen::Vector3d frame_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < profile.geometry.count; ++i)
     frame_m = frame_m.cwiseMax(profile.geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
-  constexpr double kReach[] = {0.3, 0.9, 1.1, 3};  // shares of the frame
+  constexpr double kReach[] = {0.3, 0.9, 1.1, 3};  // fractions of the frame
   constexpr double kAngle[] = {0.35, 1.4, M_PI};
 
   TensionProblem p;

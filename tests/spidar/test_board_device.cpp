@@ -147,9 +147,10 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
       FAIL() << spec;
     } catch (const DeviceError& error) {
       const std::string what = error.what();
-      EXPECT_EQ(what.find("unknown device \"" + spec +
-                          "\"; known are: sim, sim:BOARD, none, usb, usb:ID, uart:PATH, mouse, "),
-                0u)
+      EXPECT_EQ(
+          what.find("unknown device \"" + spec +
+                    "\"; known are: sim, sim:BOARD, none, auto, usb, usb:ID, uart:PATH, mouse, "),
+          0u)
           << what;
       for (const DeviceKind& kind : devices())
         EXPECT_NE(what.find(std::string(", ") + kind.names), std::string::npos) << what;

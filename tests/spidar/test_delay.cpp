@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/link_thread.h"
-#include "spidar/conformance/delay_test.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"
+#include "spidar/selftest/delay_test.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/kinds.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/encoder_signs.h"
+#include "spidar/selftest/encoder_signs.h"
 
 namespace spidar::test::encoder_signs_test {
 namespace {

@@ -25,7 +25,7 @@ TEST(FalconGrip, TakesForcesAndGivesPositionsInAllAxes) {
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(30, -20, 10), Eigen::Vector3d(-25, 30, -30)}) {
     for (size_t axis = 0; axis < 3; ++axis)
       bench.motors.count[axis] = static_cast<int>(1000 * at_mm[static_cast<Eigen::Index>(axis)]);
-    // The force is that for the place of the answer before.
+    // The force is that for the position of the answer before.
     for (int i = 0; i < 2; ++i) ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
     // Half a count of each encoder is 0.018 degrees, at some 60 mm/rad.
     EXPECT_LT((1000 * grip->reading().pose.position_m - at_mm).norm(), 0.05) << at_mm.transpose();
@@ -37,7 +37,7 @@ TEST(FalconGrip, TakesForcesAndGivesPositionsInAllAxes) {
   }
 }
 
-/// Every place of the 50 mm around the centre, in every direction.
+/// Every position of the 50 mm around the centre, in every direction.
 TEST(FalconGrip, GivesItsLargestForceEverywhere) {
   ForceBench bench("falcon");
   const auto grip = bench.grip();

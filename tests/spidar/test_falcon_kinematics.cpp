@@ -21,14 +21,14 @@ constexpr double kRounding_m = 1e-14;
 
 /// A grid of 5 mm within the reach.
 std::vector<Vector3d> workspace() {
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
   constexpr int kSteps = 11;
   for (int x = -kSteps; x <= kSteps; ++x)
     for (int y = -kSteps; y <= kSteps; ++y)
       for (int z = -kSteps; z <= kSteps; ++z)
         if (const Vector3d at = 0.005 * Vector3d(x, y, z); at.norm() <= falcon::kReach_m)
-          places.push_back(at);
-  return places;
+          positions.push_back(at);
+  return positions;
 }
 
 /// Length of the rods of the arm at this angle of the base, if the upper arm has this angle.

@@ -56,7 +56,7 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
   EXPECT_EQ(boards[0].name, "Emulated Stick");
   EXPECT_EQ(boards[0].path, "/dev/input/event2");
   EXPECT_EQ(boards[0].usb_id, "1209:0001");
-  EXPECT_EQ(boards[0].trial, Trial::kEmulated);
+  EXPECT_EQ(boards[0].verification, Verification::kEmulated);
   EXPECT_EQ(boards[0].note, "");
   EXPECT_FALSE(boards[0].has_strings);
   EXPECT_TRUE(boards[0].accessible);

@@ -81,18 +81,18 @@ TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
 }
 
 /// Steps of the readings are 20, 15 and 13 mm.
-TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
+TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
   const double reach_m = 0.059 / 2;
   for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
-    StickPlace place;
+    StickPosition place;
     place.start(swinging(0, half_ms), 0);
     double largest_m = 0, read_m = 0, largest_read_m = 0;
     for (int64_t ms = 1; ms < 1000; ++ms) {
-      const double before_m = reach_m * place.share().x();
+      const double before_m = reach_m * place.fraction().x();
       if (ms % update_ms == 0) {
         // The previous reading has arrived when the next one is taken.
         place.advance(ms * kMs);
-        EXPECT_NEAR(reach_m * place.share().x(), read_m, 1e-12);
+        EXPECT_NEAR(reach_m * place.fraction().x(), read_m, 1e-12);
         const ff::Position position = swinging(ms * kMs, half_ms);
         place.see(position, ms * kMs);
         const double now_m = reach_m * position.right / ff::Position::kFull;
@@ -100,7 +100,7 @@ TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
         read_m = now_m;
       }
       place.advance(ms * kMs);
-      largest_m = std::max(largest_m, std::abs(reach_m * place.share().x() - before_m));
+      largest_m = std::max(largest_m, std::abs(reach_m * place.fraction().x() - before_m));
     }
     EXPECT_GT(largest_read_m, 10e-3);
     // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
@@ -109,18 +109,18 @@ TEST(StickPlace, MovesAtTheSpeedOfTheHand) {
   }
 }
 
-TEST(StickPlace, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
-  StickPlace place;
+TEST(StickPosition, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
+  StickPosition place;
   place.start({100, 200}, 0);
-  EXPECT_EQ(place.share(), Eigen::Vector2d(0.01, 0.02));
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0.01, 0.02));
   place.see({10'000, -10'000}, 3 * kSecond_ns);
   place.advance(3 * kSecond_ns);
-  EXPECT_LT(place.share().x(), 1);
-  place.advance(3 * kSecond_ns + StickPlace::kLongest_ns);
-  EXPECT_EQ(place.share(), Eigen::Vector2d(1, -1));
+  EXPECT_LT(place.fraction().x(), 1);
+  place.advance(3 * kSecond_ns + StickPosition::kLongest_ns);
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(1, -1));
   place.see({0, 0}, 4 * kSecond_ns);
   place.advance(5 * kSecond_ns);
-  EXPECT_EQ(place.share(), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0, 0));
 }
 
 class ForceFeedbackFaults : public testing::Test {

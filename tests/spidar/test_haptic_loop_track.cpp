@@ -12,7 +12,7 @@
 namespace spidar::test::haptic_loop_track_test {
 namespace {
 
-float share_at(int64_t ms) {
+float fraction_at(int64_t ms) {
   return 0.2F * static_cast<float>(std::sin(0.02 * static_cast<double>(ms)));
 }
 
@@ -22,8 +22,8 @@ TrackBlock block_of(int64_t begin_ms, size_t count = TrackBlock::kCapacity) {
   block.count = count;
   block.duration_ns = static_cast<int64_t>(count) * kMs;
   for (size_t i = 0; i < count; ++i) {
-    const float share = share_at(begin_ms + static_cast<int64_t>(i));
-    block.samples[i] = {share, -share, 0, 0, share / 10, 0};
+    const float fraction = fraction_at(begin_ms + static_cast<int64_t>(i));
+    block.samples[i] = {fraction, -fraction, 0, 0, fraction / 10, 0};
   }
   return block;
 }
@@ -56,7 +56,7 @@ TEST(HapticLoopTrack, FeelsEverySample) {
   for (int ms = 1; ms < 400; ++ms) {
     const TickRecord record = driver.watched_tick();
     ASSERT_EQ(record.found, Found::kExact) << ms;
-    ASSERT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(ms));
+    ASSERT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * fraction_at(ms));
     ASSERT_EQ(record.wanted.force_N.y(), -record.wanted.force_N.x());
     // After the ramp in the wrench is within the limits, and so it is commanded.
     ASSERT_TRUE(ms <= 60 || record.commanded.stacked() == record.wanted.stacked()) << ms;
@@ -87,7 +87,7 @@ TEST(HapticLoopTrack, AFlushForgetsSamplesAlsoThoseOfABlockThatIsBeingRead) {
   driver.play(1000 * kMs);
   const TickRecord record = driver.watched_run(90);
   EXPECT_EQ(record.found, Found::kExact);
-  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * share_at(1090));
+  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * fraction_at(1090));
 }
 
 TEST(HapticLoopTrack, AFlushMakesRoomAlsoWhileNothingPlays) {
@@ -128,7 +128,7 @@ TEST(HapticLoopTrack, WhereThereIsATrackFramesAreNotFelt) {
   driver.play(0);
   EXPECT_EQ(driver.watched_run(100).wanted.force_N.x(), -1);
   driver.schedule(120, 400);
-  EXPECT_EQ(driver.watched_run(150).wanted.force_N.x(), kTrackForceScale_N * share_at(250));
+  EXPECT_EQ(driver.watched_run(150).wanted.force_N.x(), kTrackForceScale_N * fraction_at(250));
 }
 
 }  // namespace

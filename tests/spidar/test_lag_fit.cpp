@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/lag_fit.h"
+#include "spidar/selftest/lag_fit.h"
 
 namespace spidar::test::lag_fit_test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A hand that is led to a place, and what the grip of a simulated device makes of it.
+// A hand that is led to a position, and what the grip of a simulated device makes of it.
 #include <limits>
 #include <random>
 #include <thread>
@@ -93,7 +93,7 @@ TEST_F(SimulatedDeviceTest, AHandMayBeLedByAnotherThread) {
   device.open();
   std::thread leader([&] {
     for (int n = 0; n < 20'000; ++n) {
-      // x and y of one place belong together, which a torn read would show.
+      // x and y of one position belong together, which a torn read would show.
       const double at_m = n % 2 == 0 ? 0.02 : -0.02;
       device.lead_hand(Eigen::Vector3d(at_m, at_m, 0));
     }

@@ -264,7 +264,7 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
       const StructureMatrix W = structure_matrix(profile.geometry, random.pose(0.02, 0.3));
       const Wrench wanted{3 * random.direction(), Eigen::Vector3d::Zero()};
       const StringVector tension_N = command.solve(W, wanted, profile.max_tension_N());
-      const double asked_N = 3 * command.share();
+      const double asked_N = 3 * command.fraction();
       // It falls with what is asked of the others, and is back at its minimum where that is
       // nothing.
       ASSERT_NEAR(tension_N[string],
@@ -280,7 +280,7 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
       const double pull_N = std::hypot(pull.head<3>().norm(),
                                        pull.tail<3>().norm() / profile.geometry.grip_radius_m());
       const Eigen::Vector3d force = (W * tension_N).head<3>();
-      ASSERT_LE((force - command.share() * wanted.force_N).norm(), asked_N + pull_N + 1e-9);
+      ASSERT_LE((force - command.fraction() * wanted.force_N).norm(), asked_N + pull_N + 1e-9);
     }
   }
   EXPECT_GT(nothing, 50);  // often on spidar-g6c, whose strings pull hard at rest

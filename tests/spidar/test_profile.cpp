@@ -200,7 +200,7 @@ const std::string kExits =
 const std::string kGrips =
     kValid.substr(kValid.find("grip = ["), kValid.find("\n\n[strings]") - kValid.find("grip = ["));
 
-/// The same lines with all points in one place.
+/// The same lines with all points in one position.
 std::string one_exit(std::string exits) {
   for (const char* point :
        {"[-60, -61, -62]", "[-60, -61, 62]", "[60, -61, 62]", "[60, -61, -62]", "[-60, 61, 62]"})

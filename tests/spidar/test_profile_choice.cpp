@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/encoder_signs.h"
+#include "spidar/selftest/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"

@@ -194,7 +194,7 @@ TEST(ReleasedFilms, AFastSwingStoresByWhereItEnds) {
 }
 
 /// The force that the brake takes away falls no faster than the slew limit lets it, and pushes on
-/// meanwhile. At half of the usual limit the grip gets 1.05 m/s if the brake does not foresee that.
+/// meanwhile. At half of the usual limit the grip gets 1.05 m/s if the brake does not predict that.
 TEST(ReleasedFilms, TheBrakeForeseesHowSlowlyAForceFalls) {
   const Profile profile = load_profile("spidar-g6x3-v2-l");
   GripModel model = released(profile, 0.1);
@@ -208,7 +208,7 @@ TEST(ReleasedFilms, TheBrakeForeseesHowSlowlyAForceFalls) {
   EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
 }
 
-/// A torque spins a bare grip in 0.05 s. If that does not end the film's force, the grip turns
+/// A torque spins a unheld grip in 0.05 s. If that does not end the film's force, the grip turns
 /// until its pose is lost, 110 mm beside the centre. The strings at rest then throw it back at 1.28
 /// m/s.
 TEST(ReleasedFilms, AGripThatSpinsIsReleased) {
@@ -237,7 +237,7 @@ TEST(ReleasedFilms, ATorqueDoesNotTakeTheDamperItsStrings) {
   EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
 }
 
-/// A bare grip follows a force that rises slowly to 75 mm beside the centre, where the strings at
+/// A unheld grip follows a force that rises slowly to 75 mm beside the centre, where the strings at
 /// rest balance it. Judged by what pulls it there, which is nothing, it has stored nothing, and
 /// gets 1.23 m/s when the film reverses its force.
 TEST(ReleasedFilms, AGripThatTheStringsBalanceHasStoredEnergy) {

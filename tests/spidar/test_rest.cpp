@@ -99,10 +99,10 @@ TEST(Rest, NothingJumpsBetweenItAndAWrench) {
       StringVector last_N = profile.min_tension_N();
       ASSERT_EQ(command.solve(W, {}, profile.max_tension_N()), last_N);
       for (int step = 1; step <= kSteps; ++step) {
-        const double share = static_cast<double>(step) / kSteps;
-        const StringVector now_N = command.solve(W, share * full, profile.max_tension_N());
+        const double fraction = static_cast<double>(step) / kSteps;
+        const StringVector now_N = command.solve(W, fraction * full, profile.max_tension_N());
         ASSERT_LE((now_N - profile.min_tension_N()).maxCoeff(),
-                  TensionCommand::kTensionPerForce * share * size * (1 + 1e-12));
+                  TensionCommand::kTensionPerForce * fraction * size * (1 + 1e-12));
         // Above zero the slope of the solution is bounded by the conditioning of W with ε; what a
         // tick may move is the business of TensionSlew.
         last_N = now_N;

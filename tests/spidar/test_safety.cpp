@@ -122,11 +122,11 @@ TEST(SlewLimit, IgnoresWhatIsNotFinite) {
 
 TEST(StaleRamp, TakesRampSecondsEachWay) {
   StaleRamp ramp;
-  EXPECT_EQ(ramp.share(), 0);
-  const auto share = [](int i) { return i * i * (120 - 2.0 * i) / (40 * 40 * 40); };
-  for (int i = 1; i <= 40; ++i) EXPECT_NEAR(ramp.apply(true, kTick_s, {}), share(i), 1e-12);
+  EXPECT_EQ(ramp.fraction(), 0);
+  const auto fraction = [](int i) { return i * i * (120 - 2.0 * i) / (40 * 40 * 40); };
+  for (int i = 1; i <= 40; ++i) EXPECT_NEAR(ramp.apply(true, kTick_s, {}), fraction(i), 1e-12);
   EXPECT_EQ(ramp.apply(true, kTick_s, {}), 1);
-  for (int i = 39; i >= 0; --i) EXPECT_NEAR(ramp.apply(false, kTick_s, {}), share(i), 1e-12);
+  for (int i = 39; i >= 0; --i) EXPECT_NEAR(ramp.apply(false, kTick_s, {}), fraction(i), 1e-12);
   EXPECT_EQ(ramp.apply(false, kTick_s, {}), 0);
 }
 
@@ -223,9 +223,9 @@ TEST(TensionSlew, LeavesSmallChanges) {
   EXPECT_EQ(slew.apply(near_rest, profile, kTick_s), near_rest);
 }
 
-TEST(TensionSlew, TakesItsTimeAndAllStringsGoTheSameShare) {
+TEST(TensionSlew, TakesItsTimeAndAllStringsGoTheSameFraction) {
   // The first string through its whole range: 12 N in 20 ms, but 4.7 N at the pace of a wrench.
-  for (const auto& [most_N, share] : {std::pair(12.3, 1 / 20.0), std::pair(5.0, 0.3 / 4.7)}) {
+  for (const auto& [most_N, fraction] : {std::pair(12.3, 1 / 20.0), std::pair(5.0, 0.3 / 4.7)}) {
     Profile profile = two_strings();
     profile.drives[0].max_tension_N = most_N;
     TensionSlew slew(profile);
@@ -233,8 +233,8 @@ TEST(TensionSlew, TakesItsTimeAndAllStringsGoTheSameShare) {
     const StringVector wanted = two_tensions(most_N, 1.2);
     for (int tick = 1; tick <= 15; ++tick) {
       const StringVector now = slew.apply(wanted, profile, kTick_s);
-      const StringVector expected = rest + tick * share * (wanted - rest);
-      // Each tick rounds a share and a sum.
+      const StringVector expected = rest + tick * fraction * (wanted - rest);
+      // Each tick rounds a fraction and a sum.
       EXPECT_LT((now - expected).norm(),
                 tick * 4 * std::numeric_limits<double>::epsilon() * most_N);
     }

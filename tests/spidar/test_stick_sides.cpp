@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/stick_test.h"
+#include "spidar/selftest/stick_test.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"

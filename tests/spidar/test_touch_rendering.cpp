@@ -48,12 +48,12 @@ TEST(TouchRendering, GoesFromFrameToFrameInTime) {
   for (int64_t n = 0; n < 60; ++n) {
     publish_plane(touched.mailbox, n * kFrame, saw_m(n), n == 0 ? After::kCut : After::kFrame);
   }
-  touched.run(10 * kFrame);  // the surface rises from the grip to its place
+  touched.run(10 * kFrame);  // the surface rises from the grip to its position
   for (int tick = 0; tick < 1000; ++tick) {
     const Contact contact = touched.tick();
     const int64_t n = touched.now_ns / kFrame;
-    const double share = static_cast<double>(touched.now_ns % kFrame) / kFrame;
-    const double z_m = (1 - share) * saw_m(n) + share * saw_m(n + 1);
+    const double fraction = static_cast<double>(touched.now_ns % kFrame) / kFrame;
+    const double z_m = (1 - fraction) * saw_m(n) + fraction * saw_m(n + 1);
     ASSERT_TRUE(contact.touching);
     ASSERT_NEAR(contact.depth_m, 0.005 + z_m, kRounding_m) << "at " << touched.now_ns;
     ASSERT_NEAR((contact.proxy_m - Eigen::Vector3d(0, 0, z_m)).norm(), 0, kRounding_m);
@@ -70,8 +70,8 @@ TEST(TouchRendering, AFrameThatIsKnownLateIsReachedFromThenOn) {
   EXPECT_NEAR(before_m, 0.005, kRounding_m) << "no step when it becomes known";
   for (int tick = 1; tick < 20; ++tick) {
     // It became known a millisecond after it was published.
-    const double share = std::min(1.0, tick / 19.0);
-    ASSERT_NEAR(touched.tick().depth_m, 0.005 + 0.0005 * share, kRounding_m) << tick;
+    const double fraction = std::min(1.0, tick / 19.0);
+    ASSERT_NEAR(touched.tick().depth_m, 0.005 + 0.0005 * fraction, kRounding_m) << tick;
   }
   // And one that is known when it is due already: within kShortest_ns.
   touched.run(touched.now_ns + kFrame);

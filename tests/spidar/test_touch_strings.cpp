@@ -101,32 +101,32 @@ TEST(TouchStrings, ALightTouchOnTheWayOutGivesNothing) {
 }
 
 /// Of a hand that explores a plane with 800 N/m for so many ticks.
-double share_after(const Hand& hand, double mass_kg, double more_lag_s, long ticks = 15'000) {
+double fraction_after(const Hand& hand, double mass_kg, double more_lag_s, long ticks = 15'000) {
   StringTouch touch = touch_of(ContactSettings::kMostStiffness_N_m);
   touch.mass_kg = mass_kg;
   touch.more_lag_s = more_lag_s;
   const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
-  return explore_through_strings(plane, touch, hand, ticks, 7).stiffness_share;
+  return explore_through_strings(plane, touch, hand, ticks, 7).stiffness_fraction;
 }
 
 TEST(TouchStrings, ASurfaceThatShakesBecomesSofter) {
   constexpr Hand kLooseHand{"loose", 30, 0.5};
   for (const double mass_kg : {0.05, 0.1}) {
-    EXPECT_LT(share_after(kLooseHand, mass_kg, 0.003), 1) << mass_kg << " kg";
-    EXPECT_EQ(share_after(kLooseHand, mass_kg, 0), 1) << mass_kg << " kg";
-    EXPECT_EQ(share_after(kLightHand, mass_kg, 0), 1) << mass_kg << " kg";
-    EXPECT_EQ(share_after(kFirmHand, mass_kg, 0.003), 1) << mass_kg << " kg";
+    EXPECT_LT(fraction_after(kLooseHand, mass_kg, 0.003), 1) << mass_kg << " kg";
+    EXPECT_EQ(fraction_after(kLooseHand, mass_kg, 0), 1) << mass_kg << " kg";
+    EXPECT_EQ(fraction_after(kLightHand, mass_kg, 0), 1) << mass_kg << " kg";
+    EXPECT_EQ(fraction_after(kFirmHand, mass_kg, 0.003), 1) << mass_kg << " kg";
   }
 }
 
 /// What is left of the stiffness after a second of this velocity across the surface, and this one
 /// along it.
 template <typename Velocity>
-double share_of(Velocity across_m_s, double along_m_s = 0) {
+double fraction_of(Velocity across_m_s, double along_m_s = 0) {
   ShakeWatch watch;
   for (int i = 0; i < 1000; ++i)
     watch.see({along_m_s, 0, across_m_s(1e-3 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
-  return watch.share();
+  return watch.fraction();
 }
 
 TEST(ShakeWatch, NoticesShakingAndNothingElse) {
@@ -134,24 +134,25 @@ TEST(ShakeWatch, NoticesShakingAndNothingElse) {
     return [=](double time_s) { return size_m_s * std::sin(2 * M_PI * rate_Hz * time_s); };
   };
   for (const double rate_Hz : {18.0, 25.0, 40.0, 55.0}) {
-    EXPECT_LT(share_of(sine(rate_Hz, 0.02)), 1) << rate_Hz;
+    EXPECT_LT(fraction_of(sine(rate_Hz, 0.02)), 1) << rate_Hz;
     // The slow part that is left out takes at most a third at 18 Hz.
-    EXPECT_EQ(share_of(sine(rate_Hz, 0.75 * ShakeWatch::kLeast_m_s)), 1) << rate_Hz;
-    EXPECT_EQ(share_of(sine(rate_Hz, 0.02), 2 * ShakeWatch::kStroke_m_s), 1) << "strokes";
+    EXPECT_EQ(fraction_of(sine(rate_Hz, 0.75 * ShakeWatch::kLeast_m_s)), 1) << rate_Hz;
+    EXPECT_EQ(fraction_of(sine(rate_Hz, 0.02), 2 * ShakeWatch::kStroke_m_s), 1) << "strokes";
   }
   // A hand trembles at 8 to 12 Hz; what is faster than 60 Hz is no motion of the grip.
-  for (const double rate_Hz : {1.0, 8.0, 12.0, 80.0}) EXPECT_EQ(share_of(sine(rate_Hz, 0.02)), 1);
+  for (const double rate_Hz : {1.0, 8.0, 12.0, 80.0})
+    EXPECT_EQ(fraction_of(sine(rate_Hz, 0.02)), 1);
   // A tap every 0.2 s.
   const auto taps = [](double time_s) {
     const double since_s = std::fmod(time_s, 0.2);
     return 0.3 * std::exp(-since_s / 0.01) * std::cos(2 * M_PI * 25 * since_s);
   };
-  EXPECT_EQ(share_of(taps), 1);
+  EXPECT_EQ(fraction_of(taps), 1);
   // It shakes on: the stiffness falls on, to a tenth.
   ShakeWatch watch;
   for (int i = 0; i < 10'000; ++i)
     watch.see({0, 0, 0.02 * std::sin(2 * M_PI * 0.025 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
-  EXPECT_EQ(watch.share(), ShakeWatch::kLeastShare);
+  EXPECT_EQ(watch.fraction(), ShakeWatch::kLeastFraction);
 }
 
 TEST(TouchStrings, WithoutDampingItIsSeen) {

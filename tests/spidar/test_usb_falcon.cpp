@@ -80,7 +80,7 @@ TEST_F(UsbFalcon, GetsItsFirmwareOnceAfterEachPlugIn) {
 TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
   plug_homed(0);
   std::filesystem::remove(path);
-  EXPECT_EQ(opening(*grip()), "falcon: has not got its firmware (time-out). " + path +
+  EXPECT_EQ(opening(*grip()), "falcon: has not got its firmware (timeout). " + path +
                                   ": it cannot be read: No such file or directory; "
                                   "SPIDAR_FALCON_FIRMWARE names the file, which is "
                                   "firmware/nvent_firmware.bin in the sources of libnifalcon");

@@ -90,7 +90,7 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   BoardSettings unguarded;
   unguarded.guardian = false;
   EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded)->open());
-  // A name that is no device's gets the names that are.
+  // A name that is not a device's gets the names that are.
   expect_contains(refusal_of([] { profile_for("uart", ""); }), "known are: sim, ");
   BoardInfo nothing;
   nothing.device = "uart";

@@ -30,15 +30,15 @@ double weight(double frequency_Hz) {
                   (s * s / (w3 * w3) + s / (0.64 * w3) + 1.0));
 }
 
-/// A budget whose force is lowered by its own share, as in the loop.
+/// A budget whose force is lowered by its own fraction, as in the loop.
 struct Shaken {
   /// Goes on for some seconds with a force in N at a time in s.
   template <typename Force>
   void run(double seconds, Force force_N) {
     for (int64_t end = tick + std::llround(1e3 * seconds); tick < end; ++tick) {
-      const double lowered_N = budget.share() * force_N(1e-3 * static_cast<double>(tick));
+      const double lowered_N = budget.fraction() * force_N(1e-3 * static_cast<double>(tick));
       budget.pass(push(lowered_N), 1e-3, tick * kTick_ns);
-      if (budget.share() < 1 && begun_s < 0) begun_s = 1e-3 * static_cast<double>(tick);
+      if (budget.fraction() < 1 && begun_s < 0) begun_s = 1e-3 * static_cast<double>(tick);
     }
   }
   /// Vibration since the beginning, m²/s³, if the store has never been full since then.
@@ -48,7 +48,7 @@ struct Shaken {
 
   Budget budget{0};
   int64_t tick = 0;
-  double begun_s = -1;  // when the share first was below 1
+  double begun_s = -1;  // when the fraction first was below 1
 };
 
 /// ±3 N, another sign with each of 25 pictures a second.
@@ -135,7 +135,7 @@ TEST(VibrationBudget, LowersAStrobeWhenPredictedAndStaysWithinTheBudget) {
   EXPECT_LE(hand.begun_s, begins_s(0) + 1);
   EXPECT_GE(hand.begun_s, begins_s(ripple) - 1);
   std::printf("%.1f m/s², lowered from %.1f s on, after 10 minutes to %.3f\n",
-              std::sqrt(strobe_m2_s4), hand.begun_s, hand.budget.share());
+              std::sqrt(strobe_m2_s4), hand.begun_s, hand.budget.fraction());
 
   const double long_s = sweep() ? 8 * 3600 : 3600;
   hand.run(long_s - 622, strobe_N);
@@ -188,7 +188,7 @@ struct StrobeFilm {
   double taken_m2_s3() const {
     return Budget::kRefill_m2_s4 * 1e-9 * static_cast<double>(truth.full_at_ns() - begin_ns);
   }
-  double share() const { return grip.snapshot().vibration.share; }
+  double fraction() const { return grip.snapshot().vibration.fraction; }
 
   PlayedGrip grip;
   Budget truth{0};
@@ -212,8 +212,8 @@ TEST(Vibration, OfAStrobeFilmIsWithinTheBudgetInTheHand) {
     const double all = film.taken_m2_s3();
     film.run(30);
     const double end_m_s2 = std::sqrt((film.taken_m2_s3() - all) / 30);
-    std::printf("%s hand: %.1f m/s², after %.0f s %.2f m/s², share %.3f, A(8) %.2f m/s²\n",
-                light ? "light" : "firm", unlowered_m_s2, long_s, end_m_s2, film.share(),
+    std::printf("%s hand: %.1f m/s², after %.0f s %.2f m/s², fraction %.3f, A(8) %.2f m/s²\n",
+                light ? "light" : "firm", unlowered_m_s2, long_s, end_m_s2, film.fraction(),
                 std::sqrt(all / (8 * 3600)));
     // A mass m on a spring k with a damper c moves by |1 − (ω₀/ω)² + c/(jωm)|⁻¹ of what it does
     // alone. The strings' own friction is part of the damper.
@@ -223,7 +223,7 @@ TEST(Vibration, OfAStrobeFilmIsWithinTheBudgetInTheHand) {
     const double most = store_m2_s3 + long_s * Budget::kRefill_m2_s4;
     EXPECT_LE(all, std::max(1.0, gain * gain) * most);
     EXPECT_LE(all, Budget::kDay_m2_s3);
-    EXPECT_LT(film.share(), 0.5);
+    EXPECT_LT(film.fraction(), 0.5);
     EXPECT_TRUE(film.grip.snapshot().vibration.lowered());
   }
 }
@@ -237,7 +237,7 @@ void expect_untouched(PlayedGrip& grip, int ticks) {
     const Wrench alone = safety.apply(last.wanted, last.found != Found::kNothing, 1e-3, {});
     ASSERT_EQ(last.commanded.stacked(), alone.stacked()) << "tick " << i;
   }
-  EXPECT_EQ(grip.snapshot().vibration.share, 1);
+  EXPECT_EQ(grip.snapshot().vibration.fraction, 1);
 }
 
 TEST(Vibration, OfASlowFilmIsNeverTouched) {

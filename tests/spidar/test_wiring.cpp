@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/conformance_report.h"
-#include "spidar/conformance/hold.h"
-#include "spidar/conformance/wiring_report.h"
+#include "spidar/selftest/hold.h"
+#include "spidar/selftest/selftest_report.h"
+#include "spidar/selftest/wiring_report.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/miswired_device.h"
 
@@ -66,7 +66,7 @@ TEST(Wiring, OfEveryShippedProfileIsFoundToBeRight) {
     SCOPED_TRACE(name);
     const WiringReport report = test_of(load_profile(name), "");
     EXPECT_TRUE(report.as_profile()) << faults_of(report) << report.correlation;
-    // But for the rotation's share and the encoders' steps the answers are those expected.
+    // But for the rotation's fraction and the encoders' steps the answers are those expected.
     EXPECT_GT(report.correlation, 0.98);
   }
 }

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/conformance/wiring_report.h"
+#include "spidar/selftest/wiring_report.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/miswired_device.h"
 

@@ -106,7 +106,7 @@ void BallScene::render(double t_s, uint8_t* data, ptrdiff_t stride_bytes) const 
     const int last = std::min(settings_.width - 1, static_cast<int>(std::ceil(centre.x() + reach)));
     for (int x = first; x <= last; ++x) {
       const double dx = x - centre.x();
-      // Share of the pixel that the disc covers, its edge taken as straight.
+      // Fraction of the pixel that the disc covers, its edge taken as straight.
       const double cover =
           std::min(1.0, std::max(0.0, settings_.radius_px - std::hypot(dx, dy) + 0.5));
       if (cover == 0) continue;

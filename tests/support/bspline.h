@@ -21,8 +21,8 @@ inline double lattice_value(uint32_t seed, int64_t i, int64_t j) {
   return static_cast<double>(h >> 11) * 0x1p-52 - 1;
 }
 
-/// Weights of a cubic B-spline's four nearest grid points for a place t = 0 … 1 between the two in
-/// the middle.
+/// Weights of a cubic B-spline's four nearest grid points for a position t = 0 … 1 between the two
+/// in the middle.
 template <typename Real>
 std::array<Real, 4> bspline_weights(Real t) {
   const Real s = 1 - t;

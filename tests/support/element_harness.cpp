@@ -91,7 +91,9 @@ void ElementHarness::drain() {
     GError* error = nullptr;
     switch (GST_MESSAGE_TYPE(message)) {
       case GST_MESSAGE_ELEMENT:
-        motions_.push_back(parse_motion_message(message));
+        if (gst_message_has_name(message, "spidar-motion")) {
+          motions_.push_back(parse_motion_message(message));
+        }
         break;
       case GST_MESSAGE_WARNING:
         gst_message_parse_warning(message, &error, nullptr);

@@ -55,18 +55,18 @@ Film FilmStudio::pan(double x, double y) {
 
 Film FilmStudio::usual_object(double x, double y) {
   Film film = still_film();
-  film.objects = {object(kShare, crossing({x, y}))};
+  film.objects = {object(kFraction, crossing({x, y}))};
   return film;
 }
 
 Film FilmStudio::pan_with_object() {
   Film film = pan(-4, 1.5);
-  film.objects = {object(kShare, crossing({9, 2.5}))};
+  film.objects = {object(kFraction, crossing({9, 2.5}))};
   return film;
 }
 
-FilmObject FilmStudio::object(double share, SheetPath pose, const std::string& name) {
-  const double radius_px = std::sqrt(share * width_ * height_ / M_PI);
+FilmObject FilmStudio::object(double fraction, SheetPath pose, const std::string& name) {
+  const double radius_px = std::sqrt(fraction * width_ * height_ / M_PI);
   return {sheet(name, 0.6), {radius_px, radius_px}, std::move(pose)};
 }
 

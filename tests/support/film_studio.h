@@ -35,14 +35,14 @@ class FilmStudio {
   Film behind(std::shared_ptr<const SplineSheet> sheet, SheetPath pose) const;
   Film camera(SheetPath pose);
   Film pan(double x, double y);
-  /// A disc of kShare of the frame.
+  /// A disc of kFraction of the frame.
   Film usual_object(double x, double y);
   /// The same in front of a pan.
   Film pan_with_object();
 
-  /// A disc that covers `share` of the frame. A different name gives a different picture.
-  FilmObject object(double share, SheetPath pose, const std::string& name = "object");
-  static constexpr double kShare = 0.08;
+  /// A disc that covers `fraction` of the frame. A different name gives a different picture.
+  FilmObject object(double fraction, SheetPath pose, const std::string& name = "object");
+  static constexpr double kFraction = 0.08;
   /// Moves by `step` a frame, and passes through `middle` when half of the frames have passed.
   SheetPath crossing(const Eigen::Vector2d& step, const Eigen::Vector2d& middle = {0, 0}) const;
 

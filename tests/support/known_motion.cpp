@@ -14,7 +14,7 @@ Eigen::Vector2d moved_px(const SheetPath& pose, int frame, const Eigen::Vector2d
   return pose(frame) * (pose(frame - 1).inverse() * at_px) - at_px;
 }
 
-/// Pixels from a place on the object to its edge, positive inside; exact for a circle and on the
+/// Pixels from a position on the object to its edge, positive inside; exact for a circle and on the
 /// edge.
 double inside_px(const FilmObject& object, const Eigen::Vector2d& on_object) {
   const Eigen::Vector2d unit = on_object.cwiseQuotient(object.radii_px);
@@ -72,7 +72,7 @@ void Film::add_object(double time, const FilmObject& object) {
     float* out = sharp_.data() + static_cast<size_t>(y) * static_cast<size_t>(width());
     for (int x = left; x <= right; ++x) {
       const Eigen::Vector2d on_object = start + (x - left) * step;
-      // Share of the pixel that it covers, its edge taken as straight.
+      // Fraction of the pixel that it covers, its edge taken as straight.
       const auto cover =
           static_cast<float>(std::clamp(inside_px(object, on_object) * scale + 0.5, 0.0, 1.0));
       out[x] += cover * (row[static_cast<size_t>(x - left)] - out[x]);

@@ -49,7 +49,7 @@ class Film {
   /// Frame from which on another scene is shown; < 0: none.
   int cut_at = -1;
   FilmBackground after_cut;
-  double shutter = 0;  ///< share of the time between frames in which a frame is exposed
+  double shutter = 0;  ///< fraction of the time between frames in which a frame is exposed
   double blur_px = 0;  ///< σ of a Gaussian
   double noise = 0;    ///< σ, grey levels
   uint32_t noise_seed = 1;
@@ -64,7 +64,7 @@ class Film {
 
   /// Whether something in this frame was also in the previous one.
   bool is_comparable(int frame) const { return frame != cut_at; }
-  /// The place in this frame of what was at `from_px` (pixels of the previous frame).
+  /// The position in this frame of what was at `from_px` (pixels of the previous frame).
   Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
   /// The same for an object relative to the background.
   Eigen::Vector2d object_displacement_px(int frame, const FilmObject& object,

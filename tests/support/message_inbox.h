@@ -12,10 +12,10 @@
 namespace spidar::test {
 
 /// Takes messages from a bus in the threads that post them. The bus itself may lose one: its queue
-/// (GstAtomicQueue of GStreamer 1.22) begins with 32 places, and when two threads post while it
-/// grows and a third one reads, a reader may leave the old places for the new ones before a thread
-/// that has been interrupted has written its message to the old ones. A message is here before the
-/// bus emits its "sync-message" signal.
+/// (GstAtomicQueue of GStreamer 1.22) begins with 32 positions, and when two threads post while it
+/// grows and a third one reads, a reader may leave the old positions for the new ones before a
+/// thread that has been interrupted has written its message to the old ones. A message is here
+/// before the bus emits its "sync-message" signal.
 class MessageInbox {
  public:
   explicit MessageInbox(GstElement* pipeline) : bus_(gst_element_get_bus(pipeline)) {

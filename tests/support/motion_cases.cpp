@@ -39,7 +39,7 @@ Matrix2d matrix(double xx, double xy, double yx, double yy) {
 Film rotating_object(FilmStudio& s) {
   Film film = s.still_film();
   const SheetPath path = s.crossing({7, -2});
-  film.objects = {s.object(FilmStudio::kShare, [path](double t) {
+  film.objects = {s.object(FilmStudio::kFraction, [path](double t) {
     return Affine2d(path(t) * Rotation2Dd(3 * kDegree * t));
   })};
   return film;
@@ -57,7 +57,7 @@ Film entering(FilmStudio& s) {
   Film film = s.still_film();
   const double u = s.unit();
   film.objects = {
-      s.object(FilmStudio::kShare, straight(u * Vector2d(-400, 20), u * Vector2d(24, -2)))};
+      s.object(FilmStudio::kFraction, straight(u * Vector2d(-400, 20), u * Vector2d(24, -2)))};
   return film;
 }
 
@@ -96,7 +96,7 @@ Film heavy_motion_blur(FilmStudio& s) {
 Film object_at_80(FilmStudio& s) {
   Film film = s.still_film();
   const double u = s.unit();
-  film.objects = {s.object(FilmStudio::kShare, [u](double t) {
+  film.objects = {s.object(FilmStudio::kFraction, [u](double t) {
     const double phase = std::fmod(t, 10);
     const double steps = phase < 5 ? phase : 10 - phase;
     return Affine2d(Translation2d(u * Vector2d(-200 + 80 * steps, 10)));
@@ -112,7 +112,7 @@ Film tiny_object(FilmStudio& s) {
 
 Film on_plain(FilmStudio& s) {
   Film film = s.behind(s.plain(), still());
-  film.objects = {s.object(FilmStudio::kShare, s.crossing({10, 3}))};
+  film.objects = {s.object(FilmStudio::kFraction, s.crossing({10, 3}))};
   return film;
 }
 
@@ -121,7 +121,7 @@ Film periodic(FilmStudio& s) {
   const double u = s.unit();
   film.background = {std::make_shared<SplineSheet>(periodic_sheet(1000 * u, 600 * u, 16 * u)),
                      straight({0, 0}, u * Vector2d(3, 1))};
-  film.objects = {s.object(FilmStudio::kShare, s.crossing({10, -2}))};
+  film.objects = {s.object(FilmStudio::kFraction, s.crossing({10, -2}))};
   return film;
 }
 

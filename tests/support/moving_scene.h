@@ -22,7 +22,7 @@ struct Placement {
   double scale = 1;
   double angle_rad = 0;  ///< clockwise as seen on the screen
 
-  /// Where a place of the frame is on the thing itself.
+  /// Where a position of the frame is on the thing itself.
   Eigen::Vector2d on_thing(const Eigen::Vector2d& frame_px) const {
     return Eigen::Rotation2Dd(-angle_rad) * (frame_px - centre_px) / scale;
   }
@@ -53,7 +53,7 @@ class MovingScene {
     picture_.fill([&](double x, double y) {
       const Eigen::Vector2d at = Eigen::Vector2d(x, y) - middle;
       const Eigen::Vector2d behind = background.on_thing(at);
-      double left = 1;  // share of the pixel that nothing in front covers
+      double left = 1;  // fraction of the pixel that nothing in front covers
       double sum = 0;
       for (size_t i = discs.size(); i-- > 0 && left > 0;) {
         const Eigen::Vector2d on_disc = discs[i].on_thing(at);

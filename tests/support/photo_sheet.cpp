@@ -72,8 +72,8 @@ struct Leaf {
   float grey;
   float grain;  ///< grey levels of an octave's noise
 
-  bool covers(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d unit = to_unit * (place - middle);
+  bool covers(const Eigen::Vector2d& position) const {
+    const Eigen::Vector2d unit = to_unit * (position - middle);
     return round ? unit.squaredNorm() <= 1 : unit.cwiseAbs().maxCoeff() <= 1;
   }
 };

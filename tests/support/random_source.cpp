@@ -15,7 +15,7 @@ Number number(const Spec& spec, RandomSource& random) {
     default:
       const double low = static_cast<double>(spec.minimum),
                    high = static_cast<double>(spec.maximum);
-      return static_cast<Number>(low + random.share() * (high - low));
+      return static_cast<Number>(low + random.fraction() * (high - low));
   }
 }
 

@@ -25,8 +25,8 @@ class RandomSource {
     return low + static_cast<int64_t>(below(static_cast<uint64_t>(high - low) + 1));
   }
   /// 0 … 1, without 1
-  double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  bool chance(double probability) { return share() < probability; }
+  double fraction() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  bool chance(double probability) { return fraction() < probability; }
 
   template <typename Array>
   const auto& one_of(const Array& choices) {

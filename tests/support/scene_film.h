@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films defined by a function for the grey level at each place, and the result of their analysis.
+/// Films defined by a function for the grey level at each position, and the result of their
+/// analysis.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace spidar::test {
 
-/// Grey level at a place of frame n, in px from the upper left corner.
+/// Grey level at a position of frame n, in px from the upper left corner.
 using Scene = std::function<double(int n, const Eigen::Vector2d& at_px)>;
 
 /// A film of 640 × 360 px at 25 frames a second.

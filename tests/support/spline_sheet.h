@@ -31,8 +31,8 @@ class SplineSheet {
   float& control(int i, int j) { return values_[index(i, j)]; }
   float control(int i, int j) const { return values_[index(i, j)]; }
 
-  /// Sets each control value to grey(x, y), 0 … 255, at its place in pixels; (0, 0) is the middle
-  /// of the part that is not a repetition.
+  /// Sets each control value to grey(x, y), 0 … 255, at its position in pixels; (0, 0) is the
+  /// middle of the part that is not a repetition.
   template <typename Grey>
   void fill(Grey&& grey) {
     for (int j = -rows_ / 2; j < rows_ / 2; ++j) {

@@ -118,9 +118,9 @@ class RandomHand {
 /// Energy that a still surface gave out, by contacts.
 struct ContactEnergy {
   int contacts = 0;
-  int generating = 0;          ///< contacts that gave out more than they absorbed
-  double worst_J = 0;          ///< given out by one of them, ≥ 0
-  double stiffness_share = 1;  ///< that was left at the end, see ShakeWatch
+  int generating = 0;             ///< contacts that gave out more than they absorbed
+  double worst_J = 0;             ///< given out by one of them, ≥ 0
+  double stiffness_fraction = 1;  ///< that was left at the end, see ShakeWatch
 
   void add(double out_J) {
     ++contacts;

@@ -164,7 +164,7 @@ class Pair {
     strings_ = now;
   }
 
-  double stiffness_share() const { return loop_->snapshot().last.contact.stiffness_share; }
+  double stiffness_fraction() const { return loop_->snapshot().last.contact.stiffness_fraction; }
   /// The grip counts as released in one of the loops, in which the film's force rests, too.
   bool apart() const { return loop_->snapshot().last.held != untouched_->snapshot().last.held; }
   bool touching() const {
@@ -220,7 +220,7 @@ ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& 
     pair.tick(path_m(kTick_s * static_cast<double>(tick)));
     apart |= pair.apart();
     if (pair.touching()) {
-      result.stiffness_share = pair.stiffness_share();
+      result.stiffness_fraction = pair.stiffness_fraction();
       if (!in_contact) begin_J = before_J;
       in_contact = true;
       ticks_away = 0;

@@ -14,8 +14,8 @@
 namespace spidar::test {
 
 inline TrackSample sample_at(double ms) {
-  const auto share = static_cast<float>(0.15 * std::sin(0.01 * ms));
-  return {share, -share / 2, share / 3, share / 100, 0, -share / 50};
+  const auto fraction = static_cast<float>(0.15 * std::sin(0.01 * ms));
+  return {fraction, -fraction / 2, fraction / 3, fraction / 100, 0, -fraction / 50};
 }
 
 /// A WAV file (IEEE float) of so many samples, one every millisecond.

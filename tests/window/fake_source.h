@@ -43,8 +43,8 @@ class FakeSource final : public WindowSource {
       if (to_m != (led_.empty() ? std::nullopt : led_.back())) led_.push_back(to_m);
     });
   }
-  void choose(const std::optional<Eigen::Vector2d>& place) override {
-    note([&] { choices_.push_back(place); });
+  void choose(const std::optional<Eigen::Vector2d>& position) override {
+    note([&] { choices_.push_back(position); });
   }
   ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
     note([&] { saves_.emplace_back(film, edits); });

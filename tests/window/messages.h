@@ -30,14 +30,14 @@ inline FrameShown some_frame() {
   report.frame.wrench.force_N = {1, 2, 3};
   report.frame.felt_object = 4;
   report.felt = {4};
-  report.turn = PictureTurn(3, true);
+  report.turn = Orientation(3, true);
   report.motion = MotionKind::kObjects;
   report.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
   report.speed_px_s = 321;
   report.click = 2;
   report.track = std::make_shared<const std::string>("/film.haptic.flac");
   report.touch.on = true;
-  report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), PictureTurn(1)};
+  report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), Orientation(1)};
   report.touch.stiffness_N_m = 300;
   return frame;
 }

@@ -73,8 +73,8 @@ TEST(Messages, HaveWhatIsDrawn) {
   EXPECT_EQ(frame.report.film.name(), "/film.avi");
   EXPECT_EQ(frame.report.tracks.at(0).to.x_px, 68);
   EXPECT_EQ(frame.report.frame.objects.at(0).tracks, 12);
-  EXPECT_EQ(frame.report.turn.to_shown(Eigen::Vector2d(1, 0)),
-            PictureTurn(3, true).to_shown(Eigen::Vector2d(1, 0)));
+  EXPECT_EQ(frame.report.turn.to_displayed(Eigen::Vector2d(1, 0)),
+            Orientation(3, true).to_displayed(Eigen::Vector2d(1, 0)));
   EXPECT_EQ(frame.report.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
   EXPECT_EQ(frame.report.speed_px_s, 321);
   EXPECT_EQ(*frame.report.track, "/film.haptic.flac");
@@ -86,8 +86,8 @@ TEST(Messages, HaveWhatIsDrawn) {
   EXPECT_TRUE(state.has_ended);
   EXPECT_EQ(state.presets, some_state().presets);
   const auto save = std::get<SaveChoices>(*from_window(to_bytes(FromWindow(some_choices()))));
-  EXPECT_EQ(save.edits.at(0).place, Eigen::Vector2d(0.25, 0.5));
-  EXPECT_FALSE(save.edits.at(1).place);
+  EXPECT_EQ(save.edits.at(0).position, Eigen::Vector2d(0.25, 0.5));
+  EXPECT_FALSE(save.edits.at(1).position);
 }
 
 TEST(Messages, ThatEndTooEarlyOrTooLateAreRefused) {

@@ -43,10 +43,10 @@ Mouse mouse_at(const Vector2d& frame_px, bool down) {
 TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
   ObjectClick click;
   EXPECT_FALSE(click.update(mouse_at({150, 50}, false), kPicture, report()));
-  const std::optional<ObjectWish> wish =
+  const std::optional<ChoiceRequest> wish =
       click.update(mouse_at({140, 60}, true), kPicture, report());
-  ASSERT_TRUE(wish && wish->place);
-  EXPECT_NEAR((*wish->place - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
+  ASSERT_TRUE(wish && wish->position);
+  EXPECT_NEAR((*wish->position - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
   EXPECT_TRUE(click.holds());
   EXPECT_FALSE(click.update(mouse_at({50, 50}, true), kPicture, report())) << "still down";
   EXPECT_TRUE(click.holds());
@@ -59,18 +59,20 @@ TEST(ObjectClick, OnTheChosenOneLetsGo) {
   chosen.click = 1;
   chosen.frame.felt_object = 3;
   ObjectClick click;
-  const std::optional<ObjectWish> wish = click.update(mouse_at({150, 50}, true), kPicture, chosen);
+  const std::optional<ChoiceRequest> wish =
+      click.update(mouse_at({150, 50}, true), kPicture, chosen);
   ASSERT_TRUE(wish);
-  EXPECT_FALSE(wish->place);
+  EXPECT_FALSE(wish->position);
   EXPECT_EQ(wish->object, 3u);
   click.update(mouse_at({150, 50}, false), kPicture, chosen);
-  const std::optional<ObjectWish> other = click.update(mouse_at({50, 50}, true), kPicture, chosen);
-  EXPECT_TRUE(other && other->place) << "another one";
+  const std::optional<ChoiceRequest> other =
+      click.update(mouse_at({50, 50}, true), kPicture, chosen);
+  EXPECT_TRUE(other && other->position) << "another one";
   // Felt, but not by a click.
   chosen.click = 0;
-  const std::optional<ObjectWish> kept =
+  const std::optional<ChoiceRequest> kept =
       ObjectClick().update(mouse_at({150, 50}, true), kPicture, chosen);
-  EXPECT_TRUE(kept && kept->place);
+  EXPECT_TRUE(kept && kept->position);
 }
 
 TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {

@@ -16,9 +16,9 @@ TEST(PlotAxis, TicksAreRoundNumbersWithinTheRange) {
   const PlotAxis axis = make_axis(-3, 3, 6);
   EXPECT_EQ(axis.ticks(), (std::vector<double>{-3, -2, -1, 0, 1, 2, 3}));
   EXPECT_EQ(axis.label(-2), "-2");
-  EXPECT_EQ(axis.share(-3), 0);
-  EXPECT_EQ(axis.share(0), 0.5);
-  EXPECT_EQ(axis.share(3), 1);
+  EXPECT_EQ(axis.fraction(-3), 0);
+  EXPECT_EQ(axis.fraction(0), 0.5);
+  EXPECT_EQ(axis.fraction(3), 1);
   EXPECT_EQ(make_axis(-3, 3, 5).ticks(), (std::vector<double>{-2, 0, 2}));
   EXPECT_EQ(make_axis(12, 388, 4).ticks(), (std::vector<double>{100, 200, 300}));
 }

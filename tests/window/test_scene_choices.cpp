@@ -44,11 +44,11 @@ class Film {
   SceneChoices& choices_;
 };
 
-Sighting object(uint32_t id, double first_s, const Vector2d& place) {
+Sighting object(uint32_t id, double first_s, const Vector2d& position) {
   Sighting made;
   made.id = id;
   made.first_ns = static_cast<int64_t>(first_s * 1e9);
-  made.first_place = place;
+  made.first_position = position;
   return made;
 }
 
@@ -225,7 +225,7 @@ TEST(Sightings, AreTheFirstOfTheScene) {
   sightings.see(seen(1, 0, {1, 2}));
   ASSERT_TRUE(sightings.find(1) && sightings.find(2));
   EXPECT_EQ(sightings.find(1)->first_ns, 0);
-  EXPECT_EQ(sightings.find(1)->first_place, Vector2d(0.5, 0.25));
+  EXPECT_EQ(sightings.find(1)->first_position, Vector2d(0.5, 0.25));
   EXPECT_EQ(sightings.find(2)->first_ns, kSecond);
   EXPECT_EQ(sightings.find(3), nullptr);
   sightings.see(seen(2.9, 0, {}));
@@ -239,10 +239,10 @@ TEST(Sightings, AreTheFirstOfTheScene) {
 
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
   FrameReport report = seen(1, 0, {1});
-  report.turn = PictureTurn(1);
+  report.turn = Orientation(1);
   Sightings sightings;
   sightings.see(report);
-  EXPECT_LT((sightings.find(1)->first_place - Vector2d(0.75, 0.75)).norm(), 1e-12);
+  EXPECT_LT((sightings.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
 FilmMoment moment(double now_s, double length_s, const std::string& path = "/film.avi") {
@@ -257,14 +257,14 @@ TEST(FilmStrip, MarksRulesAndChoices) {
   const FeelRules rules("0-10 camera; 20- largest");
   const std::vector<FeelEdit> edits = {{5 * kSecond, 15 * kSecond, Vector2d(0.5, 0.5)}};
   const FilmStrip strip = film_strip(moment(50, 100), &rules, edits);
-  EXPECT_DOUBLE_EQ(strip.share(strip.now_ns), 0.5);
+  EXPECT_DOUBLE_EQ(strip.fraction(strip.now_ns), 0.5);
   ASSERT_EQ(strip.marks.size(), 3u);
   EXPECT_EQ(rule_text(strip.marks[0].rule), "0:00-0:05 camera");
   EXPECT_EQ(rule_text(strip.marks[1].rule), "0:05-0:15 object at 0.5,0.5");
   EXPECT_TRUE(strip.marks[1].is_new);
   EXPECT_FALSE(strip.marks[0].is_new) << "only shorter";
   EXPECT_FALSE(strip.marks[2].is_new);
-  EXPECT_EQ(strip.share(strip.marks[2].rule.to_ns), 1);
+  EXPECT_EQ(strip.fraction(strip.marks[2].rule.to_ns), 1);
   EXPECT_EQ(strip.at(0.1, 0), &strip.marks[1]);
   EXPECT_EQ(strip.at(0.17, 0), nullptr);
   EXPECT_EQ(strip.at(0.17, 0.025), &strip.marks[1]);
@@ -278,7 +278,7 @@ TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
   EXPECT_EQ(film_strip(unknown, nullptr, {}).length_ns, 0);
   EXPECT_EQ(film_strip({}, nullptr, {}).length_ns, 0);
   EXPECT_EQ(film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);
-  EXPECT_EQ(FilmStrip().share(kSecond), 0);
+  EXPECT_EQ(FilmStrip().fraction(kSecond), 0);
 }
 
 }  // namespace

@@ -60,16 +60,16 @@ class WindowChoices : public WindowTest {
 TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {
   play();
   click(2);
-  const FakeSource::Places places = source->wait_for_choices(1);
-  ASSERT_TRUE(places[0]);
-  EXPECT_NEAR((*places[0] - Vector2d(0.75, 0.5)).norm(), 0, 1e-9);
+  const FakeSource::Places positions = source->wait_for_choices(1);
+  ASSERT_TRUE(positions[0]);
+  EXPECT_NEAR((*positions[0] - Vector2d(0.75, 0.5)).norm(), 0, 1e-9);
   press(window, GLFW_KEY_C);
   const FakeSource::Saves first = source->wait_for_saves(1);
   EXPECT_EQ(first[0].first, "/film.avi");
   ASSERT_EQ(first[0].second.size(), 1u);
   EXPECT_EQ(first[0].second[0].from_ns, 0);
   EXPECT_EQ(first[0].second[0].to_ns, 340 * kMillisecond);
-  EXPECT_EQ(first[0].second[0].place, Vector2d(0.75, 0.5));
+  EXPECT_EQ(first[0].second[0].position, Vector2d(0.75, 0.5));
   FrameReport cut = frame(400);
   cut.film.scene_ns = cut.film.stream_ns;
   give(window, cut);

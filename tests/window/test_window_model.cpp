@@ -43,7 +43,7 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
   EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
   report.touch.on = true;
   EXPECT_TRUE(felt().empty()) << "only the surface is";
-  report.touch.motion_share = 0.5;
+  report.touch.motion_fraction = 0.5;
   EXPECT_EQ(felt(), (std::vector<uint32_t>{3, 5}));
   report.motion = MotionKind::kCamera;
   EXPECT_TRUE(felt().empty());

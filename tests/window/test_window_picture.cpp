@@ -61,7 +61,7 @@ TEST_F(WindowTest, ATensionBarHasItsHeight) {
   Window window(std::make_shared<FakeSource>(state));
   const Screenshot shot = look(window);
   const WindowLayout layout = lay_out(shot.width, shot.height, 1);
-  const double share[] = {0.8, 0.3};
+  const double fraction[] = {0.8, 0.3};
   for (int i = 0; i < 2; ++i) {
     // The middle of the string's bar is where its column has most of the bar's colours.
     double best = 0, filled = 0;
@@ -80,7 +80,7 @@ TEST_F(WindowTest, ATensionBarHasItsHeight) {
     ASSERT_GT(best, 30) << "string " << i;
     // The mark of the smallest tension covers two lines, for it lies between lines, and both ends
     // may be half covered.
-    EXPECT_NEAR(filled, share[i] * best, 4) << "string " << i;
+    EXPECT_NEAR(filled, fraction[i] * best, 4) << "string " << i;
   }
 }
 
@@ -167,10 +167,10 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   };
   click(20, 20);       // beside it
   click(199.5, 89.5);  // of a frame of 320 × 240
-  FakeSource::Places places = source->wait_for_choices(1);
-  ASSERT_EQ(places.size(), 1u);
-  ASSERT_TRUE(places[0]);
-  EXPECT_NEAR((*places[0] - Eigen::Vector2d(200.0 / 320, 90.0 / 240)).norm(), 0, 1e-9);
+  FakeSource::Places positions = source->wait_for_choices(1);
+  ASSERT_EQ(positions.size(), 1u);
+  ASSERT_TRUE(positions[0]);
+  EXPECT_NEAR((*positions[0] - Eigen::Vector2d(200.0 / 320, 90.0 / 240)).norm(), 0, 1e-9);
   // Without another frame, as in a pause, its outline is that of an object that is felt: orange.
   const Screenshot clicked = look(window);
   const Eigen::Vector2d edge = map_of(clicked)({159.5 + 40, 119.5 - 20 + 30});
@@ -185,8 +185,8 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   give(window, report);
   look(window);
   click(199.5, 89.5);
-  places = source->wait_for_choices(2);
-  EXPECT_FALSE(places.back()) << "a second click lets go";
+  positions = source->wait_for_choices(2);
+  EXPECT_FALSE(positions.back()) << "a second click lets go";
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ TouchMap gcc_map() {
 
 TEST(TouchMap, PlaceAndPositionAreEachOthersReverse) {
   const TouchMap map = gcc_map();
-  EXPECT_LT((map.place({0, 0, 0.01}) - Eigen::Vector2d(0.5, 0.5)).norm(), kRounding);
+  EXPECT_LT((map.position({0, 0, 0.01}) - Eigen::Vector2d(0.5, 0.5)).norm(), kRounding);
   const Eigen::Vector3d at_m(0.0295 / 2, 0.032 / 2, 0.003);  // to the right and up
-  const Eigen::Vector2d place = map.place(at_m);
-  EXPECT_LT((place - Eigen::Vector2d(0.75, 0.25)).norm(), kRounding);
-  EXPECT_LT((map.position_m(place) - at_m.head<2>()).norm(), kRounding);
+  const Eigen::Vector2d position = map.position(at_m);
+  EXPECT_LT((position - Eigen::Vector2d(0.75, 0.25)).norm(), kRounding);
+  EXPECT_LT((map.position_m(position) - at_m.head<2>()).norm(), kRounding);
   EXPECT_LT((map.position_m({2, -1}) - Eigen::Vector2d(0.0295, 0.032)).norm(), kRounding)
       << "not beyond the picture";
 }

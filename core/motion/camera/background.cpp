@@ -10,10 +10,11 @@
 namespace spidar {
 namespace {
 
-/// An object in front of a plain background hardly has more than this share of the picture's votes.
+/// An object in front of a plain background hardly has more than this fraction of the picture's
+/// votes.
 constexpr double kMostObject = 0.2;
-/// If this share of all votes is cast, two objects cannot have them all.
-constexpr double kTexturedShare = 2 * kMostObject;
+/// If this fraction of all votes is cast, two objects cannot have them all.
+constexpr double kTexturedFraction = 2 * kMostObject;
 
 /// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
 /// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
@@ -69,7 +70,7 @@ BackgroundEstimator::BackgroundEstimator() {
   evidence_.points.reserve(kMostDisplacements);
   evidence_.weights.reserve(kMostDisplacements);
   residuals_px_.reserve(kMostDisplacements);
-  places_px_.reserve(kMostDisplacements);
+  positions_px_.reserve(kMostDisplacements);
   known_.reserve(2);
   reset();
 }
@@ -94,36 +95,36 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   for (double& weight : evidence_.weights) weight *= sum / squares;
   effective_points_ = sum * sum / squares;
   voting_ = votes.cast();
-  is_textured_ = voting_ >= kTexturedShare * votes.all;
+  is_textured_ = voting_ >= kTexturedFraction * votes.all;
 }
 
-/// Whether the places_px_, which it empties, are of more than one object in front of a plain
+/// Whether the positions_px_, which it empties, are of more than one object in front of a plain
 /// background, or of more than two if the model is above a translation. That is so when kLeastVotes
 /// are left after the objects have been taken away: circles that cover kMostObject of the
-/// picture, each around a place with the most others in it.
+/// picture, each around a position with the most others in it.
 bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
   const double radius_px2 = kMostObject * size_px.prod() / M_PI;
   for (int n = 0; n < objects; ++n) {
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
-    // Of many places, every second one, and so on: this bounds the time.
-    const size_t step = 1 + places_px_.size() / kMostTries;
-    for (size_t i = 0; i < places_px_.size(); i += step) {
+    // Of many positions, every second one, and so on: this bounds the time.
+    const size_t step = 1 + positions_px_.size() / kMostTries;
+    for (size_t i = 0; i < positions_px_.size(); i += step) {
       size_t near = 0;
-      for (const Eigen::Vector2d& other_px : places_px_) {
-        near += (other_px - places_px_[i]).squaredNorm() <= radius_px2;
+      for (const Eigen::Vector2d& other_px : positions_px_) {
+        near += (other_px - positions_px_[i]).squaredNorm() <= radius_px2;
       }
       if (near <= most) continue;
       most = near;
-      middle_px = places_px_[i];
+      middle_px = positions_px_[i];
     }
-    if (places_px_.size() < most + kLeastVotes) return false;
-    const auto is_its = [&](const Eigen::Vector2d& place_px) {
-      return (place_px - middle_px).squaredNorm() <= radius_px2;
+    if (positions_px_.size() < most + kLeastVotes) return false;
+    const auto is_its = [&](const Eigen::Vector2d& position_px) {
+      return (position_px - middle_px).squaredNorm() <= radius_px2;
     };
-    places_px_.erase(std::remove_if(places_px_.begin(), places_px_.end(), is_its),
-                     places_px_.end());
+    positions_px_.erase(std::remove_if(positions_px_.begin(), positions_px_.end(), is_its),
+                        positions_px_.end());
   }
   return true;
 }
@@ -132,11 +133,11 @@ bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& s
 /// a plain one. Sets the model's coverage.
 bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   double sum = 0;
-  places_px_.clear();
+  positions_px_.clear();
   for (size_t i = 0; i < votes.points.size(); ++i) {
     if (point_cost(scored.model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
     sum += votes.at_border[i] ? kBorderVotes : 1;
-    places_px_.push_back(votes.points[i].at_px);
+    positions_px_.push_back(votes.points[i].at_px);
   }
   scored.coverage = votes.all > 0 ? sum / votes.all : 0;
   if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
@@ -149,8 +150,8 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
   if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;
-  places_px_.clear();
-  for (const Displacement& point : votes.points) places_px_.push_back(point.at_px);
+  positions_px_.clear();
+  for (const Displacement& point : votes.points) positions_px_.push_back(point.at_px);
   return !is_background(ModelKind::kSimilarity, votes.size_px);
 }
 
@@ -182,13 +183,13 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
   return inliers > outliers && cost < kExplained * inliers;
 }
 
-/// Looks for a higher rung that is better. Returns false when there is none.
+/// Looks for a more general model that is better. Returns false when there is none.
 bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
                                 Scored& current) {
   bool climbed = false;
-  for (int rung = static_cast<int>(current.model.kind) + 1; rung < kModelKinds; ++rung) {
+  for (int model = static_cast<int>(current.model.kind) + 1; model < kModelKinds; ++model) {
     Scored higher;
-    if (!score(static_cast<ModelKind>(rung), start, votes, higher)) continue;
+    if (!score(static_cast<ModelKind>(model), start, votes, higher)) continue;
     if (higher.gric >= current.gric) continue;
     current = higher;
     climbed = true;
@@ -197,7 +198,7 @@ bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes&
   return climbed;
 }
 
-/// Goes down to a lower rung if it is better: the next lower one, or 'still'.
+/// Goes back to a simpler model if it is better: the next simpler one, or 'still'.
 void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVotes& votes,
                                   Scored& current) {
   Scored best = current;
@@ -209,7 +210,7 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
   current = best;
 }
 
-/// Uses the median, because some things that move by themselves may not have been recognised yet.
+/// Uses the median, because some objects that move by themselves may not have been recognised yet.
 /// Where little agrees with the model, the picture is plain, or so blurred that the model is
 /// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
 /// noise, if most of the picture has texture. Where the camera's motion is unknown, so is the

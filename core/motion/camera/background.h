@@ -42,22 +42,21 @@ struct BackgroundVotes {
 /// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Chooses, from frame to frame, the lowest rung of the ladder that explains the votes.
+/// Chooses, from frame to frame, the simplest model of the hierarchy that explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When so few votes are cast that two objects may have them all, a translation
-/// needs votes in two places that are too far apart for one object, and a model above it needs them
-/// in three.
-/// Rest needs none, because a plain background shows none. But where there are votes in three
-/// places, more than objects have, and hardly any agrees with the model that explains them best,
-/// the camera's motion is unknown. It is also unknown if votes are few because most of the picture
-/// is new.
+/// needs votes in two positions that are too far apart for one object, and a model above it needs
+/// them in three. Rest needs none, because a plain background shows none. But where there are votes
+/// in three positions, more than objects have, and hardly any agrees with the model that explains
+/// them best, the camera's motion is unknown. It is also unknown if votes are few because most of
+/// the picture is new.
 ///
 /// Rungs compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil. Trans.
 /// R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r = 4
-/// coordinates of a track, d = 2 for all rungs, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
-/// smallest wins. Higher rungs are only fitted in frames in which the one in use does not explain
-/// the votes.
+/// coordinates of a track, d = 2 for all models, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2. The
+/// smallest wins. More general models are only fitted in frames in which the one in use does not
+/// explain the votes.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();
@@ -110,7 +109,7 @@ class BackgroundEstimator {
   RobustFitter fitter_;
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
-  std::vector<Eigen::Vector2d> places_px_;  ///< of the votes that agree with a model
+  std::vector<Eigen::Vector2d> positions_px_;  ///< of the votes that agree with a model
   double effective_points_ = 0;
   double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes

@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-/// Sum of the weights, and weighted means of place and displacement.
+/// Sum of the weights, and weighted means of position and displacement.
 struct Means {
   double weight = 0;
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
@@ -42,7 +42,8 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
     scatter += weights[i] * q * q.transpose();
     cross += weights[i] * d * q.transpose();
   }
-  // All are in one place, but for the rounding of their mean (1e-10 px at 1e4 px from the centre).
+  // All are in one position, but for the rounding of their mean (1e-10 px at 1e4 px from the
+  // centre).
   constexpr double kOnePlace_px = 1e-6;
   if (!(scatter.trace() > means.weight * kOnePlace_px * kOnePlace_px)) return false;
   if (model.kind == ModelKind::kSimilarity) {

@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// The rungs of the ladder: each one contains the ones before it.
+/// The model hierarchy: each model contains the ones before it.
 enum class ModelKind { kStill, kTranslation, kSimilarity, kAffine, kHomography };
 constexpr int kModelKinds = 5;
 
@@ -56,7 +56,8 @@ struct MotionModel {
 struct Background {
   MotionModel model;
   double sigma_px = 0;  ///< noise of a displacement, each coordinate
-  double coverage = 1;  ///< share of the picture's votes that agree with the model; 0: hardly any
+  double coverage =
+      1;  ///< fraction of the picture's votes that agree with the model; 0: hardly any
   /// False where there is texture all over the picture and hardly any of it agrees with the best
   /// model: how the camera moves is unknown, and with it what moves by itself. The model is 'still'
   /// then, and `coverage` 0.
@@ -64,7 +65,7 @@ struct Background {
 };
 
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.
-/// Returns nothing when the points do not determine the model: too few, in one place, or on one
+/// Returns nothing when the points do not determine the model: too few, in one position, or on one
 /// line. The homography is found by at most four Gauss–Newton steps from the affine solution,
 /// because the perspective between successive frames is small.
 std::optional<MotionModel> fit_model(ModelKind kind, const std::vector<Displacement>& points,

@@ -11,7 +11,7 @@ namespace spidar {
 /// neighbours alike. Chosen on the first row of real films.
 constexpr float kIndependentPixels = 16;
 /// Variance of a block's mean difference that remains where its own motion explains every pixel,
-/// grey²: that of rounding and of light that changes a little from place to place.
+/// grey²: that of rounding and of light that changes a little from position to position.
 constexpr float kLeastVariance_grey2 = 0.5f;
 
 /// Variance of a block's mean difference, grey².
@@ -23,11 +23,11 @@ inline float variance_grey2(const MotionBlock& block) {
 struct RelativeBlock {
   float x_px = 0;  ///< motion relative to the background
   float y_px = 0;
-  float background_x_px = 0;  ///< motion of the background at this place
+  float background_x_px = 0;  ///< motion of the background at this position
   float background_y_px = 0;
   bool shows_motion = false;  ///< its texture, or its pixels, tell how it moves
   bool was_outside = false;   ///< most of it was outside of the film in the previous picture
-  bool is_covered = false;    ///< something burned in hides the film here, see BurnedIn::covers()
+  bool is_occluded = false;   ///< something burned in hides the film here, see BurnedIn::occludes()
   bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
   bool moves = false;         ///< moves by itself, taking its neighbours into account
 };

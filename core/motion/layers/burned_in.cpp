@@ -12,13 +12,13 @@ namespace {
 
 /// Minimum number of pixels needed to decide that a block stays constant: a line across it.
 constexpr int kLeastPixels = kBlock_px;
-/// Minimum share of pixels that are exactly equal. With noise of one grey level after reduction,
+/// Minimum fraction of pixels that are exactly equal. With noise of one grey level after reduction,
 /// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
 /// or 0.6 if an encoder adds noise; the standard deviation of the count is √n / 2.
-constexpr double kExactShare = 0.5;
+constexpr double kExactFraction = 0.5;
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
-/// needs a share halfway to all of them.
-constexpr double kExactShareElsewhere = (1 + kExactShare) / 2;
+/// needs a fraction halfway to all of them.
+constexpr double kExactFractionElsewhere = (1 + kExactFraction) / 2;
 /// The search can find a block with static graphics to move by up to kMostOff_px, because part of
 /// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
 /// picture, count as not moved.
@@ -49,9 +49,9 @@ constexpr int kMostScore = 3 * kGain;
 /// outside.
 constexpr int kBeside_px = kBlock_px / 4;
 
-bool is_same(const StayingPixels& staying, double least_share) {
+bool is_same(const StayingPixels& staying, double least_fraction) {
   const double near = staying.near;
-  return near >= kLeastPixels && staying.exact > least_share * near + std::sqrt(near) / 2;
+  return near >= kLeastPixels && staying.exact > least_fraction * near + std::sqrt(near) / 2;
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ bool is_same(const StayingPixels& staying, double least_share) {
 void BurnedIn::reset() {
   margins_.reset();
   lasting_.clear();
-  holds_.clear();
-  covers_.clear();
+  contained_.clear();
+  occluded_.clear();
 }
 
 void BurnedIn::begin(const BlockField& field, bool camera_moves) {
@@ -111,7 +111,7 @@ bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
   const auto stays = [&](int x_px, int y_px) {
     const StayingPixels staying = field.staying_pixels(
         static_cast<int>(block.index), block.background_x_px, block.background_y_px, x_px, y_px);
-    return is_same(staying, kExactShareElsewhere);
+    return is_same(staying, kExactFractionElsewhere);
   };
   return stays(-kBeside_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
          stays(0, kBeside_px);
@@ -124,7 +124,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   const StayingPixels staying = field.staying_pixels(static_cast<int>(block.index),
                                                      block.background_x_px, block.background_y_px);
   Sign& sign = signs_[block.index];
-  if (is_same(staying, moved_px < kMostOff_px ? kExactShare : kExactShareElsewhere)) {
+  if (is_same(staying, moved_px < kMostOff_px ? kExactFraction : kExactFractionElsewhere)) {
     sign = Sign::kStays;
   } else if (is_unexplained(field, block, moved_px)) {
     const bool is_mixed = block.is_slow && staying.near >= kMixedPixels;
@@ -152,15 +152,15 @@ void BurnedIn::end(const BlockGrid& grid) {
     const int change = signs_[i] == Sign::kStays ? kGain : -1;
     lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMostScore));
   }
-  holds_.assign(signs_.size(), 0);
-  covers_.assign(signs_.size(), 0);
+  contained_.assign(signs_.size(), 0);
+  occluded_.assign(signs_.size(), 0);
   for (size_t i = 0; i < signs_.size(); ++i) {
-    holds_[i] = covers_[i] = margins_.hold(grid, i);
-    if (!camera_moves_ || holds_[i] != 0) continue;
+    contained_[i] = occluded_[i] = margins_.contains(grid, i);
+    if (!camera_moves_ || contained_[i] != 0) continue;
     const bool beside = is_beside_staying(grid, i);
-    holds_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
-                lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);
-    covers_[i] = holds_[i] != 0 && beside;
+    contained_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
+                    lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);
+    occluded_[i] = contained_[i] != 0 && beside;
   }
 }
 

@@ -50,14 +50,14 @@ class BurnedIn {
   void end(const BlockGrid& grid);
 
   /// Whether a block shows burned-in graphics; false for blocks not examined in the latest pairs.
-  bool holds(size_t index) const { return index < holds_.size() && holds_[index] != 0; }
+  bool contains(size_t index) const { return index < contained_.size() && contained_[index] != 0; }
   /// The same of all blocks, 1 or 0; empty before the first pair.
-  const std::vector<uint8_t>& held() const { return holds_; }
+  const std::vector<uint8_t>& held() const { return contained_; }
 
   /// Whether the graphics in a block, or next to it, have lasted. They cover the film, and the
-  /// motion behind them is unknown. Stricter than holds(), because a sign in a single pair may be
-  /// an error.
-  bool covers(size_t index) const { return index < covers_.size() && covers_[index] != 0; }
+  /// motion behind them is unknown. Stricter than contains(), because a sign in a single pair may
+  /// be an error.
+  bool occludes(size_t index) const { return index < occluded_.size() && occluded_[index] != 0; }
 
   /// Bars and frames around the film count as burned in, also while the camera is still.
   const Margins& margins() const { return margins_; }
@@ -80,8 +80,8 @@ class BurnedIn {
   Margins margins_;
   std::vector<Sign> signs_;
   std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMostScore
-  std::vector<uint8_t> holds_;
-  std::vector<uint8_t> covers_;
+  std::vector<uint8_t> contained_;
+  std::vector<uint8_t> occluded_;
   bool camera_moves_ = false;
   std::vector<float> nearby_;  // residuals of the background around a block
 };

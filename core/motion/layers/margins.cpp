@@ -8,14 +8,14 @@
 namespace spidar {
 namespace {
 
-/// Largest share of the picture on one side, to the nearest line: that of a film of 4:3 in a
+/// Largest fraction of the picture on one side, to the nearest line: that of a film of 4:3 in a
 /// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
 /// scene without noise would pass for a film in a frame.
 constexpr double kMostOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
-/// Share of the places along the edge of a film that change while a bar beside them does not: the
-/// rest may be plain or dark.
-constexpr double kChangedShare = 0.8;
+/// Fraction of the positions along the edge of a film that change while a bar beside them does not:
+/// the rest may be plain or dark.
+constexpr double kChangedFraction = 0.8;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
 struct Side {
@@ -25,19 +25,19 @@ struct Side {
   int across;     ///< blocks at both ends of a line that do not count
 
   int lines() const { return are_columns ? field.grid().columns : field.grid().rows; }
-  int places() const { return are_columns ? field.grid().rows : field.grid().columns; }
+  int positions() const { return are_columns ? field.grid().rows : field.grid().columns; }
 
-  bool has_changed(int line, int place) const {
+  bool has_changed(int line, int position) const {
     if (from_end) line = lines() - 1 - line;
     const int columns = field.grid().columns;
-    const int block = are_columns ? place * columns + line : line * columns + place;
+    const int block = are_columns ? position * columns + line : line * columns + position;
     const auto difference = static_cast<float>(field.difference_if_moved(block, 0, 0));
     return difference > kRounding_grey * kBlockArea_px;
   }
 
   bool stands(int line) const {
-    for (int place = across; place < places() - across; ++place) {
-      if (has_changed(line, place)) return false;
+    for (int position = across; position < positions() - across; ++position) {
+      if (has_changed(line, position)) return false;
     }
     return true;
   }
@@ -50,16 +50,16 @@ struct Side {
     return n > most ? 0 : n;
   }
 
-  /// Adds the places where the first line that does not stand, or the next one, has changed: the
+  /// Adds the positions where the first line that does not stand, or the next one, has changed: the
   /// edge is anywhere in the first one. Returns whether they are nearly all.
   bool is_edge(int line, std::vector<uint8_t>& changed) const {
     int all = 0;
-    for (int place = across; place < places() - across; ++place) {
-      uint8_t& mark = changed[static_cast<size_t>(place)];
-      if (mark == 0) mark = has_changed(line, place) || has_changed(line + 1, place);
+    for (int position = across; position < positions() - across; ++position) {
+      uint8_t& mark = changed[static_cast<size_t>(position)];
+      if (mark == 0) mark = has_changed(line, position) || has_changed(line + 1, position);
       all += mark;
     }
-    return all >= kChangedShare * (places() - 2 * across);
+    return all >= kChangedFraction * (positions() - 2 * across);
   }
 };
 
@@ -68,7 +68,7 @@ struct Side {
 void Margins::Bars::begin(int width) {
   blocks = width;
   pairs = 0;
-  for (auto& places : changed) std::fill(places.begin(), places.end(), uint8_t{0});
+  for (auto& positions : changed) std::fill(positions.begin(), positions.end(), uint8_t{0});
 }
 
 void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int across) {
@@ -82,7 +82,7 @@ void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int ac
   if (bars.is_known() && fewer + 2 >= bars.blocks) return;
   if (!alike) return bars.begin(0);
   if (bars.is_known() || bars.blocks == 0 || blocks < bars.blocks) bars.begin(blocks);
-  for (auto& places : bars.changed) places.resize(static_cast<size_t>(first.places()));
+  for (auto& positions : bars.changed) positions.resize(static_cast<size_t>(first.positions()));
   const int edge = bars.blocks - 1;
   const bool begins = first.is_edge(edge, bars.changed[0]);
   const bool ends = last.is_edge(edge, bars.changed[1]);

@@ -17,7 +17,7 @@ namespace spidar {
 /// border of the film counts as the picture's border.
 ///
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
-/// whole line changes: the edge of a film is straight, that of a thing in front of a wall at rest
+/// whole line changes: the edge of a film is straight, that of a object in front of a wall at rest
 /// is not. A bar is as wide as the one on the opposite side, give or take a block. It is known
 /// after kKnownAfterPairs such pairs of pictures, and until something in it changes.
 class Margins {
@@ -34,7 +34,7 @@ class Margins {
   bool have_changed() const { return have_changed_; }
 
   /// Whether a block is outside of the film.
-  bool hold(const BlockGrid& grid, size_t block) const {
+  bool contains(const BlockGrid& grid, size_t block) const {
     const int column = static_cast<int>(block) % grid.columns;
     const int row = static_cast<int>(block) / grid.columns;
     return std::min(column, grid.columns - 1 - column) < columns() ||

@@ -27,9 +27,10 @@ constexpr float kDepths = 4;
 /// limbs.
 constexpr float kSlower = 0.6f;
 /// By how much the background's motion must fit worse in the picture itself: kRounding_grey, a
-/// share of the picture's noise, and a share of the difference that the block's own motion leaves.
+/// fraction of the picture's noise, and a fraction of the difference that the block's own motion
+/// leaves.
 constexpr float kWorseByNoise = 0.3f;
-constexpr float kWorseShare = 0.15f;
+constexpr float kWorseFraction = 0.15f;
 /// The same of a block without texture where no object is known, on the mean: noise and coding may
 /// be in both of the differences.
 constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
@@ -73,7 +74,7 @@ std::optional<int> worse_with_background(const BlockField& field, size_t index,
 /// How much worse that must be if a block moves fast.
 float least_worse(const BlockField& field, const MotionBlock& block) {
   return kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(field.noise_grey2())) +
-         kWorseShare * static_cast<float>(block.difference);
+         kWorseFraction * static_cast<float>(block.difference);
 }
 
 /// Whether the pixels of a block tell its motion from the background's without any texture.
@@ -94,7 +95,7 @@ bool is_expected(const std::vector<uint8_t>& expected, size_t index) {
 /// A block of which less was in the previous picture cannot be compared with it.
 constexpr double kSeenBefore = 0.5;
 
-/// Share of a block that was in the previous picture if it moved with the background.
+/// Fraction of a block that was in the previous picture if it moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
   const BlockGrid& grid = field.grid();
   const int column = static_cast<int>(index) % grid.columns;
@@ -112,7 +113,7 @@ float seen_before(const BlockField& field, size_t index, const RelativeBlock& bl
 }  // namespace
 
 double alike_px(double fastest_px) {
-  return kAlikeShare * fastest_px + 3 * kUsualNoise_px;
+  return kAlikeFraction * fastest_px + 3 * kUsualNoise_px;
 }
 
 bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px) {
@@ -136,7 +137,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     const MotionBlock& block = blocks[i];
     const Eigen::Vector2d at_px(block.x_px, block.y_px);
     // The model maps from the previous picture to this one; it hardly differs between the two
-    // places.
+    // positions.
     const Eigen::Vector2d there_px = at_px - background.model.displacement_px(at_px);
     const Eigen::Vector2f moved_px = background.model.displacement_px(there_px).cast<float>();
     RelativeBlock& relative = relative_[i];
@@ -157,7 +158,7 @@ void MovingBlocks::measure_parallax(const BlockField& field) {
   of_scene_px_.clear();
   for (size_t i = 0; i < relative_.size(); ++i) {
     const RelativeBlock& block = relative_[i];
-    if (block.was_outside || burned_in_.holds(i)) continue;
+    if (block.was_outside || burned_in_.contains(i)) continue;
     if (field.blocks()[i].weakest_texture() < MotionBlock::kLeastTexture) continue;
     of_scene_px_.emplace_back(block.x_px, block.y_px);
   }
@@ -195,9 +196,9 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   }
   burned_in_.end(field.grid());
   for (size_t i = 0; i < stands_out_.size(); ++i) {
-    if (burned_in_.holds(i)) stands_out_[i] = 0;
-    relative_[i].is_covered = burned_in_.covers(i);
-    relative_[i].was_outside |= burned_in_.margins().hold(field.grid(), i);
+    if (burned_in_.contains(i)) stands_out_[i] = 0;
+    relative_[i].is_occluded = burned_in_.occludes(i);
+    relative_[i].was_outside |= burned_in_.margins().contains(field.grid(), i);
   }
 }
 
@@ -215,10 +216,11 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
       const auto index = static_cast<size_t>(row * grid.columns + column);
       const bool stands_out = stands_out_[index] != 0;
       RelativeBlock& block = relative_[index];
-      block.lasts = stands_out && stood_out_[index].share > kLastingAlone;
-      block.moves = block.lasts ||
-                    (stands_out && (moving >= kLeastNeighbours ||
-                                    (moving > 0 && stood_out_[index].share > kLastingBesideOne)));
+      block.lasts = stands_out && stood_out_[index].fraction > kLastingAlone;
+      block.moves =
+          block.lasts ||
+          (stands_out && (moving >= kLeastNeighbours ||
+                          (moving > 0 && stood_out_[index].fraction > kLastingBesideOne)));
     }
   }
 }
@@ -235,16 +237,16 @@ void MovingBlocks::remember_what_stood_out(const BlockField& field) {
     const size_t origin = field.origin_of(i);
     StoodOut before = stood_out_before_[origin];
     const auto look = [&](size_t beside) {
-      if (stood_out_before_[beside].share > before.share) before = stood_out_before_[beside];
+      if (stood_out_before_[beside].fraction > before.fraction) before = stood_out_before_[beside];
     };
     if (origin % columns > 0) look(origin - 1);
     if (origin % columns + 1 < columns) look(origin + 1);
     if (origin >= columns) look(origin - columns);
     if (origin + columns < n) look(origin + columns);
     const Eigen::Vector2f moved_px(relative_[i].x_px, relative_[i].y_px);
-    const bool goes_on = before.share == 0 || are_alike(moved_px, before.moved_px);
+    const bool goes_on = before.fraction == 0 || are_alike(moved_px, before.moved_px);
     const float now = stands_out_[i] != 0 && goes_on ? 1.0f : 0.0f;
-    stood_out_[i] = {before.share + static_cast<float>(kNewestWeight) * (now - before.share),
+    stood_out_[i] = {before.fraction + static_cast<float>(kNewestWeight) * (now - before.fraction),
                      moved_px};
   }
 }

@@ -15,13 +15,14 @@
 namespace spidar {
 
 /// Of the motion of a body, by how much that of its limbs may differ from it.
-constexpr double kAlikeShare = 0.5;
+constexpr double kAlikeFraction = 0.5;
 
-/// Two motions of the same thing differ by less than this, px of the field's picture: kAlikeShare
-/// of `fastest_px`, the length of the longer one, and three standard deviations of a block.
+/// Two motions of the same object differ by less than this, px of the field's picture:
+/// kAlikeFraction of `fastest_px`, the length of the longer one, and three standard deviations of a
+/// block.
 double alike_px(double fastest_px);
 
-/// Whether two motions may be of the same thing.
+/// Whether two motions may be of the same object.
 bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 
 /// Compares each block with the background. A block moves by itself when its motion is further from
@@ -49,10 +50,10 @@ class MovingBlocks {
   void reset();
 
  private:
-  /// Of a block: in what share of the last frames it stood out in the same way, and how it moved in
-  /// the last one.
+  /// Of a block: in what fraction of the last frames it stood out in the same way, and how it moved
+  /// in the last one.
   struct StoodOut {
-    float share = 0;
+    float fraction = 0;
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();
   };
 

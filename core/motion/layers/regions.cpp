@@ -33,7 +33,7 @@ bool is_beside_graphics(const BlockGrid& grid, const std::vector<RelativeBlock>&
                         int column, int row) {
   for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
     for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
-      if (relative[static_cast<size_t>(j * grid.columns + i)].is_covered) return true;
+      if (relative[static_cast<size_t>(j * grid.columns + i)].is_occluded) return true;
     }
   }
   return false;

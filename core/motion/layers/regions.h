@@ -14,7 +14,7 @@
 namespace spidar {
 
 /// A connected part of the picture that moves by itself. Lengths are in pixels of the field's
-/// picture, places relative to its centre.
+/// picture, positions relative to its centre.
 struct Region {
   int blocks = 0;
   /// Number of them at the border of the picture, of the part of it that was in the previous

@@ -24,7 +24,7 @@ constexpr double kNoiseSigmas = 8;
 constexpr double kTrusted = 1.4;
 /// A region with more of its blocks beside graphics is the edge of these, mixed with the film
 /// behind it.
-constexpr double kMixedShare = 0.5;
+constexpr double kMixedFraction = 0.5;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ double salience(const Region& region, const LayerEvidence& evidence, bool camera
   // It is unknown how far a region extends if all of it is at the border.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
-  if (region.graphics_blocks >= kMixedShare * trust * region.blocks) return 0;
+  if (region.graphics_blocks >= kMixedFraction * trust * region.blocks) return 0;
   if (region.border_blocks > kBorder * trust * std::sqrt(region.blocks)) return 0;
   const double doubt = std::max(1.0, evidence.ratio() / trust);
   return trust * evidence.contrast() < kNoiseSigmas * doubt * doubt ? 0 : score;

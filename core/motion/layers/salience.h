@@ -18,8 +18,8 @@ namespace spidar {
 class LayerEvidence {
  public:
   /// Adds a frame, in px of the field's picture: the motion relative to the background, that of the
-  /// background at this place, and how far the blocks around move in the direction of the first, as
-  /// a standard deviation; 0 while the camera rests.
+  /// background at this position, and how far the blocks around move in the direction of the first,
+  /// as a standard deviation; 0 while the camera rests.
   void add(const Eigen::Vector2d& relative_px, const Eigen::Vector2d& background_px,
            double noise_px, double interval_s);
 

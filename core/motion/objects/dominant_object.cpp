@@ -17,11 +17,12 @@ double growth(double prominence, double of_followed) {
   return (prominence - claim) / (prominence + claim);
 }
 
-/// Of the smaller of two boxes, the share that the other one covers if they are of the same thing.
+/// Of the smaller of two boxes, the fraction that the other one covers if they are of the same
+/// object.
 constexpr double kSamePlace = 0.5;
 
-/// Whether an object is where one that is out of sight would be: it is a part of the same thing.
-bool takes_place(const MovingObject& object, const MovingObject& hidden) {
+/// Whether an object is where one that is out of sight would be: it is a part of the same object.
+bool takes_position(const MovingObject& object, const MovingObject& hidden) {
   const Eigen::Vector2d apart_px = (object.position_px - hidden.position_px).cwiseAbs();
   const Eigen::Vector2d common_px = ((object.size_px + hidden.size_px) / 2 - apart_px)
                                         .cwiseMin(object.size_px.cwiseMin(hidden.size_px))
@@ -53,7 +54,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   const auto found = std::find_if(objects.begin(), objects.end(),
                                   [this](const MovingObject& one) { return one.id == id_; });
   const MovingObject* const followed = found == objects.end() ? nullptr : &*found;
-  // What has left the picture is not waited for.
+  // Objects that leave the picture are dropped.
   const bool is_free = id_ == 0 || (followed && followed->has_left);
   const bool in_sight = followed && followed->tracks > 0 && !is_free;
   if (in_sight) lost_s_ = 0;
@@ -68,7 +69,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
         interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
-    const bool continues = followed && followed->tracks == 0 && takes_place(object, *followed);
+    const bool continues = followed && followed->tracks == 0 && takes_position(object, *followed);
     const bool may_take_over = is_free || continues || reason_s > enough_s;
     if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;

@@ -24,8 +24,8 @@ namespace spidar {
 /// object that has stood out for long may therefore rest for twice kReason_s. A rival that appears
 /// while the followed object is out of sight begins with half of the time for which that has been
 /// lost: after twice kReason_s it is followed at once. So are the first object, any object after
-/// the followed one has left at the border of the picture, and one that covers half of the place at
-/// which the followed one would be while it is out of sight: it is a part of the same thing.
+/// the followed one has left at the border of the picture, and one that covers half of the position
+/// at which the followed one would be while it is out of sight: it is a part of the same object.
 class DominantObject {
  public:
   DominantObject();

@@ -23,8 +23,8 @@ struct ObjectLife {
     kHidden,  ///< nothing shows it
   };
 
-  /// Place, motion and size in the last frame in which most of an object was visible. When only a
-  /// rim of it is left, the rim does not tell any of these.
+  /// Position, motion and size in the last frame in which most of an object was visible. When only
+  /// a rim of it is left, the rim does not tell any of these.
   struct Expected {
     double blocks = 0;  ///< when nothing hides it
     Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
@@ -36,7 +36,7 @@ struct ObjectLife {
   /// must be seen more often. A single frame counts for less: noise does not move twice alike.
   static constexpr int kBornAfterBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
-  static constexpr double kRimShare = 0.5;
+  static constexpr double kRimFraction = 0.5;
   /// Longer than what usually hides an object, and than most pauses in its motion.
   static constexpr double kForgotten_s = 0.5;
   /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
@@ -70,10 +70,12 @@ struct ObjectLife {
     const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
     const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
     return (other.relative_px - expected_px).norm() <
-           kAlikeShare * fastest_px + static_cast<double>(kMostOff_px);
+           kAlikeFraction * fastest_px + static_cast<double>(kMostOff_px);
   }
   /// Whether a region of its blocks is only a rim of it.
-  bool is_rim(const Region& visible) const { return visible.blocks < kRimShare * expected.blocks; }
+  bool is_rim(const Region& visible) const {
+    return visible.blocks < kRimFraction * expected.blocks;
+  }
   /// Whether it has moved out of the picture after it was in sight until now.
   bool has_left(double interval_s) const {
     const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
@@ -98,7 +100,7 @@ struct ObjectLife {
     draw(low_px, seen.low_px);
     draw(high_px, seen.high_px);
   }
-  /// Moves the place at which it is expected on.
+  /// Moves the position at which it is expected on.
   void go_on_unseen(double interval_s) {
     expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
   }

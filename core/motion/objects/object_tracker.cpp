@@ -11,14 +11,14 @@
 namespace spidar {
 namespace {
 
-/// How far from its expected place an object may reappear, as a share of the sum of both boxes'
-/// sides.
+/// How far from its expected position an object may reappear, as a fraction of the sum of both
+/// boxes' sides.
 constexpr double kReach = 0.75;
 /// Fewer blocks are no region of an object yet, see is_enough().
 constexpr int kLeastBlocks = 2;
 
-/// Share of its usual blocks that an object at rest still has where it was.
-constexpr double kRemainingShare = 0.5;
+/// Fraction of its usual blocks that an object at rest still has where it was.
+constexpr double kRemainingFraction = 0.5;
 
 }  // namespace
 
@@ -82,7 +82,7 @@ uint32_t ObjectTracker::create(const Region& region) {
 
 /// Whether most of an object's usual blocks are where they were, none of which clearly moves.
 bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
-  return remains.blocks >= kRemainingShare * life.expected.blocks;
+  return remains.blocks >= kRemainingFraction * life.expected.blocks;
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
@@ -133,8 +133,8 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
   }
 }
 
-/// Computes place and velocity in the frame from those of the region in the field's picture.
-void ObjectTracker::place(Life& life, const FieldInFrame& frame) const {
+/// Computes position and velocity in the frame from those of the region in the field's picture.
+void ObjectTracker::position(Life& life, const FieldInFrame& frame) const {
   MovingObject& object = life.object;
   const Region& region = life.region;
   object.position_px = frame.scale * region.position_px + frame.offset_px;
@@ -160,13 +160,13 @@ ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
 
 /// How far blocks outside an object are from the background in the direction in which it moves, as
 /// a standard deviation: in a scene with depth, half of the picture may move against any single
-/// model of the background. A region that does not stand out from that is no object.
+/// model of the background. A region that does not stand out from that is not an object.
 double ObjectTracker::noise_around(const Life& life) {
   around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
     if (owners_[i] == life.key || !block.shows_motion || block.was_outside ||
-        moving_.burned_in().holds(i)) {
+        moving_.burned_in().contains(i)) {
       continue;
     }
     around_px_.emplace_back(block.x_px, block.y_px);
@@ -214,7 +214,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
     life.move_box(frame.interval_s);
     life.draw_box_to(life.region, frame.interval_s);
   }
-  place(life, frame);
+  position(life, frame);
   MovingObject& object = life.object;
   const double noise_px = camera_moves_ ? noise_around(life) : 0;
   life.evidence.add(life.region.relative_px, life.region.background_px, noise_px, frame.interval_s);
@@ -246,9 +246,9 @@ void ObjectTracker::stay(Life& life, const FieldInFrame& frame) {
   life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
-/// Nothing is known to move by itself at the object's place. If most of its usual blocks were there
-/// before, it has come to rest there. If only a rim was visible, it is out of sight and continues
-/// with its last motion.
+/// Nothing is known to move by itself at the object's position. If most of its usual blocks were
+/// there before, it has come to rest there. If only a rim was visible, it is out of sight and
+/// continues with its last motion.
 void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
@@ -269,7 +269,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   object.growth_1_s = 0;
   object.roll_rad_s = 0;
   object.prominence = 0;
-  place(life, frame);
+  position(life, frame);
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,

@@ -96,7 +96,7 @@ class ObjectTracker {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
   ObjectMotion measure(Life& life, const FieldInFrame& frame);
-  void place(Life& life, const FieldInFrame& frame) const;
+  void position(Life& life, const FieldInFrame& frame) const;
   double noise_around(const Life& life);
 
   MovingBlocks moving_;
@@ -108,7 +108,7 @@ class ObjectTracker {
   const Background* background_ = nullptr;
   std::vector<uint8_t> expected_;
   std::vector<uint32_t> owners_;
-  std::vector<uint32_t> owners_before_;     ///< moved to their places in this frame
+  std::vector<uint32_t> owners_before_;     ///< moved to their positions in this frame
   std::vector<uint32_t> region_keys_;       ///< object of each region
   std::vector<size_t> order_;               ///< regions, largest first
   std::vector<Eigen::Vector2f> around_px_;  ///< motion of blocks around an object

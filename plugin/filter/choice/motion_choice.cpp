@@ -77,9 +77,9 @@ void MotionChoice::warn_of_mean(MotionKind motion) {
                       ("motion=object, objects and camera know them."));
 }
 
-void MotionChoice::apply(bool with_mouse, const PictureTurn& turn, AnalyzerSettings& settings) {
+void MotionChoice::apply(bool with_mouse, const Orientation& turn, AnalyzerSettings& settings) {
   settings.feel = named_.rules;
-  if (with_mouse) settings.pointer = mouse_.place().value_or(settings.pointer);
+  if (with_mouse) settings.pointer = mouse_.position().value_or(settings.pointer);
   settings.kept = mouse_.kept(turn);
   if (settings.feel || settings.kept.click != 0) warn_of_mean(settings.motion);
 }
@@ -90,13 +90,13 @@ std::string MotionChoice::seen_text() const {
 
 void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
   if (!told_.emplace(rule.line, state).second) return;
-  const std::string place = place_text(rule.place), end = until(rule);
+  const std::string position = position_text(rule.position), end = until(rule);
   const char* const name = named_.name.c_str();
   switch (state) {
     case ChoiceState::kNotThere:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
-          ("%s, line %d: no object was at %s at %s.", name, rule.line, place.c_str(),
+          ("%s, line %d: no object was at %s at %s.", name, rule.line, position.c_str(),
            time_text(rule.from_ns).c_str()),
           ("An object moves by itself. The first one that begins to move there is felt, %s.",
            end.c_str()));
@@ -106,7 +106,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           element_, STREAM, FAILED,
           ("%s, line %d: playback began after %s, so that the object that is at %s then is not "
            "known.",
-           name, rule.line, time_text(rule.from_ns).c_str(), place.c_str()),
+           name, rule.line, time_text(rule.from_ns).c_str(), position.c_str()),
           ("Nothing is felt %s. In a haptic track, which spidartrack record makes, it is known.",
            end.c_str()));
       break;
@@ -147,10 +147,10 @@ void MotionChoice::tell_of_click(const KeptObject& kept, ChoiceState state) {
                      ("The object that was clicked is lost at %s.", seen_text().c_str()),
                      ("What 'motion' and 'feel' say is felt again."));
   } else {
-    GST_ELEMENT_INFO(
-        element_, STREAM, FAILED,
-        ("No object is at %.2f,%.2f, where the mouse was clicked.", kept.place.x(), kept.place.y()),
-        ("An object moves by itself."));
+    GST_ELEMENT_INFO(element_, STREAM, FAILED,
+                     ("No object is at %.2f,%.2f, where the mouse was clicked.", kept.position.x(),
+                      kept.position.y()),
+                     ("An object moves by itself."));
   }
 }
 

@@ -14,7 +14,7 @@
 
 #include "core/analysis/analyzer_settings.h"
 #include "core/choice/chosen.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 #include "plugin/filter/choice/feel_file.h"
 #include "plugin/filter/choice/sink_mouse.h"
 
@@ -48,9 +48,9 @@ class MotionChoice {
   bool wants_boxes() const { return named_.rules && named_.rules->has_boxes(); }
 
   /// Completes the settings of the next frame: by the rules and, when `with_mouse`, the mouse.
-  void apply(bool with_mouse, const PictureTurn& turn, AnalyzerSettings& settings);
+  void apply(bool with_mouse, const Orientation& turn, AnalyzerSettings& settings);
 
-  /// Says what became of it, once for each rule and click.
+  /// Says the result of processing it, once for each rule and click.
   void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);
 
  private:

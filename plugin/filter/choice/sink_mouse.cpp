@@ -15,7 +15,7 @@ namespace {
 constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;
 
 /// The mouse may be beside the picture, in the black bars of a window.
-double share(double at_px, int size_px) {
+double fraction(double at_px, int size_px) {
   if (!std::isfinite(at_px) || size_px <= 0) return 0.5;
   return std::min(std::max(at_px / size_px, 0.0), 1.0);
 }
@@ -28,11 +28,11 @@ std::optional<GstVideoInfo> info_of(GstPad* pad) {
   return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
 }
 
-/// With its place in pixels.
+/// With its position in pixels.
 std::optional<SinkMouse> parse(GstEvent* event) {
   using Act = SinkMouse::Act;
   SinkMouse mouse;
-  gdouble &x = mouse.place.x(), &y = mouse.place.y(), sideways = 0;
+  gdouble &x = mouse.position.x(), &y = mouse.position.y(), sideways = 0;
   gint button = 0;
   switch (gst_navigation_event_get_type(event)) {
     case GST_NAVIGATION_EVENT_MOUSE_MOVE:
@@ -68,7 +68,8 @@ std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source) {
   std::optional<SinkMouse> mouse = parse(event);
   const std::optional<GstVideoInfo> info = mouse ? info_of(source) : std::nullopt;
   if (!info) return std::nullopt;
-  mouse->place = {share(mouse->place.x(), info->width), share(mouse->place.y(), info->height)};
+  mouse->position = {fraction(mouse->position.x(), info->width),
+                     fraction(mouse->position.y(), info->height)};
   if (!std::isfinite(mouse->wheel)) mouse->wheel = 0;
   GstNavigationModifierType keys = GST_NAVIGATION_MODIFIER_NONE;
   mouse->shift = gst_navigation_event_parse_modifier_state(event, &keys) &&
@@ -80,23 +81,23 @@ void MousePointer::take(const SinkMouse& mouse) {
   const bool clicks = mouse.act == SinkMouse::Act::kPress;
   if (!clicks && mouse.act != SinkMouse::Act::kMove) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  place_ = mouse.place;
-  if (clicks) kept_ = kept_.click == 0 ? KeptObject{++clicks_, mouse.place} : KeptObject();
+  position_ = mouse.position;
+  if (clicks) kept_ = kept_.click == 0 ? KeptObject{++clicks_, mouse.position} : KeptObject();
 }
 
-void MousePointer::keep(const std::optional<Eigen::Vector2d>& place) {
+void MousePointer::keep(const std::optional<Eigen::Vector2d>& position) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  kept_ = place ? KeptObject{++clicks_, *place} : KeptObject();
+  kept_ = position ? KeptObject{++clicks_, *position} : KeptObject();
 }
 
-std::optional<Eigen::Vector2d> MousePointer::place() const {
+std::optional<Eigen::Vector2d> MousePointer::position() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return place_;
+  return position_;
 }
 
-KeptObject MousePointer::kept(const PictureTurn& turn) const {
+KeptObject MousePointer::kept(const Orientation& turn) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {kept_.click, turn.place_shown(kept_.place)};
+  return {kept_.click, turn.displayed_position(kept_.position)};
 }
 
 void MousePointer::let_go(uint32_t click) {
@@ -106,7 +107,7 @@ void MousePointer::let_go(uint32_t click) {
 
 void MousePointer::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  place_.reset();
+  position_.reset();
   kept_ = {};
 }
 

@@ -10,16 +10,16 @@
 #include <gst/gst.h>
 
 #include "core/choice/chosen.h"
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 
 namespace spidar {
 
-/// One thing that the mouse did.
+/// One object that the mouse did.
 struct SinkMouse {
   enum class Act { kMove, kPress, kRelease, kWheel };  ///< the button is the left one
   Act act = Act::kMove;
   /// Of the frame before it is turned: (0, 0) is its top left corner.
-  Eigen::Vector2d place{0.5, 0.5};
+  Eigen::Vector2d position{0.5, 0.5};
   bool shift = false;  ///< Shift key
   double wheel = 0;    ///< notches, > 0 away from the user
 };
@@ -36,12 +36,12 @@ class MousePointer {
 
   /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
   /// seen.
-  std::optional<Eigen::Vector2d> place() const;
+  std::optional<Eigen::Vector2d> position() const;
   /// What a click keeps until the next one.
-  KeptObject kept(const PictureTurn& turn) const;
+  KeptObject kept(const Orientation& turn) const;
 
-  /// Keeps what is at this place, or nothing, without a mouse in the window of a sink.
-  void keep(const std::optional<Eigen::Vector2d>& place);
+  /// Keeps what is at this position, or nothing, without a mouse in the window of a sink.
+  void keep(const std::optional<Eigen::Vector2d>& position);
 
   /// The object of this click is not kept any more.
   void let_go(uint32_t click);
@@ -50,9 +50,9 @@ class MousePointer {
 
  private:
   mutable std::mutex mutex_;
-  std::optional<Eigen::Vector2d> place_;
+  std::optional<Eigen::Vector2d> position_;
   uint32_t clicks_ = 0;
-  KeptObject kept_;  ///< its place is that of the frame before it is turned
+  KeptObject kept_;  ///< its position is that of the frame before it is turned
 };
 
 }  // namespace spidar

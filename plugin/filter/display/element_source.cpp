@@ -144,9 +144,9 @@ class ElementSource final : public WindowSource {
     engine_.output().lead_hand(to_m);
   }
 
-  void choose(const std::optional<Eigen::Vector2d>& place) override {
+  void choose(const std::optional<Eigen::Vector2d>& position) override {
     const Ref<GstElement> held = hold(element_);
-    if (held) choice_.mouse().keep(place);
+    if (held) choice_.mouse().keep(position);
   }
 
   ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {

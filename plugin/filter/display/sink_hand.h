@@ -35,7 +35,7 @@ class SinkHand {
   bool take(const SinkMouse& mouse) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!touched_) return false;
-    mouse_.at_px = mouse.place;
+    mouse_.at_px = mouse.position;
     mouse_.shift = mouse.shift;
     mouse_.wheel = mouse.wheel;
     if (mouse.act == SinkMouse::Act::kPress) mouse_.down = true;
@@ -55,8 +55,8 @@ class SinkHand {
   std::mutex mutex_;
   bool touched_ = false;
   TouchMap map_;
-  Rect picture_;  ///< what is touched, as shares of the frame
-  Mouse mouse_;   ///< its place is a share of the frame, too
+  Rect picture_;  ///< what is touched, as fractions of the frame
+  Mouse mouse_;   ///< its position is a fraction of the frame, too
   MouseHand hand_;
 };
 

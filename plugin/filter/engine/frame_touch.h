@@ -55,7 +55,7 @@ class FrameTouch {
       return;
     }
     const Eigen::Vector2d middle(0.5, 0.5);
-    const Eigen::Vector2d finger = report.turn.place_coded(grip_place().value_or(middle));
+    const Eigen::Vector2d finger = report.turn.stored_position(grip_position().value_or(middle));
     reliefs_.set_turn(report.turn);
     reliefs_.set_levels(luma_levels(frame.info));
     reliefs_.add(luma, report.frame, shown_ns, touch, finger);
@@ -67,7 +67,7 @@ class FrameTouch {
     report.touch.on = true;
     report.touch.map = {grip_pointer_, report.turn};
     report.touch.stiffness_N_m = contact_settings(touch, output_.profile()).stiffness_N_m;
-    report.touch.motion_share = touch.motion_share;
+    report.touch.motion_fraction = touch.motion_fraction;
     if (const std::optional<LoopSnapshot> loop = output_.snapshot()) {
       report.touch_mark = touch_mark(report.touch, loop->last);
     }
@@ -80,10 +80,10 @@ class FrameTouch {
   /// No surface from this running time at the sink on.
   void end(int64_t shown_ns) { reliefs_.end(shown_ns); }
   /// Where the grip points at the picture as it is shown; nothing while no device runs.
-  std::optional<Eigen::Vector2d> grip_place() const {
+  std::optional<Eigen::Vector2d> grip_position() const {
     const std::optional<LoopSnapshot> loop = output_.snapshot();
     if (!loop || loop->last.device != DeviceState::kRunning) return std::nullopt;
-    return grip_pointer_.place(loop->last.pose.position_m);
+    return grip_pointer_.position(loop->last.pose.position_m);
   }
 
  private:

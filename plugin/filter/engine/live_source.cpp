@@ -10,9 +10,9 @@
 namespace spidar {
 namespace {
 
-/// With a share of 1 the result is the same bit for bit.
-Wrench scaled(const Wrench& wrench, double share) {
-  return {share * wrench.force_N, share * wrench.torque_Nm};
+/// With a fraction of 1 the result is the same bit for bit.
+Wrench scaled(const Wrench& wrench, double fraction) {
+  return {fraction * wrench.force_N, fraction * wrench.torque_Nm};
 }
 
 /// The stream time at which a frame is first seen; 0 when it is not known, or not shown.
@@ -70,7 +70,7 @@ void LiveSource::pass_gap(GstBuffer*, const GstSegment&, int64_t running_ns) {
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
   if (frame) {
     schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   turn_.to_shown(scaled(frame->wrench, motion_share_)), frame->goes_on()});
+                   turn_.to_displayed(scaled(frame->wrench, motion_fraction_)), frame->goes_on()});
   } else {
     run_out(static_cast<GstClockTime>(running_ns));
   }
@@ -135,9 +135,9 @@ bool LiveSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport
   limits_.add(shown_ns, report.frame.wrench, report.limit);
   limits_.set_touching(frame.touch.kind != TouchKind::kOff);
   const bool goes_on = report.frame.goes_on();
-  // This share of the film's motion is felt, reported and shown in addition to touch.
-  motion_share_ = frame.touch.kind == TouchKind::kOff ? 1 : frame.touch.motion_share;
-  report.frame.wrench = turn_.to_shown(scaled(report.frame.wrench, motion_share_));
+  // This fraction of the film's motion is felt, reported and shown in addition to touch.
+  motion_fraction_ = frame.touch.kind == TouchKind::kOff ? 1 : frame.touch.motion_fraction;
+  report.frame.wrench = turn_.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {
     touch_.add(frame.video, luma, frame.touch, shown_ns, report);
     schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),

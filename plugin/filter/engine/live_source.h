@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/analysis/square_picture.h"
+#include "core/analysis/square_pixel_resampler.h"
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/engine/wrench_source.h"
 #include "plugin/filter/reports/no_force_watch.h"
@@ -22,7 +22,7 @@ class LiveSource : public WrenchSource {
   /// All are the engine's, and outlive this. `schedule` takes the wrenches; `turn` is how frames
   /// are turned before they are shown.
   LiveSource(WrenchBacklog& schedule, NoForceWatch& limits, FrameTouch& touch,
-             const PictureTurn& turn)
+             const Orientation& turn)
       : schedule_(schedule), limits_(limits), touch_(touch), turn_(turn) {}
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
@@ -51,13 +51,13 @@ class LiveSource : public WrenchSource {
   WrenchBacklog& schedule_;
   NoForceWatch& limits_;
   FrameTouch& touch_;
-  const PictureTurn& turn_;
+  const Orientation& turn_;
   FrameLuma luma_;
-  SquarePicture square_;
+  SquarePixelResampler square_;
   MotionAnalyzer analyzer_;
   FramePacer pacer_;
   std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
-  double motion_share_ = 1;        // of the newest frame's wrench
+  double motion_fraction_ = 1;     // of the newest frame's wrench
 };
 
 }  // namespace spidar

@@ -106,7 +106,7 @@ NoForceReason MotionEngine::no_force_reason() const {
 void MotionEngine::change_rate(double multiplier, GstClockTime running_time,
                                GstClockTime upstream) {
   // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
-  // because what the schedule hands on after it must stay.
+  // because what the schedule forwards after it must stay.
   track_samples_.forget();
   schedule_.change_rate(multiplier, running_time, upstream);
 }

@@ -30,8 +30,8 @@ class MotionEngine {
  public:
   explicit MotionEngine(GstElement* element)
       : output_(element, [this] {
-          schedule_.hand_on();
-          track_samples_.hand_on();
+          schedule_.forward_waiting();
+          track_samples_.forward_waiting();
         }) {}
 
   /// The device and where playback is.
@@ -76,7 +76,7 @@ class MotionEngine {
   /// Tags that no element upstream has followed.
   void take_tags(const GstTagList* tags);
   /// How frames are turned before they are shown. What is felt is turned like them.
-  const PictureTurn& turn() const { return turn_; }
+  const Orientation& turn() const { return turn_; }
   /// Frames are not analysed: the samples of this track, of the file `path`, are felt. Null: they
   /// are again.
   void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
@@ -98,7 +98,7 @@ class MotionEngine {
     no_force_watch_.end();
   }
   /// Where the grip points at the picture as it is shown; nothing while no device runs.
-  std::optional<Eigen::Vector2d> grip_place() const { return touch_.grip_place(); }
+  std::optional<Eigen::Vector2d> grip_position() const { return touch_.grip_position(); }
 
  private:
   /// When the sink shows a frame, and where it is in the film.
@@ -107,11 +107,11 @@ class MotionEngine {
   };
   std::optional<FrameTimes> times_of(const PassingFrame& frame);
 
-  // These outlive the output's thread, which hands on what waits.
+  // These outlive the output's thread, which forwards what waits.
   WrenchBacklog schedule_;
   BlockQueue track_samples_;
   NoForceWatch no_force_watch_;
-  PictureTurn turn_;
+  Orientation turn_;
   FrameTouch touch_{output_};
   LiveSource live_{schedule_, no_force_watch_, touch_, turn_};
   TrackSource track_{output_, track_samples_, schedule_, no_force_watch_, touch_, turn_};

@@ -8,29 +8,29 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
-#include "core/picture_turn.h"
+#include "core/orientation.h"
 #include "plugin/gobject/downstream.h"
 
 namespace spidar {
 
-inline PictureTurn turn_of(GstVideoOrientationMethod method) {
+inline Orientation turn_of(GstVideoOrientationMethod method) {
   switch (method) {
     case GST_VIDEO_ORIENTATION_90R:
-      return PictureTurn(1);
+      return Orientation(1);
     case GST_VIDEO_ORIENTATION_180:
-      return PictureTurn(2);
+      return Orientation(2);
     case GST_VIDEO_ORIENTATION_90L:
-      return PictureTurn(3);
+      return Orientation(3);
     case GST_VIDEO_ORIENTATION_HORIZ:
-      return PictureTurn(0, true);
+      return Orientation(0, true);
     case GST_VIDEO_ORIENTATION_UR_LL:  // exchanges the upper left corner and the lower right one
-      return PictureTurn(1, true);
+      return Orientation(1, true);
     case GST_VIDEO_ORIENTATION_VERT:
-      return PictureTurn(2, true);
+      return Orientation(2, true);
     case GST_VIDEO_ORIENTATION_UL_LR:  // exchanges the other two
-      return PictureTurn(3, true);
+      return Orientation(3, true);
     default:
-      return PictureTurn();
+      return Orientation();
   }
 }
 
@@ -47,10 +47,10 @@ class StreamOrientation {
     const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
     (of_film ? of_film_ : of_stream_) = turn_of(method);
   }
-  PictureTurn turn() const { return of_stream_.value_or(of_film_.value_or(PictureTurn())); }
+  Orientation turn() const { return of_stream_.value_or(of_film_.value_or(Orientation())); }
 
  private:
-  std::optional<PictureTurn> of_stream_, of_film_;
+  std::optional<Orientation> of_stream_, of_film_;
 };
 
 /// Whether an element before `sink` turns the picture by the tag. The videoflip of GStreamer 1.22

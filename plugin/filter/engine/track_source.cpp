@@ -36,9 +36,9 @@ TrackBlock cut(TrackBlock block, int64_t time_ns) {
 
 /// Where the video is with `frame`, of which the sink shows the beginning, or the end when it is
 /// played backwards, at `running_ns`. Nothing when the segment does not show it.
-std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_duration,
-                                   const GstSegment& segment, int64_t running_ns,
-                                   double rate_multiplier) {
+std::optional<FramePosition> position_of(GstBuffer* frame, GstClockTime default_duration,
+                                         const GstSegment& segment, int64_t running_ns,
+                                         double rate_multiplier) {
   const GstClockTime pts = GST_BUFFER_PTS(frame);
   GstClockTime duration = GST_BUFFER_DURATION(frame);
   if (!GST_CLOCK_TIME_IS_VALID(duration)) duration = default_duration;
@@ -47,17 +47,17 @@ std::optional<FramePlace> place_of(GstBuffer* frame, GstClockTime default_durati
     return std::nullopt;
   }
   const bool backwards = segment.rate < 0;
-  FramePlace place;
-  place.stream_ns = static_cast<int64_t>(
+  FramePosition position;
+  position.stream_ns = static_cast<int64_t>(
       gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, backwards ? to : from));
-  place.running_ns = running_ns;
-  place.length_ns = static_cast<int64_t>(to - from);
-  place.rate = segment.rate * rate_multiplier;
-  return place;
+  position.running_ns = running_ns;
+  position.length_ns = static_cast<int64_t>(to - from);
+  position.rate = segment.rate * rate_multiplier;
+  return position;
 }
 
 /// With running times.
-TrackBlock timed(const TrackBlock& block, const FramePlace& frame) {
+TrackBlock timed(const TrackBlock& block, const FramePosition& frame) {
   TrackBlock shown = block;
   const auto running_at = [&frame](int64_t stream_ns) {
     return frame.running_ns +
@@ -156,7 +156,7 @@ void TrackReplay::forget_beyond(int64_t from_ns, int64_t to_ns) {
   }
 }
 
-void TrackReplay::play(const FramePlace& frame,
+void TrackReplay::play(const FramePosition& frame,
                        const std::function<void(const TrackBlock&)>& give) {
   if (!has_track() || frame.rate == 0 || !std::isfinite(frame.rate)) return;
   const bool jumped = std::llabs(frame.stream_ns - expected_ns_) > kJump_ns;
@@ -188,7 +188,7 @@ void TrackReplay::play(const FramePlace& frame,
   }
 }
 
-Wrench TrackReplay::largest(const FramePlace& frame) const {
+Wrench TrackReplay::largest(const FramePosition& frame) const {
   const int64_t other_ns = frame.stream_ns + (frame.rate < 0 ? -frame.length_ns : frame.length_ns);
   const int64_t begin_ns = std::min(frame.stream_ns, other_ns);
   const int64_t end_ns = std::max({frame.stream_ns, other_ns, begin_ns + 1});
@@ -222,13 +222,13 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
                        int64_t running_ns, FrameReport& report) {
   limits_.set_touching(false);
   const int64_t shown_ns = times_.at_sink_ns(running_ns);
-  const auto place =
-      place_of(buffer, default_duration, segment, shown_ns, times_.rate_multiplier());
-  if (!place) return;
+  const auto position =
+      position_of(buffer, default_duration, segment, shown_ns, times_.rate_multiplier());
+  if (!position) return;
   ++frames_;
-  replay_.play(*place, [this](const TrackBlock& block) { samples_.add(block); });
-  report.frame.wrench = replay_.largest(*place);
-  report.frame.interval_ns = place->length_ns;  // so long it is there
+  replay_.play(*position, [this](const TrackBlock& block) { samples_.add(block); });
+  report.frame.wrench = replay_.largest(*position);
+  report.frame.interval_ns = position->length_ns;  // so long it is there
   report.limit = limit_of_track(report.frame.wrench, output_.snapshot());
   const bool is_weak = report.limit == NoForceReason::kTooWeak;
   limits_.add(shown_ns, is_weak ? Wrench() : report.frame.wrench, report.limit);

@@ -24,7 +24,7 @@
 namespace spidar {
 
 /// Where the video is.
-struct FramePlace {
+struct FramePosition {
   int64_t stream_ns = 0;   ///< of what is to be seen first of the frame
   int64_t running_ns = 0;  ///< at which that is shown
   int64_t length_ns = 0;   ///< of stream time, for which the frame is shown
@@ -49,11 +49,11 @@ class TrackReplay {
 
   /// Gives what is not yet given of the samples that are felt while the frame is shown. After a
   /// jump, or at another rate, it begins with the block that the frame is in.
-  void play(const FramePlace& frame, const std::function<void(const TrackBlock&)>& give);
+  void play(const FramePosition& frame, const std::function<void(const TrackBlock&)>& give);
 
   /// The largest wrench of the track while the frame of the last play() is shown; rest where it has
   /// none.
-  Wrench largest(const FramePlace& frame) const;
+  Wrench largest(const FramePosition& frame) const;
 
  private:
   void cover(int64_t from_ns, int64_t to_ns, bool backwards);
@@ -80,7 +80,7 @@ class TrackSource : public WrenchSource {
   /// All are the engine's, and outlive this. `samples` takes those of the track; `times` knows when
   /// the sink shows a frame.
   TrackSource(const HapticOutput& output, BlockQueue& samples, const WrenchBacklog& times,
-              NoForceWatch& limits, FrameTouch& touch, const PictureTurn& turn)
+              NoForceWatch& limits, FrameTouch& touch, const Orientation& turn)
       : output_(output),
         samples_(samples),
         times_(times),
@@ -112,7 +112,7 @@ class TrackSource : public WrenchSource {
   const WrenchBacklog& times_;
   NoForceWatch& limits_;
   FrameTouch& touch_;
-  const PictureTurn& turn_;
+  const Orientation& turn_;
   TrackReplay replay_;
   mutable std::mutex path_mutex_;  // of the pointer
   std::shared_ptr<const std::string> path_;

@@ -17,13 +17,13 @@ namespace spidar {
 struct PassingFrame {
   const GstVideoFrame& video;
   const GstSegment& segment;
-  /// Its pointer is a place of the frame before it is turned.
+  /// Its pointer is a position of the frame before it is turned.
   const AnalyzerSettings& settings;
   const TouchProperties& touch;
 };
 
 /// What of the settings is shown with the frame.
-inline void set_shown(const PassingFrame& frame, const PictureTurn& turn, FrameReport& report) {
+inline void set_shown(const PassingFrame& frame, const Orientation& turn, FrameReport& report) {
   report.visible = visible_part(frame.video);
   report.turn = turn;
   report.motion = frame.settings.motion;

@@ -69,15 +69,15 @@ void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
 /// A map of homogeneous coordinates, x right and y down, with (0, 0) at the top left corner.
 using PictureMap = Eigen::Matrix3d;
 
-/// `place` has (0, 0) at the centre of the first pixel.
-Eigen::Vector2d mapped(const PictureMap& map, const Eigen::Vector2d& place) {
+/// `position` has (0, 0) at the centre of the first pixel.
+Eigen::Vector2d mapped(const PictureMap& map, const Eigen::Vector2d& position) {
   const Eigen::Vector2d half{0.5, 0.5};
-  return (map * (place + half).homogeneous()).hnormalized() - half;
+  return (map * (position + half).homogeneous()).hnormalized() - half;
 }
 
-/// How lengths and directions change where `place` is.
-Eigen::Matrix2d linear_at(const PictureMap& map, const Eigen::Vector2d& place) {
-  const Eigen::Vector3d to = map * place.homogeneous();
+/// How lengths and directions change where `position` is.
+Eigen::Matrix2d linear_at(const PictureMap& map, const Eigen::Vector2d& position) {
+  const Eigen::Vector3d to = map * position.homogeneous();
   const Eigen::Vector2d at = to.hnormalized();
   return (map.topLeftCorner<2, 2>() - at * map.row(2).head<2>()) / to.z();
 }

@@ -12,8 +12,8 @@ namespace spidar {
 
 /// Makes the custom meta of gstspidarmotionmeta.h known; once a process is enough, more do no harm.
 /// Where a frame is copied the meta goes along; where it is scaled, lengths and velocities are
-/// scaled with it, and, from GStreamer 1.28 on, where it is cut, turned or mirrored, so are places
-/// and directions. Other elements that change the picture drop it.
+/// scaled with it, and, from GStreamer 1.28 on, where it is cut, turned or mirrored, so are
+/// positions and directions. Other elements that change the picture drop it.
 void register_motion_meta();
 
 /// `buffer` is writable; a meta of an element before this one is replaced. `width` and `height` are

@@ -33,12 +33,13 @@ int step_of(int samples, int cells) {
 
 }  // namespace
 
-Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& place) {
+Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position) {
   if (frame.picture == PictureKind::kFirst || is_again(frame.picture) || frame.interval_ns <= 0) {
     return Eigen::Vector2d::Zero();
   }
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
-  const Eigen::Vector2d at_px((place.x() - 0.5) * frame.width, (place.y() - 0.5) * frame.height);
+  const Eigen::Vector2d at_px((position.x() - 0.5) * frame.width,
+                              (position.y() - 0.5) * frame.height);
   const MovingObject* const object = object_at(frame.objects, at_px);
   if (object != nullptr) return passed_s * object->on_screen_px_s;
   if (frame.background) return frame.background->model.displacement_px(at_px);
@@ -108,11 +109,11 @@ ImageView ReliefStream::thinned(const ImageView& luma) {
   thinned_.resize(static_cast<size_t>(thin.width) * static_cast<size_t>(thin.height * bytes));
   // Steps in the memory of the frame to the right and down in the shown picture.
   const auto step_to = [&](double x, double y) {
-    const Eigen::Vector2i step = turn_.to_coded(Eigen::Vector2d(x, y)).cast<int>();
+    const Eigen::Vector2i step = turn_.to_stored(Eigen::Vector2d(x, y)).cast<int>();
     return step.x() * bytes + step.y() * luma.stride_bytes;
   };
   const ptrdiff_t right = across * step_to(1, 0), lower = down * step_to(0, 1);
-  const Eigen::Vector2i corner = turn_.place_coded({0, 0}).cast<int>();
+  const Eigen::Vector2i corner = turn_.stored_position({0, 0}).cast<int>();
   const uint8_t* const first =
       luma.at(corner.x() * (luma.width - 1), corner.y() * (luma.height - 1));
   uint8_t* to = thinned_.data();
@@ -135,9 +136,10 @@ const float* ReliefStream::turned(const float* levels) {
   float* to = turned_levels_.data();
   for (int y = 0; y < kRows; ++y) {
     for (int x = 0; x < kColumns; ++x) {
-      const Eigen::Vector2d place = turn_.place_coded({(x + 0.5) / kColumns, (y + 0.5) / kRows});
-      const int column = static_cast<int>(place.x() * kColumns);
-      *to++ = levels[static_cast<int>(place.y() * kRows) * kColumns + column];
+      const Eigen::Vector2d position =
+          turn_.stored_position({(x + 0.5) / kColumns, (y + 0.5) / kRows});
+      const int column = static_cast<int>(position.x() * kColumns);
+      *to++ = levels[static_cast<int>(position.y() * kRows) * kColumns + column];
     }
   }
   return turned_levels_.data();
@@ -196,7 +198,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
   const Eigen::Vector2d moved_px = touched_displacement_px(analyzed, finger);
-  const Eigen::Vector2d moved = turn_.to_shown(
+  const Eigen::Vector2d moved = turn_.to_displayed(
       Eigen::Vector2d(moved_px.x() / analyzed.width, moved_px.y() / analyzed.height));
   frame->displacement_m = {moved.x() * frame->relief.width_m(),
                            -moved.y() * frame->relief.height_m()};

@@ -13,8 +13,8 @@
 #include <gst/gst.h>
 
 #include "core/analysis/frame.h"
+#include "core/orientation.h"
 #include "core/picture/image_view.h"
-#include "core/picture_turn.h"
 #include "core/touch/depth_picture.h"
 #include "core/touch/relief.h"
 #include "plugin/frame/frame_luma.h"
@@ -27,12 +27,12 @@
 namespace spidar {
 
 /// Returns the displacement from the previous frame to this one, in pixels of the frame: x right, y
-/// down. `place` is the position of the finger, with (0, 0) at the top left corner of the picture
-/// and (1, 1) at the bottom right. The result is the motion of the object whose box contains the
-/// finger (of several, the one with the smallest area), otherwise that of the background at this
-/// point. With motion=mean, which detects neither, it is the motion of the whole picture. Zero if
-/// the motion is unknown, or if the frame repeats the previous picture.
-Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& place);
+/// down. `position` is the position of the finger, with (0, 0) at the top left corner of the
+/// picture and (1, 1) at the bottom right. The result is the motion of the object whose box
+/// contains the finger (of several, the one with the smallest area), otherwise that of the
+/// background at this point. With motion=mean, which detects neither, it is the motion of the whole
+/// picture. Zero if the motion is unknown, or if the frame repeats the previous picture.
+Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position);
 
 /// The contact settings that the properties yield on this device.
 ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
@@ -70,7 +70,7 @@ class ReliefStream {
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger);
   /// How the frames that follow are turned before they are shown; the relief is turned like them.
-  void set_turn(const PictureTurn& turn) { turn_ = turn; }
+  void set_turn(const Orientation& turn) { turn_ = turn; }
   /// The brightness of black and white in the frames that follow.
   void set_levels(const LumaLevels& levels) { levels_ = levels; }
   /// Removes the surface from `shown_ns` on.
@@ -93,7 +93,7 @@ class ReliefStream {
   ReliefBuilder builder_;
   DepthPicture depth_;
   int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
-  PictureTurn turn_;
+  Orientation turn_;
   LumaLevels levels_;
   std::vector<uint8_t> thinned_;
   std::vector<float> turned_levels_;

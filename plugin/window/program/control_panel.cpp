@@ -12,7 +12,7 @@ namespace {
 
 /// A slider is logarithmic over a range of more than kLinear, or over more than the factor kWide.
 constexpr double kLinear = 1e6, kWide = 100;
-constexpr double kTooltip_px = 340, kNameShare = 0.4;
+constexpr double kTooltip_px = 340, kNameFraction = 0.4;
 
 /// "1 object", "2 objects".
 std::string count_of(size_t count, const std::string& noun) {
@@ -107,7 +107,7 @@ void draw_table(const Brush& brush, const Rect& panel, const ElementState& state
                 ControlsUse& use) {
   if (!ImGui::BeginTable(of_viewer ? "settings" : "advanced", 2)) return;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
-                          static_cast<float>(kNameShare * panel.width));
+                          static_cast<float>(kNameFraction * panel.width));
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   for (const Setting& setting : state.settings) {
     if (setting.name == "mute" || is_of_viewer(setting) != of_viewer) continue;

@@ -50,7 +50,7 @@ class DebugWindow {
   void use_plots(const Mouse& mouse, const WindowLayout& layout);
   SceneChoices& choices();
   void follow_choices(const std::string& film_before);
-  void choose(const ObjectWish& wish);
+  void choose(const ChoiceRequest& wish);
   bool has_unsaved_choices() const;
   void save_choices(bool (SceneChoices::*is_due)() const);
   void remove_choice(const FeelRule& rule);

@@ -161,12 +161,12 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   save_choices(&SceneChoices::has_late_end);
 }
 
-void DebugWindow::choose(const ObjectWish& wish) {
-  link_.choose(wish.place);
-  wished_ = wish.place ? wish.object : 0;
+void DebugWindow::choose(const ChoiceRequest& wish) {
+  link_.choose(wish.position);
+  wished_ = wish.position ? wish.object : 0;
   click_before_ = report_.click;
   const Sighting* const object = sightings_.find(wish.object);
-  if (!wish.place) {
+  if (!wish.position) {
     choices().let_go();
   } else if (object) {
     choices().choose(*object);

@@ -12,22 +12,22 @@ namespace spidar {
 namespace {
 
 constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
-/// Of the view: the largest force as a share of the panel's smaller side.
-constexpr double kForceShare = 0.3;
+/// Of the view: the largest force as a fraction of the panel's smaller side.
+constexpr double kForceFraction = 0.3;
 
 constexpr ImU32 kRangeColor = IM_COL32(38, 43, 53, 255);
-/// Of a string's bar: half of its width, as a share of its room.
+/// Of a string's bar: half of its width, as a fraction of its room.
 constexpr double kHalfBar = 0.25;
 /// Of the axis, where a device says nothing of its motors.
 constexpr double kLeastTension_N = 0.1;
 
 /// Blue at the smallest tension, red at the largest.
-ImU32 tension_color(double share) {
-  const auto warm = static_cast<int>(255 * std::clamp(share, 0.0, 1.0));
+ImU32 tension_color(double fraction) {
+  const auto warm = static_cast<int>(255 * std::clamp(fraction, 0.0, 1.0));
   return IM_COL32(warm, 120, 255 - warm, 255);
 }
 
-double share_of_range(const DeviceView& device, int string) {
+double fraction_of_range(const DeviceView& device, int string) {
   const double low_N = device.min_tension_N[string], high_N = device.max_tension_N[string];
   return high_N > low_N ? (device.last.tension_N[string] - low_N) / (high_N - low_N) : 0;
 }
@@ -66,11 +66,11 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
   const Eigen::Matrix3d R = last.pose.orientation.toRotationMatrix();
   for (int i = 0; i < device.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
-    const double share = share_of_range(device, i);
-    const ImU32 color = i == last.faulty_string ? kWarnColor : tension_color(share);
+    const double fraction = fraction_of_range(device, i);
+    const ImU32 color = i == last.faulty_string ? kWarnColor : tension_color(fraction);
     const Eigen::Vector2d exit = project(device.geometry.exit_m[k]);
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
-                       color, brush.px(1.2 + 2.5 * std::clamp(share, 0.0, 1.0)));
+                       color, brush.px(1.2 + 2.5 * std::clamp(fraction, 0.0, 1.0)));
     brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
     // Its number, beside the exit.
     const std::string number = std::to_string(i);
@@ -93,7 +93,7 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
       (view.project(view.pose.position_m + wrench.force_N / force_N * view.radius_m) - from) /
       view.px(view.radius_m);
   const double length =
-      kForceShare * std::min(panel.width, panel.height) * std::min(force_N / most_N, 1.0);
+      kForceFraction * std::min(panel.width, panel.height) * std::min(force_N / most_N, 1.0);
   const Eigen::Vector2d to = from + length * direction;
   const Brush& brush = view.brush;
   const Eigen::Vector2d along = (to - from).normalized(), side(-along.y(), along.x());

@@ -135,8 +135,9 @@ bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
 void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& style) {
   const Brush& brush = over.brush;
   const Rect& shown = over.map.shown;
-  const auto at = [&](const Eigen::Vector2d& place) {
-    return Eigen::Vector2d(shown.x + place.x() * shown.width, shown.y + place.y() * shown.height);
+  const auto at = [&](const Eigen::Vector2d& position) {
+    return Eigen::Vector2d(shown.x + position.x() * shown.width,
+                           shown.y + position.y() * shown.height);
   };
   const auto ring_px = static_cast<float>(finger_radius_px(shown.height));
   const ImVec2 finger = im(at(touch.finger));

@@ -66,13 +66,13 @@ class PlayerLink {
   std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }
   /// The file into which the next drawing is to be written.
   std::optional<std::string> wanted_picture() const { return wanted_picture_; }
-  /// What became of it, see PictureTaken.
+  /// the result of processing it, see PictureTaken.
   void picture_taken(const std::string& problem);
 
   void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }
   void load_preset(const std::string& name) { send(LoadPreset{name}); }
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m);
-  void choose(const std::optional<Eigen::Vector2d>& place) { send(ChooseObject{place}); }
+  void choose(const std::optional<Eigen::Vector2d>& position) { send(ChooseObject{position}); }
   void play(bool plays) { send(PlayFilm{plays}); }
   void seek(int64_t to_ns) { send(SeekFilm{to_ns}); }
   /// Waits for the answer, but not for long.

@@ -53,7 +53,7 @@ void Plot::draw_axes(const std::string& x_unit, const std::string& y_unit) const
 }
 
 ImVec2 Plot::at(double x, double y) const {
-  return im(area_.x + x_.share(x) * area_.width, area_.bottom() - y_.share(y) * area_.height);
+  return im(area_.x + x_.fraction(x) * area_.width, area_.bottom() - y_.fraction(y) * area_.height);
 }
 
 void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_px) const {
@@ -63,8 +63,8 @@ void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_
   brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
   for (const PlotPoint& point : points) {
     // Far beyond the range coordinates would lose their precision.
-    const double share = std::clamp(y_.share(point.y), -1.0, 2.0);
-    corners.push_back(at(point.x, y_.low + share * (y_.high - y_.low)));
+    const double fraction = std::clamp(y_.fraction(point.y), -1.0, 2.0);
+    corners.push_back(at(point.x, y_.low + fraction * (y_.high - y_.low)));
     if (point.y <= y_.high) continue;
     const ImVec2 top = at(point.x, y_.high);
     brush_.list.AddTriangleFilled(top, {top.x + mark, top.y + 1.5F * mark},
@@ -107,8 +107,8 @@ std::optional<double> Plot::hovered_x() const {
   if (!ImGui::IsMouseHoveringRect(upper_left(area_), lower_right(area_), false)) {
     return std::nullopt;
   }
-  const double share = (ImGui::GetMousePos().x - area_.x) / area_.width;
-  const double x = x_.low + share * (x_.high - x_.low);
+  const double fraction = (ImGui::GetMousePos().x - area_.x) / area_.width;
+  const double x = x_.low + fraction * (x_.high - x_.low);
   upright(x, kLineColor);
   return x;
 }

@@ -102,8 +102,8 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
               color);
   }
   if (const std::optional<double> at_s = plot.hovered_x()) {
-    const double share = 1 + *at_s / timeline.plotted_s();
-    const auto column = static_cast<size_t>(share * static_cast<double>(columns.size()));
+    const double fraction = 1 + *at_s / timeline.plotted_s();
+    const auto column = static_cast<size_t>(fraction * static_cast<double>(columns.size()));
     if (column < columns.size()) tell_force(*at_s, columns[column]);
   }
   plot.legend({{kAxisNames[0], kAxisColors[0]},

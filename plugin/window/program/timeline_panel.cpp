@@ -44,36 +44,36 @@ std::string film_time(int64_t ns) {
 /// The part of the panel with the whole film.
 constexpr double kStrip_px = 9, kLeastMark_px = 4;
 
-Rect mark_rect(const Brush& brush, const Rect& place, const FilmStrip& strip,
+Rect mark_rect(const Brush& brush, const Rect& position, const FilmStrip& strip,
                const StripMark& mark) {
-  const double from = place.x + strip.share(mark.rule.from_ns) * place.width;
-  const double to = place.x + strip.share(mark.rule.to_ns) * place.width;
-  return {from, place.y, std::max(to - from, kLeastMark_px * brush.scale), place.height};
+  const double from = position.x + strip.fraction(mark.rule.from_ns) * position.width;
+  const double to = position.x + strip.fraction(mark.rule.to_ns) * position.width;
+  return {from, position.y, std::max(to - from, kLeastMark_px * brush.scale), position.height};
 }
 
-void draw_strip(const Brush& brush, const Rect& place, const FilmStrip& strip) {
-  brush.list.AddRectFilled(upper_left(place), lower_right(place), kGridColor, brush.px(2));
+void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip) {
+  brush.list.AddRectFilled(upper_left(position), lower_right(position), kGridColor, brush.px(2));
   for (const StripMark& mark : strip.marks) {
     // A gap between two that follow each other.
-    const Rect rect = mark_rect(brush, place, strip, mark).inset(0.5 * brush.scale);
+    const Rect rect = mark_rect(brush, position, strip, mark).inset(0.5 * brush.scale);
     brush.list.AddRectFilled(upper_left(rect), lower_right(rect),
                              mark.is_new ? kFeltColor : kAccentColor, brush.px(2));
   }
-  const double now = place.x + strip.share(strip.now_ns) * place.width;
+  const double now = position.x + strip.fraction(strip.now_ns) * position.width;
   const double beyond = 2 * brush.scale;
-  brush.list.AddLine(im(now, place.y - beyond), im(now, place.bottom() + beyond), kTextColor,
+  brush.list.AddLine(im(now, position.y - beyond), im(now, position.bottom() + beyond), kTextColor,
                      brush.px(2));
 }
 
 /// With the mouse over it.
-void use_strip(const Brush& brush, const Rect& place, const FilmStrip& strip, TimelineUse& use) {
-  ImGui::SetCursorScreenPos(im(place.x, place.y - 2 * brush.scale));
-  ImGui::InvisibleButton("film", im(place.width, place.height + 4 * brush.scale));
+void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip, TimelineUse& use) {
+  ImGui::SetCursorScreenPos(im(position.x, position.y - 2 * brush.scale));
+  ImGui::InvisibleButton("film", im(position.width, position.height + 4 * brush.scale));
   if (!ImGui::IsItemHovered()) return;
-  const double share = (ImGui::GetIO().MousePos.x - place.x) / place.width;
-  const StripMark* const mark = strip.at(share, kLeastMark_px * brush.scale / place.width);
+  const double fraction = (ImGui::GetIO().MousePos.x - position.x) / position.width;
+  const StripMark* const mark = strip.at(fraction, kLeastMark_px * brush.scale / position.width);
   if (!mark) {
-    const auto at_ns = static_cast<int64_t>(share * static_cast<double>(strip.length_ns));
+    const auto at_ns = static_cast<int64_t>(fraction * static_cast<double>(strip.length_ns));
     ImGui::SetTooltip("A click plays from %s.", film_time(at_ns).c_str());
     if (ImGui::IsItemClicked()) use.seek_ns = at_ns;
     return;

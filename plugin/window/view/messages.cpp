@@ -27,11 +27,11 @@ void pass(Wire& wire, Wrench& wrench) {
 
 /// As one of the eight ways in which a picture can be turned.
 template <typename Wire>
-void pass(Wire& wire, PictureTurn& turn) {
+void pass(Wire& wire, Orientation& turn) {
   constexpr int kQuarters = 4;
-  const auto way = [](int number) { return PictureTurn(number % kQuarters, number >= kQuarters); };
-  const auto is_same = [&](const PictureTurn& other) {
-    return other.to_shown(Eigen::Vector2d(1, 2)) == turn.to_shown(Eigen::Vector2d(1, 2));
+  const auto way = [](int number) { return Orientation(number % kQuarters, number >= kQuarters); };
+  const auto is_same = [&](const Orientation& other) {
+    return other.to_displayed(Eigen::Vector2d(1, 2)) == turn.to_displayed(Eigen::Vector2d(1, 2));
   };
   int32_t number = 0;
   while (!Wire::kReads && number < 2 * kQuarters - 1 && !is_same(way(number))) ++number;
@@ -71,7 +71,7 @@ void pass(Wire& wire, ControllerSettings& controller) {
 template <typename Wire>
 void pass(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
-  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_share);
+  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction);
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
@@ -223,12 +223,12 @@ void pass(Wire& wire, LeadHand& lead) {
 
 template <typename Wire>
 void pass(Wire& wire, ChooseObject& choose) {
-  wire(choose.place);
+  wire(choose.position);
 }
 
 template <typename Wire>
 void pass(Wire& wire, FeelEdit& edit) {
-  wire(edit.from_ns, edit.to_ns, edit.place);
+  wire(edit.from_ns, edit.to_ns, edit.position);
 }
 
 template <typename Wire>

@@ -80,10 +80,10 @@ struct LoadPreset {
 struct LeadHand {
   std::optional<Eigen::Vector3d> to_m;
 };
-/// The object at this place of the frame, a share of its visible part, is felt alone; nothing: what
-/// the properties say is.
+/// The object at this position of the frame, a fraction of its visible part, is felt alone;
+/// nothing: what the properties say is.
 struct ChooseObject {
-  std::optional<Eigen::Vector2d> place;
+  std::optional<Eigen::Vector2d> position;
 };
 /// Changes the rules in the file of `feel`, or else in the one beside the file `film`.
 struct SaveChoices {

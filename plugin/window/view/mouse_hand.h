@@ -45,8 +45,8 @@ class MouseHand {
     // The position is not finite if the window system has lost the mouse; the hand then stays.
     if (holds_ && mouse.at_px.allFinite()) {
       if (begins || !mouse.shift) {
-        place_ = {(mouse.at_px.x() - picture.x) / picture.width,
-                  (mouse.at_px.y() - picture.y) / picture.height};
+        position_ = {(mouse.at_px.x() - picture.x) / picture.width,
+                     (mouse.at_px.y() - picture.y) / picture.height};
       } else {
         // The same mouse travel moves the hand as far in depth as it would in the picture.
         const double up = (last_px_.y() - mouse.at_px.y()) / picture.height;
@@ -56,7 +56,7 @@ class MouseHand {
     }
     z_m_ = std::clamp(z_m_ - deeper_m, -kFurthest_m, kFurthest_m);
     if (!holds_) return std::nullopt;
-    const Eigen::Vector2d at_m = map.position_m(place_);
+    const Eigen::Vector2d at_m = map.position_m(position_);
     return Eigen::Vector3d(at_m.x(), at_m.y(), z_m_);
   }
   void let_go() { *this = MouseHand(z_m_); }
@@ -74,7 +74,7 @@ class MouseHand {
   bool over_ = false;
   double z_m_ = 0;
   Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d place_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace spidar

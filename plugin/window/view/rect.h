@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A rectangle in pixels, or in shares of a picture.
+/// A rectangle in pixels, or in fractions of a picture.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ struct Rect {
   double x = 0, y = 0, width = 0, height = 0;
   double right() const { return x + width; }
   double bottom() const { return y + height; }
-  /// False for a place that is not finite.
+  /// False for a position that is not finite.
   bool has(const Eigen::Vector2d& at) const {
     return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();
   }

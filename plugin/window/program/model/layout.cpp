@@ -8,12 +8,12 @@
 namespace spidar {
 namespace {
 
-// Shares of the window.
+// Fractions of the window.
 constexpr double kLeft = 0.66, kGrip = 0.3, kTensions = 0.2;
 constexpr double kTimeline = 0.13, kPlots = 0.23;
-/// Of text, in pixels at a scale of 1; a share of the window at most.
+/// Of text, in pixels at a scale of 1; a fraction of the window at most.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
-/// The title, the button, a line and the film below each other; a share of the window at most.
+/// The title, the button, a line and the film below each other; a fraction of the window at most.
 constexpr double kTimeline_px = 96, kTimelineMost = 0.2;
 constexpr double kGap_px = 8;
 
@@ -84,7 +84,7 @@ GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry
 }
 
 Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
-  // The viewer goes to the right and up: near things (z > 0) go to the left and down.
+  // The viewer goes to the right and up: near objects (z > 0) go to the left and down.
   const double x = std::cos(kTurn) * at_m.x() - std::sin(kTurn) * at_m.z();
   const double z = std::sin(kTurn) * at_m.x() + std::cos(kTurn) * at_m.z();
   return {x, -(std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z)};

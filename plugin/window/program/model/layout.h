@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where things are in a debug window, in pixels from its upper left corner.
+/// Where objects are in a debug window, in pixels from its upper left corner.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct WindowLayout {
   Rect grip, tensions, controls;                       ///< right
 };
 /// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. Where no
-/// speed is measured, the force has the place of the plots of speed.
+/// speed is measured, the plot of force replaces those of speed.
 WindowLayout lay_out(int width, int height, double scale, bool has_speed = true);
 
 /// From pixels of the frame to pixels of the window.

@@ -14,11 +14,11 @@
 
 namespace spidar {
 
-/// The object in sight whose box has the place in it, the smallest of several; null when none has.
-/// Places are shares of the visible part of the frame.
-inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d at_px((place.x() - 0.5) * report.visible.width,
-                              (place.y() - 0.5) * report.visible.height);
+/// The object in sight whose box has the position in it, the smallest of several; null when none
+/// has. Places are fractions of the visible part of the frame.
+inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vector2d& position) {
+  const Eigen::Vector2d at_px((position.x() - 0.5) * report.visible.width,
+                              (position.y() - 0.5) * report.visible.height);
   const MovingObject* found = nullptr;
   for (const MovingObject& object : report.frame.objects) {
     const Eigen::Vector2d off_px = (at_px - object.position_px).cwiseAbs();
@@ -28,27 +28,27 @@ inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vec
   return found;
 }
 
-/// A place that is in the box of this object and in no smaller one, if there is such a place: a
-/// click there means it. As a share of the visible part of the frame.
-inline Eigen::Vector2d place_of(const FrameReport& report, const MovingObject& object) {
+/// A position that is in the box of this object and in no smaller one, if there is such a position:
+/// a click there means it. As a fraction of the visible part of the frame.
+inline Eigen::Vector2d position_of(const FrameReport& report, const MovingObject& object) {
   const Eigen::Vector2d frame_px(report.visible.width, report.visible.height);
   const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
   const Eigen::Vector2d low_px = (middle_px - object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
   const Eigen::Vector2d high_px =
       (middle_px + object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
-  const auto place_at = [&](double across, double down) -> Eigen::Vector2d {
-    const Eigen::Vector2d share(across, down);
-    return (low_px + share.cwiseProduct(high_px - low_px))
+  const auto position_at = [&](double across, double down) -> Eigen::Vector2d {
+    const Eigen::Vector2d fraction(across, down);
+    return (low_px + fraction.cwiseProduct(high_px - low_px))
         .cwiseQuotient(frame_px.cwiseMax(Eigen::Vector2d(1, 1)));
   };
   constexpr std::array<double, 5> kShares{0.5, 0.3, 0.7, 0.1, 0.9};  // the middle first
   for (const double down : kShares) {
     for (const double across : kShares) {
-      const MovingObject* const there = object_at(report, place_at(across, down));
-      if (there && there->id == object.id) return place_at(across, down);
+      const MovingObject* const there = object_at(report, position_at(across, down));
+      if (there && there->id == object.id) return position_at(across, down);
     }
   }
-  return place_at(0.5, 0.5);
+  return position_at(0.5, 0.5);
 }
 
 /// Whether objects are known, and not merely touched.
@@ -57,9 +57,10 @@ inline bool offers_choice(const FrameReport& report) {
 }
 
 /// What a click asks for.
-struct ObjectWish {
-  std::optional<Eigen::Vector2d> place;  ///< of the object that is felt from now on; none: let go
-  uint32_t object = 0;                   ///< the one that was clicked
+struct ChoiceRequest {
+  std::optional<Eigen::Vector2d>
+      position;         ///< of the object that is felt from now on; none: let go
+  uint32_t object = 0;  ///< the one that was clicked
 };
 
 /// The left button chooses what it is pressed on; on the object that was chosen, it lets go. Where
@@ -68,24 +69,25 @@ class ObjectClick {
  public:
   /// `picture` is the part of the window that shows the visible part of the frame. Nothing when
   /// nobody clicked on an object.
-  std::optional<ObjectWish> update(const Mouse& mouse, const Rect& picture,
-                                   const FrameReport& report) {
+  std::optional<ChoiceRequest> update(const Mouse& mouse, const Rect& picture,
+                                      const FrameReport& report) {
     const bool pressed = mouse.down && !was_down_;
     was_down_ = mouse.down;
     holds_ = holds_ && mouse.down;
     if (!pressed || mouse.taken || !offers_choice(report) || picture.width <= 0)
       return std::nullopt;
-    const Eigen::Vector2d place((mouse.at_px.x() - picture.x) / picture.width,
-                                (mouse.at_px.y() - picture.y) / picture.height);
+    const Eigen::Vector2d position((mouse.at_px.x() - picture.x) / picture.width,
+                                   (mouse.at_px.y() - picture.y) / picture.height);
     // Not a number where there is no mouse.
-    const bool is_over = place.x() >= 0 && place.x() <= 1 && place.y() >= 0 && place.y() <= 1;
-    const MovingObject* const object = is_over ? object_at(report, place) : nullptr;
+    const bool is_over =
+        position.x() >= 0 && position.x() <= 1 && position.y() >= 0 && position.y() <= 1;
+    const MovingObject* const object = is_over ? object_at(report, position) : nullptr;
     if (!object) return std::nullopt;
     holds_ = true;
     const bool is_chosen = report.click != 0 && report.frame.felt_object == object->id;
-    ObjectWish wish;
+    ChoiceRequest wish;
     wish.object = object->id;
-    if (!is_chosen) wish.place = place;
+    if (!is_chosen) wish.position = position;
     return wish;
   }
   /// The button is still down since then.

@@ -19,9 +19,9 @@ int64_t whole(int64_t ns) {
   return ns / kMillisecond * kMillisecond;
 }
 
-/// A place as a person reads it: a thousandth is less than a pixel of most films.
-Eigen::Vector2d whole(const Eigen::Vector2d& place) {
-  return (place * 1000).array().round() / 1000;
+/// A position as a person reads it: a thousandth is less than a pixel of most films.
+Eigen::Vector2d whole(const Eigen::Vector2d& position) {
+  return (position * 1000).array().round() / 1000;
 }
 
 }  // namespace
@@ -35,8 +35,8 @@ void Sightings::see(const FrameReport& report) {
     auto known = std::find_if(seen_.begin(), seen_.end(),
                               [&](const Sighting& one) { return one.id == object.id; });
     if (known == seen_.end()) {
-      const Eigen::Vector2d place = report.turn.place_shown(place_of(report, object));
-      known = seen_.insert(known, {object.id, now_ns, place, now_ns});
+      const Eigen::Vector2d position = report.turn.displayed_position(position_of(report, object));
+      known = seen_.insert(known, {object.id, now_ns, position, now_ns});
     }
     known->last_ns = now_ns;
   }
@@ -100,10 +100,10 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
   for (Choice& choice : choices_) {
     if (!choice.grows || !which(choice)) continue;
     choice.grows = choice.is_saved = false;
-    choice.edit.place.reset();
+    choice.edit.position.reset();
   }
   const auto is_nothing = [](const Choice& choice) {
-    return !choice.edit.place && !choice.is_removal && !choice.was_saved;
+    return !choice.edit.position && !choice.is_removal && !choice.was_saved;
   };
   choices_.erase(std::remove_if(choices_.begin(), choices_.end(), is_nothing), choices_.end());
 }
@@ -118,7 +118,7 @@ void SceneChoices::choose(const Sighting& object) {
     other.edit.to_ns = from_ns;
   }
   Choice choice;
-  choice.edit = {from_ns, whole(end_ns_), whole(object.first_place)};
+  choice.edit = {from_ns, whole(end_ns_), whole(object.first_position)};
   choice.object = object.id;
   choice.click_before = click_;
   choice.seen_ns = end_ns_;
@@ -147,7 +147,7 @@ bool SceneChoices::has_unsaved() const {
 
 bool SceneChoices::has_late_end() const {
   return std::any_of(choices_.begin(), choices_.end(), [](const Choice& choice) {
-    return choice.was_saved && !choice.is_saved && choice.edit.place;
+    return choice.was_saved && !choice.is_saved && choice.edit.position;
   });
 }
 
@@ -167,16 +167,17 @@ void SceneChoices::not_saved() {
   for (Choice& choice : choices_) choice.is_saved = choice.was_saved = false;
 }
 
-double FilmStrip::share(int64_t ns) const {
+double FilmStrip::fraction(int64_t ns) const {
   if (length_ns <= 0) return 0;
   return std::clamp(static_cast<double>(ns) / static_cast<double>(length_ns), 0.0, 1.0);
 }
 
-const StripMark* FilmStrip::at(double place, double reach) const {
+const StripMark* FilmStrip::at(double position, double reach) const {
   const StripMark* best = nullptr;
   double nearest = reach;
   for (const StripMark& mark : marks) {
-    const double before = share(mark.rule.from_ns) - place, behind = place - share(mark.rule.to_ns);
+    const double before = fraction(mark.rule.from_ns) - position,
+                 behind = position - fraction(mark.rule.to_ns);
     const double distance = std::max({before, behind, 0.0});
     if (distance > nearest || (best && distance == nearest)) continue;
     best = &mark;
@@ -198,7 +199,8 @@ FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
     if (rule.to_ns != FeelRule::kNoEnd) strip.length_ns = std::max(strip.length_ns, rule.to_ns);
     // A choice that is saved grows with its scene.
     const auto is_same = [&](const FeelRule& other) {
-      return other.from_ns == rule.from_ns && other.kind == rule.kind && other.place == rule.place;
+      return other.from_ns == rule.from_ns && other.kind == rule.kind &&
+             other.position == rule.position;
     };
     strip.marks.push_back({rule, std::none_of(before.begin(), before.end(), is_same)});
   }

@@ -19,8 +19,8 @@ namespace spidar {
 
 struct Sighting {
   uint32_t id = 0;
-  int64_t first_ns = -1;              ///< in the film; −1: not known
-  Eigen::Vector2d first_place{0, 0};  ///< a share of the picture as it is shown
+  int64_t first_ns = -1;                 ///< in the film; −1: not known
+  Eigen::Vector2d first_position{0, 0};  ///< a fraction of the picture as it is shown
   int64_t last_ns = -1;
 };
 
@@ -53,8 +53,8 @@ class SceneChoices {
   /// When the object of a choice was seen last that has been lost since the last call.
   std::optional<int64_t> take_lost() { return std::exchange(lost_ns_, std::nullopt); }
 
-  /// In place of what was chosen in this scene while the object was in sight. Changes nothing where
-  /// the time in the film is not known.
+  /// In place of what was chosen in this scene while the object was in sight. Changes nothing
+  /// where the time in the film is not known.
   void choose(const Sighting& object);
   /// Of the choices in this scene the last one goes.
   void let_go();
@@ -106,9 +106,9 @@ struct FilmStrip {
   std::vector<StripMark> marks;
 
   /// 0 at the begin of the film, 1 at its end; never beyond.
-  double share(int64_t ns) const;
-  /// The mark at this share, or no further than `reach` from it; null when there is none.
-  const StripMark* at(double place, double reach) const;
+  double fraction(int64_t ns) const;
+  /// The mark at this fraction, or no further than `reach` from it; null when there is none.
+  const StripMark* at(double position, double reach) const;
 };
 
 /// Of a film from a file of which the time is known. `rules` may be null.

@@ -48,8 +48,9 @@ std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t co
   auto tick = std::lower_bound(ticks_.begin(), ticks_.end(), from_s, is_before);
   size_t before = 0;
   for (const ForceTick* last = nullptr; tick != ticks_.end() && time_s(*tick) <= to_s; ++tick) {
-    const double share = (time_s(*tick) - from_s) / (to_s - from_s);
-    const size_t at = std::min(static_cast<size_t>(share * static_cast<double>(count)), count - 1);
+    const double fraction = (time_s(*tick) - from_s) / (to_s - from_s);
+    const size_t at =
+        std::min(static_cast<size_t>(fraction * static_cast<double>(count)), count - 1);
     // From the tick before on, so that what is drawn has no gaps.
     for (size_t i = before; last && i <= at; ++i)
       if (time_s(*tick) - time_s(*last) <= kGap_s) include(columns[i], *last);

@@ -85,7 +85,7 @@ typedef struct {
   double largest_stiffness_N_m;
   double rate_Hz; /*!< forces a second, at most */
   /*! Width, height and depth of the box around the centre that the grip is to stay in, m, and that
-   * a stick covers; 0 where its place is not measured. */
+   * a stick covers; 0 where its position is not measured. */
   GstSpidarVector3 workspace_m;
   int buttons; /*!< how many gst_spidar_device_buttons() tells, at most 32 */
 } GstSpidarCapabilities;
@@ -101,7 +101,7 @@ typedef struct {
 
 /*! A relief that the grip touches from the front. The values that suit most are in brackets. */
 typedef struct {
-  /*! How near each place is: 255 is nearest. It covers the width and height of the workspace. */
+  /*! How near each position is: 255 is nearest. It covers the width and height of the workspace. */
   GstSpidarPicture picture;
   double relief_m; /*!< from 0 to 255, m, at most 0.03 [0.008]; its middle is the workspace's */
   double stiffness_N_m; /*!< N/m, above 0, at most that of the capabilities [200] */
@@ -211,9 +211,9 @@ GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device)
 /*! False while the force fades, rests or returns because nobody seems to hold the grip. */
 GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
 
-/*! Share of the wanted wrench that may be exerted, 1 unless the force has shaken the hand for
+/*! Fraction of the wanted wrench that may be exerted, 1 unless the force has shaken the hand for
  * long. */
-GST_SPIDAR_API double gst_spidar_device_vibration_share(const GstSpidarDevice* device);
+GST_SPIDAR_API double gst_spidar_device_vibration_fraction(const GstSpidarDevice* device);
 
 /*! What the device is told to exert on the grip at present, after all limits: Device::felt(). */
 GST_SPIDAR_API void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench);
@@ -272,7 +272,8 @@ typedef struct {
    * is reached at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative [0.0025].
    */
   double alpha_s_px;
-  /*! Where GST_SPIDAR_OBJECTS is felt most, as a share of the picture's width from the left [0.5]
+  /*! Where GST_SPIDAR_OBJECTS is felt most, as a fraction of the picture's width from the left
+   * [0.5]
    */
   double pointer_x;
   double pointer_y;  /*!< the same of its height, from the top [0.5] */

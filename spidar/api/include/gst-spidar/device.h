@@ -46,14 +46,14 @@ struct Capabilities {
   double largest_stiffness_N_m = 0;
   double rate_Hz = 0;  ///< forces a second, at most
   /// Width, height and depth of the box around the centre that the grip is to stay in, m, and that
-  /// a stick covers; 0 where its place is not measured.
+  /// a stick covers; 0 where its position is not measured.
   Vector3 workspace_m;
   int buttons = 0;  ///< how many Device::buttons() tells, at most 32
 };
 
 /// A relief that the grip touches from the front: the element's property `touch`.
 struct Surface {
-  /// How near each place is: 255 is nearest. It covers the width and height of the workspace
+  /// How near each position is: 255 is nearest. It covers the width and height of the workspace
   /// (Capabilities::workspace_m), whatever its proportions are.
   GreyPicture picture;
   /// From 0 to 255, m, at most 0.03. Its middle, 127.5, is in the middle of the workspace. Slopes
@@ -179,9 +179,9 @@ class GST_SPIDAR_API Device {
   /// spun or rested as only a released one does (docs/safety.md).
   bool held() const;
 
-  /// Share of the wanted wrench that may be exerted. It is 1 unless the force has shaken the hand
-  /// for long: the vibration of a day is limited (docs/safety.md).
-  double vibration_share() const;
+  /// Fraction of the wanted wrench that may be exerted. It is 1 unless the force has shaken the
+  /// hand for long: the vibration of a day is limited (docs/safety.md).
+  double vibration_fraction() const;
 
   /// What the device is told to exert on the grip at present, after all limits, from the first
   /// millisecond on: a device that is kOpening already pulls. Zero while it is kLost, and when its

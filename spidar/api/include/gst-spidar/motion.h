@@ -37,10 +37,10 @@ struct MotionSettings {
   /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
   /// at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative.
   double alpha_s_px = 0.0025;
-  /// Where kObjects is felt most, as a share of the picture's width: 0 is its left edge, 1 its
+  /// Where kObjects is felt most, as a fraction of the picture's width: 0 is its left edge, 1 its
   /// right one. Finite.
   double pointer_x = 0.5;
-  /// The same, as a share of the height: 0 is the top of the picture, 1 its bottom.
+  /// The same, as a fraction of the height: 0 is the top of the picture, 1 its bottom.
   double pointer_y = 0.5;
   /// How strongly growth is felt as force towards the viewer. With 1, growth counts as the speed
   /// that it causes at half the picture's height from its centre; 0 turns it off. Finite, not

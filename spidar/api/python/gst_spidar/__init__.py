@@ -113,9 +113,9 @@ class Device(_Handle):
         """False while the force fades, rests or returns because nobody seems to hold the grip."""
         return self._call("device_held", c_bool)
 
-    def vibration_share(self):
+    def vibration_fraction(self):
         """Share of the wanted wrench that may be exerted."""
-        return self._call("device_vibration_share", c_double)
+        return self._call("device_vibration_fraction", c_double)
 
     def felt(self):
         """The Wrench that the device is told to exert at present."""

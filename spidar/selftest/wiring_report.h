@@ -7,9 +7,9 @@
 #include <functional>
 #include <string>
 
-#include "spidar/conformance/wiring_answers.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/selftest/wiring_answers.h"
 
 namespace spidar {
 
@@ -45,7 +45,7 @@ struct WiringReport {
 ///
 /// A grip that a hand holds with compliance C moves by C W e_i ΔT when motor i pulls ΔT more, and
 /// the strings get longer by −Wᵀ times that (W: structure matrix at the centre). The change of
-/// lengths is known but for C: it is taken to be the same in all directions, with a share of
+/// lengths is known but for C: it is taken to be the same in all directions, with a fraction of
 /// rotation that is tried out. The wiring whose expected answers correlate best with those measured
 /// is looked for by exchanging two motors, two encoders or both, from the profile's on.
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/analysis/square_picture.h"
+#include "core/analysis/square_pixel_resampler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-ImageView SquarePicture::view(const ImageView& picture, double pixel_aspect) {
+ImageView SquarePixelResampler::view(const ImageView& picture, double pixel_aspect) {
   if (pixel_aspect == 1) return picture;
   const int width = std::max(1, static_cast<int>(std::lround(picture.width * pixel_aspect)));
   const ImageView from = in_8_bits(picture, eight_bits_);
@@ -30,22 +30,22 @@ ImageView SquarePicture::view(const ImageView& picture, double pixel_aspect) {
 
 void to_stored_pixels(Frame& frame, int width) {
   if (frame.width == width || frame.width == 0) return;
-  const double share = static_cast<double>(width) / frame.width;
+  const double fraction = static_cast<double>(width) / frame.width;
   frame.width = width;
-  const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= share; };
+  const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= fraction; };
   narrow(frame.motion.velocity_px_s);
   for (Track& track : frame.tracks) {
     for (ImagePoint* point : {&track.from, &track.to}) {
       // The corner of the picture, at (−½, −½), stays in place.
-      point->x_px = (point->x_px + 0.5f) * static_cast<float>(share) - 0.5f;
+      point->x_px = (point->x_px + 0.5f) * static_cast<float>(fraction) - 0.5f;
     }
   }
   if (frame.background) {
     MotionModel& model = frame.background->model;
     narrow(model.shift_px);
-    model.linear(0, 1) *= share;
-    model.linear(1, 0) /= share;
-    model.perspective_1_px.x() /= share;
+    model.linear(0, 1) *= fraction;
+    model.linear(1, 0) /= fraction;
+    model.perspective_1_px.x() /= fraction;
   }
   for (MovingObject& object : frame.objects) {
     for (Eigen::Vector2d* along :
@@ -53,8 +53,8 @@ void to_stored_pixels(Frame& frame, int width) {
           &object.relative_px_s, &object.on_screen_px_s}) {
       narrow(*along);
     }
-    object.area_px2 *= share;
-    object.error_px_s *= std::max(share, 1.0);  // along the direction in which it is larger
+    object.area_px2 *= fraction;
+    object.error_px_s *= std::max(fraction, 1.0);  // along the direction in which it is larger
   }
 }
 

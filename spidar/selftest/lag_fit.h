@@ -68,12 +68,12 @@ class PeriodSums {
   /// The period begins at `begin_s`.
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
 
-  /// Call in order of time. At `time_s` the grip is at `place_m`, and `force_N` applies from then
-  /// until the next call. Times outside the period are ignored.
-  void add(double time_s, double force_N, double place_m) noexcept;
+  /// Call in order of time. At `time_s` the grip is at `position_m`, and `force_N` applies from
+  /// then until the next call. Times outside the period are ignored.
+  void add(double time_s, double force_N, double position_m) noexcept;
 
   const std::array<std::complex<double>, kLines>& force() const noexcept { return force_; }
-  const std::array<std::complex<double>, kLines>& place() const noexcept { return place_; }
+  const std::array<std::complex<double>, kLines>& position() const noexcept { return position_; }
   /// The longest time between two calls within the period, s.
   double longest_gap_s() const noexcept { return longest_gap_s_; }
 
@@ -82,11 +82,11 @@ class PeriodSums {
   bool started_ = false;
   double from_s_ = 0;
   double force_N_ = 0;
-  double place_m_ = 0;
+  double position_m_ = 0;
   double first_m_ = 0;
   double longest_gap_s_ = 0;
   std::array<std::complex<double>, kLines> force_{};
-  std::array<std::complex<double>, kLines> place_{};
+  std::array<std::complex<double>, kLines> position_{};
 };
 
 /// Averages the response over periods with different phases and estimates the variance from their
@@ -109,9 +109,9 @@ struct LagFit {
 
 /// A longer lag is not reported: no surface should be touched with it.
 constexpr double kLongestLag_s = 0.03;
-/// Largest half-width of a usable interval: the larger of this time and this share of the lag.
+/// Largest half-width of a usable interval: the larger of this time and this fraction of the lag.
 constexpr double kVagueLag_s = 0.001;
-constexpr double kVagueLagShare = 0.15;
+constexpr double kVagueLagFraction = 0.15;
 
 /// Fits D(jω) / (−mω² + jωd + k) to the response. The model is a rigid grip of mass m with the
 /// spring k and damper d of the hand, driven through D(jω) = exp(−jωτ) / (1 + jωT), a pure delay

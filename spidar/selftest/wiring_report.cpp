@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/wiring_report.h"
+#include "spidar/selftest/wiring_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@
 namespace spidar {
 namespace {
 
-/// By how much each assumed fault lowers the score of an explanation, as a share of a perfect
+/// By how much each assumed fault lowers the score of an explanation, as a fraction of a perfect
 /// correlation.
 constexpr double kFaultCost = 2e-3;
-/// An answer below this share of the median of the strongest answers counts as none.
+/// An answer below this fraction of the median of the strongest answers counts as none.
 constexpr double kSilent = 0.1;
 /// Allowed strength of a motor's answer relative to the others, as a multiple of the expected one:
 /// hands are not equally stiff in all directions, and motors not equally strong.
@@ -50,15 +50,15 @@ class Judge {
 
   WiringReport report(const WiringAnswers& answers) {
     Explanation best;
-    double best_share = 1;
-    for (const double share : kRotationShares) {
-      expect(share);
+    double best_fraction = 1;
+    for (const double fraction : kRotationShares) {
+      expect(fraction);
       Explanation found = search();
       if (found.worth <= best.worth) continue;
       best = found;
-      best_share = share;
+      best_fraction = fraction;
     }
-    expect(best_share);
+    expect(best_fraction);
     const std::array<bool, kMaxStrings> unclear = find_unclear(best);
     WiringReport report;
     report.count = count_;
@@ -94,11 +94,11 @@ class Judge {
   }
 
   /// Shortening of string j when string i is pulled, up to a common factor.
-  void expect(double rotation_share) {
+  void expect(double rotation_fraction) {
     const GripModel hand;
     Eigen::Matrix<double, 6, 1> compliance;
     compliance.head<3>().setConstant(1 / hand.hand_stiffness_N_m);
-    compliance.tail<3>().setConstant(rotation_share / hand.hand_stiffness_Nm_rad);
+    compliance.tail<3>().setConstant(rotation_fraction / hand.hand_stiffness_Nm_rad);
     expected_ = structure_.transpose() * compliance.asDiagonal() * structure_;
   }
 

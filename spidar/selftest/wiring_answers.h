@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "spidar/conformance/hold.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/selftest/hold.h"
 
 namespace spidar {
 

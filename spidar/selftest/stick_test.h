@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "spidar/conformance/hold.h"
 #include "spidar/grip/grip.h"
+#include "spidar/selftest/hold.h"
 
 namespace spidar {
 

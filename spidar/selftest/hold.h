@@ -40,8 +40,8 @@ class Hold {
     const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
     for (int64_t tick = 1; tick <= ticks; ++tick) {
       if (!pace_()) return false;
-      const double share = static_cast<double>(tick) / static_cast<double>(ticks);
-      value_ = from + share * (value - from);
+      const double fraction = static_cast<double>(tick) / static_cast<double>(ticks);
+      value_ = from + fraction * (value - from);
       exchange();
     }
     return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/conformance_report.h"
+#include "spidar/selftest/selftest_report.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -14,7 +14,7 @@ namespace spidar {
 /// Motion is measured in square pixels, because only there a rotation is a rotation, and a
 /// direction and a speed are those that a viewer sees. The pictures are resampled along their
 /// lines, so that the unit of all lengths remains the distance of two lines.
-class SquarePicture {
+class SquarePixelResampler {
  public:
   /// The picture as if its pixels were square; `picture` itself where they are. `pixel_aspect` > 0
   /// is width over height of a pixel. Valid until the next call. Allocates only when the size
@@ -26,8 +26,8 @@ class SquarePicture {
   std::vector<uint8_t> resampled_;
 };
 
-/// Changes `frame`, of a SquarePicture, to that of the picture as it is stored, `width` pixels
-/// wide.
+/// Changes `frame`, of a SquarePixelResampler, to that of the picture as it is stored, `width`
+/// pixels wide.
 void to_stored_pixels(Frame& frame, int width);
 
 }  // namespace spidar

@@ -10,13 +10,13 @@
 namespace spidar {
 
 /// A telephone that is held upright stores its pictures lying on their side, and the player turns
-/// them. Directions are x right, y down; places go from (0, 0), the top left corner, to (1, 1).
-class PictureTurn {
+/// them. Directions are x right, y down; positions go from (0, 0), the top left corner, to (1, 1).
+class Orientation {
  public:
   /// Shown as it is.
-  PictureTurn() = default;
+  Orientation() = default;
   /// First mirrored left to right, if `mirrored`; then turned clockwise.
-  explicit PictureTurn(int quarters, bool mirrored = false) {
+  explicit Orientation(int quarters, bool mirrored = false) {
     Eigen::Matrix2d quarter;
     quarter << 0, -1, 1, 0;
     if (mirrored) turn_(0, 0) = -1;
@@ -27,22 +27,22 @@ class PictureTurn {
   /// Whether width becomes height.
   bool is_sideways() const { return turn_(0, 0) == 0; }
 
-  Eigen::Vector2d to_shown(const Eigen::Vector2d& direction) const { return turn_ * direction; }
-  Eigen::Vector2d to_coded(const Eigen::Vector2d& direction) const {
+  Eigen::Vector2d to_displayed(const Eigen::Vector2d& direction) const { return turn_ * direction; }
+  Eigen::Vector2d to_stored(const Eigen::Vector2d& direction) const {
     return turn_.transpose() * direction;
   }
   // Nothing is rounded where nothing is turned.
-  Eigen::Vector2d place_shown(const Eigen::Vector2d& place) const {
-    if (is_none()) return place;
-    return middle() + to_shown(place - middle());
+  Eigen::Vector2d displayed_position(const Eigen::Vector2d& position) const {
+    if (is_none()) return position;
+    return middle() + to_displayed(position - middle());
   }
-  Eigen::Vector2d place_coded(const Eigen::Vector2d& place) const {
-    if (is_none()) return place;
-    return middle() + to_coded(place - middle());
+  Eigen::Vector2d stored_position(const Eigen::Vector2d& position) const {
+    if (is_none()) return position;
+    return middle() + to_stored(position - middle());
   }
 
   /// A torque is an axial vector: what mirrors the picture reverses it in addition.
-  Wrench to_shown(const Wrench& wrench) const {
+  Wrench to_displayed(const Wrench& wrench) const {
     if (is_none()) return wrench;
     Eigen::Matrix3d in_device = Eigen::Matrix3d::Identity();
     in_device.topLeftCorner<2, 2>() = turn_;

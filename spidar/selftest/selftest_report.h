@@ -5,9 +5,9 @@
 
 #include <iosfwd>
 
-#include "spidar/conformance/delay_test.h"
-#include "spidar/conformance/report_text.h"
-#include "spidar/conformance/wiring_report.h"
+#include "spidar/selftest/delay_test.h"
+#include "spidar/selftest/report_text.h"
+#include "spidar/selftest/wiring_report.h"
 
 namespace spidar {
 

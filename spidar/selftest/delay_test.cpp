@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/delay_test.h"
+#include "spidar/selftest/delay_test.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "spidar/conformance/hold.h"
-#include "spidar/conformance/lag_fit.h"
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/selftest/hold.h"
+#include "spidar/selftest/lag_fit.h"
 
 namespace spidar {
 

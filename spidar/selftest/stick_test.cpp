@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/stick_test.h"
+#include "spidar/selftest/stick_test.h"
 
-#include "spidar/conformance/hold.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/selftest/hold.h"
 
 namespace spidar {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/encoder_signs.h"
+#include "spidar/selftest/encoder_signs.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace spidar {
 namespace {
 
 constexpr double kLargestMove_m = 0.03;
-constexpr double kShareOfFrame = 0.3;
+constexpr double kFractionOfFrame = 0.3;
 /// A hand misses distance and direction, and turns the grip a little.
 constexpr double kPaidOut = 0.4;
 
@@ -25,7 +25,7 @@ double hand_move_m(const StringGeometry& geometry) {
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
   for (int i = 0; i < geometry.count; ++i)
     half_m = half_m.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
-  return std::min(kLargestMove_m, kShareOfFrame * half_m.minCoeff());
+  return std::min(kLargestMove_m, kFractionOfFrame * half_m.minCoeff());
 }
 
 std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const HandMoves& moves) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/wiring_answers.h"
+#include "spidar/selftest/wiring_answers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRunaway_m = 0.03;
 constexpr int kRounds = 4;
-/// By which share of an answer the next one may differ, because hands drift and tremble. A motor
+/// By which fraction of an answer the next one may differ, because hands drift and tremble. A motor
 /// that does nothing has no answer, so this allows at most smallest_answer_m() for it.
 constexpr double kSteady = 0.25;
 

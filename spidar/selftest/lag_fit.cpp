@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/conformance/lag_fit.h"
+#include "spidar/selftest/lag_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "spidar/conformance/report_text.h"
+#include "spidar/selftest/report_text.h"
 
 namespace spidar {
 namespace {
@@ -42,27 +42,27 @@ double window(double time_s) {
 // The force is constant between two calls, so its integral is exact. The position is known only at
 // the calls. With calls one millisecond apart the trapezoidal rule is exact for a periodic signal
 // without components above 500 Hz; late calls add an error of a few thousandths at most.
-void PeriodSums::add(double time_s, double force_N, double place_m) noexcept {
+void PeriodSums::add(double time_s, double force_N, double position_m) noexcept {
   const double at_s = time_s - begin_s_;
-  if (!started_) first_m_ = place_m;
+  if (!started_) first_m_ = position_m;
   const double from_s = std::clamp(from_s_, 0.0, Multisine::kPeriod_s);
   const double to_s = std::clamp(at_s, 0.0, Multisine::kPeriod_s);
   if (started_ && to_s > from_s) {
     longest_gap_s_ = std::max(longest_gap_s_, at_s - from_s_);
     const double half_s = 0.5 * (to_s - from_s);
-    const double from_m = window(from_s) * (place_m_ - first_m_);
-    const double to_m = window(to_s) * (place_m - first_m_);
+    const double from_m = window(from_s) * (position_m_ - first_m_);
+    const double to_m = window(to_s) * (position_m - first_m_);
     for (size_t i = 0; i < kLines; ++i) {
       const double rate_rad_s = 2 * M_PI * Multisine::kFrequency_Hz[i];
       force_[i] += force_N_ * held_in_window(rate_rad_s, from_s, to_s);
-      place_[i] +=
+      position_[i] +=
           half_s * (from_m * turned(rate_rad_s * from_s) + to_m * turned(rate_rad_s * to_s));
     }
   }
   started_ = true;
   from_s_ = at_s;
   force_N_ = force_N;
-  place_m_ = place_m;
+  position_m_ = position_m;
 }
 
 std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods) {
@@ -71,16 +71,16 @@ std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods) {
                                 " periods, must be three at least");
   std::vector<ResponseLine> lines(kLines);
   for (size_t i = 0; i < kLines; ++i) {
-    double force = 0, place = 0;
+    double force = 0, position = 0;
     std::complex<double> both;
     for (const PeriodSums& period : periods) {
       force += std::norm(period.force()[i]);
-      place += std::norm(period.place()[i]);
-      both += period.place()[i] * std::conj(period.force()[i]);
+      position += std::norm(period.position()[i]);
+      both += period.position()[i] * std::conj(period.force()[i]);
     }
     lines[i].frequency_Hz = Multisine::kFrequency_Hz[i];
     lines[i].response = both / force;
-    const double rest = std::max(0.0, place - std::norm(both) / force);
+    const double rest = std::max(0.0, position - std::norm(both) / force);
     lines[i].variance = rest / (static_cast<double>(periods.size() - 1) * force);
   }
   return lines;
@@ -100,8 +100,8 @@ constexpr double kScan_s = 5e-5;
 constexpr double kDeviations = 3;
 /// The minimum number of lines at least three times above the noise.
 constexpr int kFewestLines = 8;
-/// Systematic error, the same in every period, as a share of the response: geometry, the directions
-/// of the strings as the grip moves, the time of an exchange.
+/// Systematic error, the same in every period, as a fraction of the response: geometry, the
+/// directions of the strings as the grip moves, the time of an exchange.
 constexpr double kSystematic = 0.005;
 /// A larger misfit cannot be explained by noise.
 constexpr double kMostMisfit = 3;
@@ -194,7 +194,7 @@ std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) 
 
 /// Empty if the fit can be used.
 std::string trouble_of(const LagFit& fit) {
-  const double vague_s = std::max(kVagueLag_s, kVagueLagShare * fit.lag_s);
+  const double vague_s = std::max(kVagueLag_s, kVagueLagFraction * fit.lag_s);
   if (!(fit.misfit <= kMostMisfit))
     return formatted(
         "the grip did not move as a mass with a spring and a damper (misfit %.1f, at most %.0f); "

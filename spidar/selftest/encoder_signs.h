@@ -13,7 +13,8 @@
 
 namespace spidar {
 
-/// The counts of the encoders while a hand held the grip at the centre, and then at these places.
+/// The counts of the encoders while a hand held the grip at the centre, and then at these
+/// positions.
 struct HandMoves {
   struct Side {
     const char* name;
@@ -36,8 +37,8 @@ enum class EncoderSign {
   kUnclear,  ///< it counted now up and now down where its string was always paid out
 };
 
-/// For each string of the profile. Only places count to which a string is paid out, by at least 0.4
-/// of the distance: without motors, a string that was paid out stays slack, and is not wound up
+/// For each string of the profile. Only positions count to which a string is paid out, by at least
+/// 0.4 of the distance: without motors, a string that was paid out stays slack, and is not wound up
 /// again. An encoder has counted if its string is longer or shorter there than at the centre by
 /// half of that.
 std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const HandMoves& moves);
