@@ -102,7 +102,7 @@ struct Options {
 }
 
 Options parse(int argc, char** argv) {
-  Options wish;
+  Options options;
   if (argc < 2) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
   if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
     std::fputs(kHelp, stdout);
@@ -114,17 +114,17 @@ Options parse(int argc, char** argv) {
   }
   int at = 1;
   while (at < argc && argv[at][0] != '-' && std::strchr(argv[at], '='))
-    wish.properties.emplace_back(argv[at++]);
+    options.properties.emplace_back(argv[at++]);
   const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
-  if (!wish.properties.empty() && !separated)
+  if (!options.properties.empty() && !separated)
     fail(kUsage, "write -- between the properties and the program: spidar-feel " +
-                     wish.properties.front() + " -- PROGRAM");
+                     options.properties.front() + " -- PROGRAM");
   if (separated) ++at;
   if (at == argc) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
   if (argv[at][0] == '-')
     fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
-  wish.program = argv + at;
-  return wish;
+  options.program = argv + at;
+  return options;
 }
 
 /// Folder of the plugins when GStreamer does not search it by default: in the build tree, beside
@@ -201,10 +201,10 @@ void set_environment(const std::vector<std::string>& properties) {
 }
 
 /// The value of the property `device`, of which the last one counts; empty: none is given.
-std::string device_of(const Options& wish) {
+std::string device_of(const Options& options) {
   const std::string begin = "device=";
   std::string device;
-  for (const std::string& property : wish.properties)
+  for (const std::string& property : options.properties)
     if (property.rfind(begin, 0) == 0) device = property.substr(begin.size());
   return device;
 }
@@ -218,28 +218,29 @@ bool is_without_gstreamer(const std::string& program) {
 }
 
 /// Says what would otherwise be missed.
-void warn_of_nothing_felt(const Options& wish) {
-  if (device_of(wish) == "none") return;  // nothing is to be felt
-  if (is_without_gstreamer(wish.program[0]))
+void warn_of_nothing_felt(const Options& options) {
+  if (device_of(options) == "none") return;  // nothing is to be felt
+  if (is_without_gstreamer(options.program[0]))
     std::fprintf(
         stderr,
         "spidar-feel: %s does not use GStreamer, so nothing of it is felt: play the film with "
         "gst-play-1.0, Totem, Parole, Clapper or Showtime\n",
-        wish.program[0]);
+        options.program[0]);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
-  Options wish = parse(argc, argv);
-  if (device_of(wish).empty()) wish.properties.insert(wish.properties.begin(), "device=auto");
+  Options options = parse(argc, argv);
+  if (device_of(options).empty())
+    options.properties.insert(options.properties.begin(), "device=auto");
   find_plugins();
-  check(wish.properties);
-  set_environment(wish.properties);
-  warn_of_nothing_felt(wish);
-  execvp(wish.program[0], wish.program);
+  check(options.properties);
+  set_environment(options.properties);
+  warn_of_nothing_felt(options);
+  execvp(options.program[0], options.program);
   const int error = errno;
   fail(error == ENOENT ? kNoProgram : kCannotRun,
-       std::string(wish.program[0]) + ": " + std::strerror(error));
+       std::string(options.program[0]) + ": " + std::strerror(error));
 }

@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// Says each object once per stream, not once per frame. Streaming thread, and start() before it.
+/// Posts each warning once per stream, not once per frame. Streaming thread, and start() before it.
 class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}

@@ -14,7 +14,7 @@ namespace spidar {
 
 enum class OnDeviceError { kWarn, kError };
 
-/// Says each object once per stream. Streaming thread, and start() before it. Sessions are null
+/// Posts each warning once per stream. Streaming thread, and start() before it. Sessions are null
 /// while the element has no device.
 class DeviceWarnings {
  public:

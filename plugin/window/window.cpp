@@ -31,7 +31,7 @@ constexpr const char* kNotOpen = "the debug window is not open";
 
 }  // namespace
 
-/// What the thread and the owner of a Window fraction; the thread may outlive the owner.
+/// What the thread and the owner of a Window share; the thread may outlive the owner.
 class Window::Session {
  public:
   explicit Session(std::shared_ptr<WindowSource> source) : source_(std::move(source)) {}

@@ -43,7 +43,7 @@ TEST(AdaptiveController, StartsLikeTheNonlinearOneBeyondTheDeadZone) {
 
 TEST(AdaptiveController, ASteadySpeedConvergesToHalfOfTheMaximum) {
   // The controller adapts to a slow film as it does to a fast one. The dead zone takes its
-  // fraction: (V − V₀) / V.
+  // part: (V − V₀) / V.
   for (const double speed : {20.0, 60.0, 300.0, 800.0}) {
     Adaptive controller(kMax_N, kAlpha_s_px);
     const double force = play(controller, speed, 90);

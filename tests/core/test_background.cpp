@@ -26,7 +26,7 @@ TEST_P(EachModelKind, IsTheOneThatTheTracksNeed) {
         // From the first frame on, and without ever changing.
         ASSERT_EQ(to_string(found.model.kind), std::string(to_string(truth.kind)))
             << "seed " << seed << ", frame " << n << ", strays " << strays;
-        // 160 points at least; eight parameters fraction 2 · 160 equations, so that a displacement
+        // 160 points at least; eight parameters share 2 · 160 equations, so that a displacement
         // has on average σ √(8 / 320) = 0.16 σ of noise in each coordinate, and in a corner, where
         // the leverage of a homography's points is largest, up to five times that; 4 deviations.
         for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(300, 160)}) {

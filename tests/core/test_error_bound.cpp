@@ -141,7 +141,7 @@ double bound_of_blocks_px(double across, int side) {
 
 TEST(ErrorBound, BlocksOfAnEdgeAgreeAndAreUnsureAllTheSame) {
   EXPECT_GT(bound_of_blocks_px(0, 1), 2 * bound_of_blocks_px(50, 1));
-  // A sum of what all blocks fraction and of a part that falls with their number: 1, 1/4, 1/16.
+  // A sum of what all blocks share and of a part that falls with their number: 1, 1/4, 1/16.
   // That of one block has a standard error of √(2 · 2 / 256) = 12 % from its residual and its
   // texture, that of four 6 % of a difference that is 3/4 of it: together 14 %, and three of them.
   const auto variance = [](int side) { return std::pow(bound_of_blocks_px(0, side), 2); };

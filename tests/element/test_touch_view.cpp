@@ -49,7 +49,7 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   source->lead_hand(Eigen::Vector3d(0.01, 0, -0.01));
   const TickRecord held = look();
   ASSERT_TRUE(held.contact.touching);
-  // The hand's spring (300 N/m) and the surface (400 N/m) fraction 6.6 mm: 1.14 N, but for the
+  // The hand's spring (300 N/m) and the surface (400 N/m) share 6.6 mm: 1.14 N, but for the
   // strings, which stiffen the grip by some hundredths, and the steps of encoders and D/A.
   EXPECT_NEAR(held.contact.force_N.z(), 6.627e-3 / (1 / 300.0 + 1 / 400.0), 0.1);
   // Friction of 0.3 holds it back, at a depth of 2.8 mm.

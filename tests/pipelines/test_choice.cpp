@@ -73,7 +73,7 @@ TEST(Mouse, AClickKeepsTheObjectAndASecondOneLetsGo) {
     int right = 0;
     for (int n = 10; n < 30; ++n) {
       film.next();
-      // Alone: the others have no fraction in its motion.
+      // Alone: the others have no part in its motion.
       right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
     }
     EXPECT_GE(right, kMostFrames * 20);

@@ -43,10 +43,10 @@ Mouse mouse_at(const Vector2d& frame_px, bool down) {
 TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
   ObjectClick click;
   EXPECT_FALSE(click.update(mouse_at({150, 50}, false), kPicture, report()));
-  const std::optional<ChoiceRequest> wish =
+  const std::optional<ChoiceRequest> request =
       click.update(mouse_at({140, 60}, true), kPicture, report());
-  ASSERT_TRUE(wish && wish->position);
-  EXPECT_NEAR((*wish->position - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
+  ASSERT_TRUE(request && request->position);
+  EXPECT_NEAR((*request->position - Vector2d(0.7, 0.6)).norm(), 0, 1e-12);
   EXPECT_TRUE(click.holds());
   EXPECT_FALSE(click.update(mouse_at({50, 50}, true), kPicture, report())) << "still down";
   EXPECT_TRUE(click.holds());
@@ -59,11 +59,11 @@ TEST(ObjectClick, OnTheChosenOneLetsGo) {
   chosen.click = 1;
   chosen.frame.felt_object = 3;
   ObjectClick click;
-  const std::optional<ChoiceRequest> wish =
+  const std::optional<ChoiceRequest> request =
       click.update(mouse_at({150, 50}, true), kPicture, chosen);
-  ASSERT_TRUE(wish);
-  EXPECT_FALSE(wish->position);
-  EXPECT_EQ(wish->object, 3u);
+  ASSERT_TRUE(request);
+  EXPECT_FALSE(request->position);
+  EXPECT_EQ(request->object, 3u);
   click.update(mouse_at({150, 50}, false), kPicture, chosen);
   const std::optional<ChoiceRequest> other =
       click.update(mouse_at({50, 50}, true), kPicture, chosen);

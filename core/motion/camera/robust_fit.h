@@ -25,7 +25,7 @@ constexpr size_t kMostTries = 40;
 /// Noise of a displacement where it has not been measured, each coordinate, px of the field's
 /// picture: that of blocks with much texture, and of points in a picture with noise.
 constexpr double kUsualNoise_px = 0.1;
-/// Standard deviation of what is the same for all blocks of a object, px of the field's picture:
+/// Standard deviation of what is the same for all blocks of an object, px of the field's picture:
 /// how far the interpolation between pixels is off at one fraction of a pixel. Of pans without
 /// noise it is between 0.01 and 0.03. No noise is assumed to be less.
 constexpr double kSharedError_px = 0.025;

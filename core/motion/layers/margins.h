@@ -17,7 +17,7 @@ namespace spidar {
 /// border of the film counts as the picture's border.
 ///
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
-/// whole line changes: the edge of a film is straight, that of a object in front of a wall at rest
+/// whole line changes: the edge of a film is straight, that of an object in front of a wall at rest
 /// is not. A bar is as wide as the one on the opposite side, give or take a block. It is known
 /// after kKnownAfterPairs such pairs of pictures, and until something in it changes.
 class Margins {

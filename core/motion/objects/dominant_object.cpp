@@ -22,7 +22,7 @@ double growth(double prominence, double of_followed) {
 constexpr double kSamePlace = 0.5;
 
 /// Whether an object is where one that is out of sight would be: it is a part of the same object.
-bool takes_position(const MovingObject& object, const MovingObject& hidden) {
+bool takes_place(const MovingObject& object, const MovingObject& hidden) {
   const Eigen::Vector2d apart_px = (object.position_px - hidden.position_px).cwiseAbs();
   const Eigen::Vector2d common_px = ((object.size_px + hidden.size_px) / 2 - apart_px)
                                         .cwiseMin(object.size_px.cwiseMin(hidden.size_px))
@@ -69,7 +69,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
         interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
-    const bool continues = followed && followed->tracks == 0 && takes_position(object, *followed);
+    const bool continues = followed && followed->tracks == 0 && takes_place(object, *followed);
     const bool may_take_over = is_free || continues || reason_s > enough_s;
     if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;

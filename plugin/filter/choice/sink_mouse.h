@@ -14,7 +14,7 @@
 
 namespace spidar {
 
-/// One object that the mouse did.
+/// One action of the mouse.
 struct SinkMouse {
   enum class Act { kMove, kPress, kRelease, kWheel };  ///< the button is the left one
   Act act = Act::kMove;

@@ -158,7 +158,7 @@ void DebugWindow::read() {
     texture_->load(picture_, width);
   }
   if (frame) {
-    if (report_.click != click_before_ || report_.frame.running_ns < before_ns) wished_.reset();
+    if (report_.click != click_before_ || report_.frame.running_ns < before_ns) requested_.reset();
     follow_title();
     sightings_.see(report_);
     follow_choices(film_before);
@@ -190,7 +190,7 @@ ShownPicture DebugWindow::shown_picture() const {
   picture.arrow_scale = state_.value("arrow-scale", 1);
   picture.max_force_N = report_.controller.max_force_N;
   picture.detail = detail_;
-  picture.wished = wished_;
+  picture.requested = requested_;
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a

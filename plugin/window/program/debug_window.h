@@ -50,7 +50,7 @@ class DebugWindow {
   void use_plots(const Mouse& mouse, const WindowLayout& layout);
   SceneChoices& choices();
   void follow_choices(const std::string& film_before);
-  void choose(const ChoiceRequest& wish);
+  void choose(const ChoiceRequest& request);
   bool has_unsaved_choices() const;
   void save_choices(bool (SceneChoices::*is_due)() const);
   void remove_choice(const FeelRule& rule);
@@ -81,7 +81,7 @@ class DebugWindow {
   MouseHand hand_;
   ObjectClick click_;
   /// The object of a click of which no frame knows yet, see ShownPicture; and the click before it.
-  std::optional<uint32_t> wished_;
+  std::optional<uint32_t> requested_;
   uint32_t click_before_ = 0;
   TwoSettings settings_;
   std::string title_;

@@ -128,7 +128,7 @@ std::string DebugWindow::hint() const {
 
 void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
   has_clicked_ = has_clicked_ || (mouse.down && !mouse.taken && picture.has(mouse.at_px));
-  if (const auto wish = click_.update(mouse, picture, report_)) choose(*wish);
+  if (const auto request = click_.update(mouse, picture, report_)) choose(*request);
   if (!offers_hand() || picture.width <= 0 || click_.holds()) {
     hand_.let_go();
     return link_.lead_hand(std::nullopt);
@@ -161,12 +161,12 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   save_choices(&SceneChoices::has_late_end);
 }
 
-void DebugWindow::choose(const ChoiceRequest& wish) {
-  link_.choose(wish.position);
-  wished_ = wish.position ? wish.object : 0;
+void DebugWindow::choose(const ChoiceRequest& request) {
+  link_.choose(request.position);
+  requested_ = request.position ? request.object : 0;
   click_before_ = report_.click;
-  const Sighting* const object = sightings_.find(wish.object);
-  if (!wish.position) {
+  const Sighting* const object = sightings_.find(request.object);
+  if (!request.position) {
     choices().let_go();
   } else if (object) {
     choices().choose(*object);

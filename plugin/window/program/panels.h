@@ -28,7 +28,7 @@ struct ShownPicture {
   double max_force_N = 0;
   std::optional<TouchMark> touch;
   /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
-  std::optional<uint32_t> wished;
+  std::optional<uint32_t> requested;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
 };
 /// The part of the window that shows the visible part of the frame.

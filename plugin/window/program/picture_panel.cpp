@@ -80,8 +80,9 @@ void draw_objects(const Overlay& over) {
     if (object.tracks == 0) continue;
     const auto [low, high] = over.box(object);
     // A click is answered before the next frame has come, and while the film is paused.
-    const std::optional<uint32_t>& wished = over.picture.wished;
-    const bool is_felt = wished.value_or(0) != 0 ? *wished == object.id : over.is_felt(object.id);
+    const std::optional<uint32_t>& requested = over.picture.requested;
+    const bool is_felt =
+        requested.value_or(0) != 0 ? *requested == object.id : over.is_felt(object.id);
     const float rounding = brush.px(4);
     if (is_felt) {
       brush.list.AddRect(im(low), im(high), IM_COL32(0, 0, 0, 130), rounding, 0, brush.px(5));
@@ -89,7 +90,7 @@ void draw_objects(const Overlay& over) {
     brush.list.AddRect(im(low), im(high), is_felt ? kFeltColor : kOtherColor, rounding, 0,
                        brush.px(is_felt ? 2.5 : 1));
     if (!is_felt && !over.picture.detail) continue;
-    const bool is_chosen = is_felt && (wished ? *wished != 0 : over.report.click != 0);
+    const bool is_chosen = is_felt && (requested ? *requested != 0 : over.report.click != 0);
     const std::string name = "#" + std::to_string(object.id) + (is_chosen ? ", chosen" : "");
     const ImFont* font = brush.fonts.small;
     // Above the box, or within it at the upper edge of the picture.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where objects are in a debug window, in pixels from its upper left corner.
+/// Where the panels of a debug window are, in pixels from its upper left corner.
 #pragma once
 
 #include <Eigen/Core>

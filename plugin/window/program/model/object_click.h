@@ -85,10 +85,10 @@ class ObjectClick {
     if (!object) return std::nullopt;
     holds_ = true;
     const bool is_chosen = report.click != 0 && report.frame.felt_object == object->id;
-    ChoiceRequest wish;
-    wish.object = object->id;
-    if (!is_chosen) wish.position = position;
-    return wish;
+    ChoiceRequest request;
+    request.object = object->id;
+    if (!is_chosen) request.position = position;
+    return request;
   }
   /// The button is still down since then.
   bool holds() const { return holds_; }
