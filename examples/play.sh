@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 # Plays a video whose motion becomes force on the device that is plugged in, or a simulated one, and ends with a
 # summary and a picture of the force. First installs missing packages (Debian) and builds.
-#   examples/play.sh                             people walking across a square
+#   examples/play.sh                             eleven seconds of an animated film
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
 #   examples/play.sh --window                    with the debug window
@@ -37,11 +37,11 @@ build() {
     fi
 }
 
-# Prints the file name of a clip of people walking, from Debian's package opencv-doc, which is
-# downloaded once and not installed. Fails when that is not possible.
-street_clip() {
+# Prints the file name of a lively clip of Debian's package opencv-doc, which is downloaded once and not installed.
+# Fails when that is not possible.
+film_clip() {
     local cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar
-    local clip=$cache/vtest.avi
+    local clip=$cache/Megamind.avi
     if [[ ! -f $clip ]]; then
         mkdir -p "$cache"
         local work
@@ -52,8 +52,8 @@ street_clip() {
         # The user _apt may not write here; apt would warn about it when run as root.
         if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
             dpkg-deb --fsys-tarfile opencv-doc_*.deb |
-            tar -x ./usr/share/doc/opencv-doc/examples/data/vtest.avi) >"$work/log" 2>&1; then
-            mv "$work/usr/share/doc/opencv-doc/examples/data/vtest.avi" "$clip"
+            tar -x ./usr/share/doc/opencv-doc/examples/data/Megamind.avi) >"$work/log" 2>&1; then
+            mv "$work/usr/share/doc/opencv-doc/examples/data/Megamind.avi" "$clip"
         fi
     fi
     [[ -f $clip ]] && printf '%s\n' "$clip"
@@ -63,7 +63,6 @@ arguments=("$@")
 options=()
 video=()
 properties=()
-clip_seconds=(--seconds 20)
 needs_clip=yes
 while (($#)); do
     case $1 in
@@ -74,14 +73,9 @@ while (($#)); do
     --output | --window-png | --seconds)
         (($# > 1)) || needs_clip=no
         options+=("${@:1:2}")
-        [[ $1 != --seconds ]] || clip_seconds=()
         shift
         ;;
-    --seconds=*)
-        options+=("$1")
-        clip_seconds=()
-        ;;
-    --output=* | --window-png=* | --verbose | --headless | --window) options+=("$1") ;;
+    --seconds=* | --output=* | --window-png=* | --verbose | --headless | --window) options+=("$1") ;;
     -*) # these need no clip: --ball, --help, and a typo, which the player names
         options+=("$1")
         needs_clip=no
@@ -102,11 +96,10 @@ continue_as_caller "$top/examples/play.sh" "${arguments[@]}"
 build
 
 if [[ $needs_clip == yes ]]; then
-    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/vtest.avi ]] ||
-        echo "fetching a clip, once: vtest.avi of Debian's package opencv-doc (95 MB)"
-    if clip=$(street_clip); then
+    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/Megamind.avi ]] ||
+        echo "fetching a clip, once: Megamind.avi of Debian's package opencv-doc (95 MB)"
+    if clip=$(film_clip); then
         video=("$clip")
-        options=("${clip_seconds[@]}" "${options[@]}")
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"
         options+=(--ball)

@@ -1,18 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Makes the pictures of the debug window, without a screen: `meson compile -C build screenshots`, or
+# Makes the pictures of the debug window, without a screen, and the README's: `meson compile -C build screenshots`, or
 #   docs/figures/screenshots.sh BUILD
-# Writes debug_window.png, debug_window.gif and window_touch.png into its own folder. On a busy machine
-# fewer different frames are drawn. Needs ffmpeg, xvfb, python3-numpy, gstreamer1.0-libav or -good (MJPEG)
-# and fonts-dejavu-core.
+# Writes debug_window.png, window_touch.png and show.gif into its own folder. Needs ffmpeg, xvfb, python3-numpy,
+# gstreamer1.0-libav (MJPEG), an H.264 encoder (gstreamer1.0-plugins-bad or -ugly) and fonts-dejavu-core.
 set -euo pipefail
 build=$(realpath "${1:?usage: docs/figures/screenshots.sh BUILD}")
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 size=1280x800
-warm_up=14  # seconds: the window opens, and the plots fill
-shown=6     # seconds: a period of the film
-rate=12     # frames/s of the animation
 
 work=$(mktemp -d)
 server=
@@ -35,21 +31,17 @@ DISPLAY=:$(<"$work/display")
 export DISPLAY
 
 "$build/examples/play/play" --headless --output "$work" --seconds 30 --window-png "$work/window.png" \
-    "$work/meadow.avi" >"$work/play.log" 2>&1 &
-player=$!
-sleep "$warm_up"
-ffmpeg -v error -f x11grab -draw_mouse 0 -framerate "$rate" -video_size "$size" -t "$shown" -i "$DISPLAY" \
-    -c:v ffv1 "$work/window.mkv"
-wait "$player" || { cat "$work/play.log" >&2; exit 1; }
+    "$work/meadow.avi" >"$work/play.log" 2>&1 || { cat "$work/play.log" >&2; exit 1; }
+cp "$work/window.png" "$here/debug_window.png"
 
 "$build/examples/play/play" --headless --output "$work" --seconds 9 --window-png "$work/touch.png" \
     "$work/meadow.avi" -- touch=luma touch-relief=20 >"$work/play.log" 2>&1 || { cat "$work/play.log" >&2; exit 1; }
 ffmpeg -v error -y -i "$work/touch.png" -filter_complex \
     "split[a][b];[a]palettegen=max_colors=256[p];[b][p]paletteuse=dither=none" "$here/window_touch.png"
 
-cp "$work/window.png" "$here/debug_window.png"
-# One palette for all frames; the ordered dither does not flicker, and what rests costs nothing.
-ffmpeg -v error -y -i "$work/window.mkv" -filter_complex \
-    "scale=900:-1:flags=lanczos,split[a][b];[a]palettegen=max_colors=128:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
-    "$here/debug_window.gif"
-ls -l "$here/debug_window.png" "$here/debug_window.gif" "$here/window_touch.png"
+# The second period: in the first one, the curve begins. One palette for all frames; what rests costs nothing.
+"$build/plugin/spidartrack" show "$work/meadow.avi" "$work/meadow.mp4"
+ffmpeg -v error -y -ss 6 -t 6 -i "$work/meadow.mp4" -filter_complex \
+    "fps=12,scale=640:-1:flags=lanczos,split[a][b];[a]palettegen=max_colors=128:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
+    "$here/show.gif"
+ls -l "$here/debug_window.png" "$here/show.gif" "$here/window_touch.png"
