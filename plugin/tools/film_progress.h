@@ -11,8 +11,8 @@
 
 namespace spidar {
 
-/// Nothing comes for so long from a share that is slow.
-constexpr GstClockTime kSlowFraction = 60 * GST_SECOND;
+/// So long nothing may come from a slow network share.
+constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
 
 constexpr const char* kEndMissing = "its end is missing: it is damaged or cut off";
 

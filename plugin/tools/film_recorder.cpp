@@ -84,7 +84,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
       "spidarextract name=extract extract.wrench ! " +
           encoder_of(track.target()) +
           " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
-      film, nullptr, unread.empty() ? kSlowFraction : FilePipeline::kLongestSilence);
+      film, nullptr, unread.empty() ? kSlowShare : FilePipeline::kLongestSilence);
   set_properties(file.find("motion"), properties);
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
   progress.watch(file.find("motion"));

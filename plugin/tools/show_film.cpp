@@ -53,7 +53,7 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   FilmProgress progress([&line](int percent) { line.tell(percent); });
   FilmWatch watch;
   KeptSound sound;
-  const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowFraction);
+  const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, options.properties);
   const FilmEnd end = film_end(options.film);

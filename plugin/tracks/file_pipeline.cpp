@@ -139,7 +139,7 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
   bool failed =
       gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE;
   Progress progress{read_, 0};
-  for (GstClockTime waited = 0; waited < limit; waited += kLook) {
+  for (GstClockTime waited = 0; waited < limit;) {
     GstMessage* message = gst_bus_timed_pop_filtered(messages.get(), kLook, types);
     if (message) {
       const GstMessageType type = GST_MESSAGE_TYPE(message);
@@ -148,9 +148,11 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
       gst_message_unref(message);
       if (type == GST_MESSAGE_ERROR) throw std::runtime_error(reason);
       if (type != GST_MESSAGE_ELEMENT) return type;
+      continue;
     }
     if (failed) throw std::runtime_error("GStreamer cannot read it, and does not say why");
     check(progress);
+    waited += kLook;
   }
   return GST_MESSAGE_UNKNOWN;
 }

@@ -29,7 +29,7 @@ struct LoadedTrack {
   bool is_compared = false;  ///< with the film
 };
 
-/// Reading may take long on a slow disk or fraction, and for ever on a broken one.
+/// Reading may take long on a slow disk or network share, and for ever on a broken one.
 class TrackLoader {
  public:
   TrackLoader() = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How long is waited for a file.
+// How long a file is awaited.
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -24,6 +24,24 @@ TEST(FilmTools, APipelineThatReadsNothingMoreIsNotAwaitedForEver) {
   const FilePipeline file("filesrc name=source ! fakesink appsrc ! fakesink", path, nullptr,
                           200 * GST_MSECOND);
   EXPECT_THROW(file.play_until(GST_MESSAGE_EOS), std::runtime_error);
+}
+
+TEST(FilmTools, ManyMessagesAreNoSilence) {
+  init_gstreamer();
+  const TemporaryFolder folder;
+  const std::string path = folder.path / "file";
+  std::ofstream(path) << "some bytes";
+  const FilePipeline file("filesrc name=source ! fakesink appsrc ! fakesink", path, nullptr,
+                          10 * FilePipeline::kLook);
+  GstObject* const pipeline = GST_OBJECT(file.pipeline());
+  const auto post = [&file](GstMessage* message) {
+    gst_element_post_message(file.pipeline(), message);
+  };
+  for (int i = 0; i < 20; ++i) {
+    post(gst_message_new_element(pipeline, gst_structure_new_empty("other")));
+  }
+  post(gst_message_new_application(pipeline, gst_structure_new_empty("enough")));
+  EXPECT_EQ(file.play_until(GST_MESSAGE_APPLICATION), GST_MESSAGE_APPLICATION);
 }
 
 }  // namespace

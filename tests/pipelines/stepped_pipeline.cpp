@@ -203,6 +203,11 @@ void SteppedPipeline::await_message(GstMessageType type) {
   messages_ &= ~static_cast<unsigned>(type);
 }
 
+bool SteppedPipeline::has_posted(GstMessageType type) {
+  while (GstMessage* const message = inbox_->pop()) take(message);
+  return (messages_ & type) != 0;
+}
+
 void SteppedPipeline::await_analysed(size_t frames) {
   while (wrenches().size() < frames) take(inbox_->await());
 }
@@ -216,7 +221,7 @@ void SteppedPipeline::await_end_of_stream() {
 }
 
 const std::map<GstClockTime, Wrench>& SteppedPipeline::wrenches() {
-  while (GstMessage* message = inbox_->pop()) take(message);
+  has_posted(GST_MESSAGE_ELEMENT);
   return wrenches_;
 }
 

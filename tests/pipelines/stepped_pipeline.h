@@ -63,6 +63,8 @@ class SteppedPipeline {
 
   /// Waits for a message of this type since the last call.
   void await_message(GstMessageType type);
+  /// Whether there was a message of this type since the last await_message() for it.
+  bool has_posted(GstMessageType type);
   /// Waits until the element has received this number of frames.
   void await_analysed(size_t frames);
   /// Waits until the stream has ended for the element, which is before it ends for the sink.

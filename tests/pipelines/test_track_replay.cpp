@@ -178,9 +178,12 @@ TEST_F(TrackReplay, WhatIsMissingOrNoTrackIsNamedAndTheFilmAnalysed) {
   for (const std::string& path : {(folder.path / "none.flac").string(), no_track}) {
     open(path);
     pipeline->set_state(GST_STATE_PLAYING);
-    for (int i = 0; i < 5; ++i) pipeline->step();
+    // On a loaded machine, frames may come before it is known that the file is no track.
+    for (int i = 0; i < 5 || !pipeline->has_posted(GST_MESSAGE_WARNING); ++i) {
+      if (i >= 5) g_usleep(50'000);
+      pipeline->step();
+    }
     EXPECT_GE(stat("frames"), 5u);
-    pipeline->await_message(GST_MESSAGE_WARNING);
   }
 }
 
