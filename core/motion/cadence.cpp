@@ -3,6 +3,7 @@
 #include "core/motion/cadence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/quantile.h"
@@ -26,20 +27,18 @@ constexpr size_t kEnough = 2 * 2;
 void Cadence::remember(const Shown& shown) {
   // At another rate of playback, or with frames of irregular length, earlier intervals are not
   // comparable.
-  if (count_ > 0) {
-    const double before = static_cast<double>(latest(0).interval_ns) / latest(0).frames;
+  if (!shown_.empty()) {
+    const double before = static_cast<double>(shown_[0].interval_ns) / shown_[0].frames;
     const double now = static_cast<double>(shown.interval_ns) / shown.frames;
-    if (std::abs(now - before) > kSameInterval * before) count_ = 0;
+    if (std::abs(now - before) > kSameInterval * before) shown_.clear();
   }
-  newest_ = (newest_ + 1) % kPictures;
-  shown_[newest_] = shown;
-  count_ = std::min(count_ + 1, kPictures);
+  shown_.add(shown);
 }
 
 int64_t Cadence::median_ns() const {
   std::array<int64_t, kPictures> sorted{};
-  for (size_t i = 0; i < count_; ++i) sorted[i] = latest(i).interval_ns;
-  return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(count_));
+  for (size_t i = 0; i < shown_.size(); ++i) sorted[i] = shown_[i].interval_ns;
+  return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(shown_.size()));
 }
 
 /// How long the next picture may be shown: as long as the one before, or the second longest of the
@@ -47,12 +46,12 @@ int64_t Cadence::median_ns() const {
 int64_t Cadence::expected_ns() const {
   int64_t longest = 0;
   int64_t second = 0;
-  for (size_t i = 0; i < count_; ++i) {
-    const int64_t interval_ns = latest(i).interval_ns;
+  for (size_t i = 0; i < shown_.size(); ++i) {
+    const int64_t interval_ns = shown_[i].interval_ns;
     second = std::max(second, std::min(longest, interval_ns));
     longest = std::max(longest, interval_ns);
   }
-  return std::max(second, latest(0).interval_ns);
+  return std::max(second, shown_[0].interval_ns);
 }
 
 /// Interval of the latest `pictures` if they were taken at even intervals and each of them is shown
@@ -62,7 +61,7 @@ double Cadence::even_interval_ns(size_t pictures) const {
   std::array<double, kPictures + 1> time{};
   double frames = 0;
   for (size_t i = 0; i < pictures; ++i) {
-    const Shown& shown = latest(pictures - 1 - i);
+    const Shown& shown = shown_[pictures - 1 - i];
     time[i + 1] = time[i] + static_cast<double>(shown.interval_ns);
     frames += shown.frames;
   }
@@ -84,7 +83,7 @@ double Cadence::even_interval_ns(size_t pictures) const {
 
 /// The same for as many of the latest pictures as have kept one rhythm.
 double Cadence::even_interval_ns() const {
-  for (size_t pictures = count_; pictures >= kEnough; pictures /= 2) {
+  for (size_t pictures = shown_.size(); pictures >= kEnough; pictures /= 2) {
     if (const double even_ns = even_interval_ns(pictures); even_ns > 0) return even_ns;
   }
   return 0;
@@ -125,15 +124,15 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
   bool repeats = false;
   size_t unlike = 0;
   const int64_t median = median_ns();
-  for (size_t i = 0; i < count_; ++i) {
-    const int64_t interval_ns = latest(i).interval_ns;
-    repeats = repeats || latest(i).frames > 1;
+  for (size_t i = 0; i < shown_.size(); ++i) {
+    const int64_t interval_ns = shown_[i].interval_ns;
+    repeats = repeats || shown_[i].frames > 1;
     const bool is_alike = std::abs(static_cast<double>(interval_ns - median)) <
                           kSameInterval * static_cast<double>(median);
     if (i < kAccident && !is_alike) ++unlike;
   }
   if (!repeats) return step;
-  if (count_ >= kEnough && unlike <= 1) {
+  if (shown_.size() >= kEnough && unlike <= 1) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {

@@ -3,10 +3,10 @@
 /// Finds the rhythm in which a film shows new pictures.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/history.h"
 #include "core/picture/repeated_picture.h"
 
 namespace spidar {
@@ -66,17 +66,13 @@ class Cadence {
     int frames = 1;
   };
 
-  const Shown& latest(size_t i) const { return shown_[(newest_ + kPictures - i) % kPictures]; }
   void remember(const Shown& shown);
   int64_t median_ns() const;
   int64_t expected_ns() const;
   double even_interval_ns() const;
   double even_interval_ns(size_t pictures) const;
 
-  std::array<Shown, kPictures> shown_{};
-  size_t count_ = 0;
-  size_t newest_ = 0;
-
+  History<Shown, kPictures> shown_;
   bool begun_ = false;
   int64_t picture_ns_ = 0;    ///< when the latest picture was first shown
   int64_t frame_ns_ = 0;      ///< the latest frame

@@ -76,8 +76,8 @@ RepeatedPicture::Rhythm RepeatedPicture::rhythm(float fraction) const {
   float largest = 0;  // change of a run
   size_t begin = 0;   // of a run, in frames ago
   bool in_run = false;
-  for (size_t i = count_; i-- > 0;) {
-    const float change = latest(i);
+  for (size_t i = changes_.size(); i-- > 0;) {
+    const float change = changes_[i];
     if (in_run && fraction * change > largest) {
       ++rhythm.dips;
       for (size_t k = begin; k > i; --k) rhythm.is_dip[k] = true;
@@ -97,7 +97,7 @@ RepeatedPicture::Rhythm RepeatedPicture::rhythm(float fraction) const {
 
 /// Whether the changes one and two periods ago were in dips, and not every change since then was.
 bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
-  for (size_t period = 2; 2 * period <= count_; ++period) {
+  for (size_t period = 2; 2 * period <= changes_.size(); ++period) {
     if (!rhythm.is_dip[period - 1] || !rhythm.is_dip[2 * period - 1]) continue;
     for (size_t i = 0; i + 1 < period; ++i) {
       if (!rhythm.is_dip[i]) return true;
@@ -116,9 +116,7 @@ bool RepeatedPicture::is_small(float change) const {
 PictureKind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
-  changes_[next_] = change;
-  next_ = (next_ + 1) % kFrames;
-  count_ = std::min(count_ + 1, kFrames);
+  changes_.add(change);
   if (change == 0) return PictureKind::kSame;
   return alike ? PictureKind::kAlike : PictureKind::kOther;
 }

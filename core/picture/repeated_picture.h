@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/history.h"
 #include "core/picture/image_view.h"
 
 namespace spidar {
@@ -43,7 +44,7 @@ class RepeatedPicture {
   PictureKind look(const ImageView& before, const ImageView& now);
 
   /// Call when the next pictures are unrelated to the previous ones.
-  void restart() { count_ = 0; }
+  void restart() { changes_.clear(); }
 
   /// Largest coding noise, as a fraction of the change before and after it.
   static constexpr float kFraction = 0.3f;
@@ -66,11 +67,8 @@ class RepeatedPicture {
   Rhythm rhythm(float fraction) const;
   bool is_due(const Rhythm& rhythm) const;
   bool is_small(float change) const;
-  float latest(size_t i) const { return changes_[(next_ + 2 * kFrames - 1 - i) % kFrames]; }
 
-  std::array<float, kFrames> changes_{};  ///< see largest_change()
-  size_t count_ = 0;
-  size_t next_ = 0;
+  History<float, kFrames> changes_;  ///< see largest_change()
 };
 
 /// Number of blocks that are averaged.
