@@ -8,6 +8,8 @@
 #include <iterator>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace spidar {
 
 /// Median of the length of a vector whose coordinates have standard deviation 1: √(2 ln 2).
@@ -41,6 +43,19 @@ typename std::iterator_traits<Iterator>::value_type median(Iterator first, Itera
 template <typename Value>
 Value median(std::vector<Value> values) {
   return median(values.begin(), values.end());
+}
+
+/// The median of each coordinate. Changes the order of `vectors`, of which there is one at least.
+template <typename Vector>
+Vector median_of_each(std::vector<Vector>& vectors) {
+  Vector medians;
+  for (Eigen::Index k = 0; k < medians.size(); ++k) {
+    const auto middle = vectors.begin() + static_cast<std::ptrdiff_t>(vectors.size() / 2);
+    std::nth_element(vectors.begin(), middle, vectors.end(),
+                     [k](const Vector& a, const Vector& b) { return a[k] < b[k]; });
+    medians[k] = (*middle)[k];
+  }
+  return medians;
 }
 
 }  // namespace spidar

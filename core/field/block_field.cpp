@@ -8,21 +8,25 @@
 #include <utility>
 
 #include "core/field/light_change.h"
+#include "core/quantile.h"
 
 namespace spidar {
 namespace {
 
+using Eigen::Vector2f;
+using Eigen::Vector2i;
+
 /// Σ |pixel − mean| of a block.
-int difference_from_mean(const PaddedImage& picture, int x_px, int y_px) {
+int difference_from_mean(const PaddedImage& picture, const Vector2i& at_px) {
   int sum = 0;
   for (int y = 0; y < kBlock_px; ++y) {
-    const uint8_t* row = picture.row(y_px + y) + x_px;
+    const uint8_t* row = picture.row(at_px.y() + y) + at_px.x();
     for (int x = 0; x < kBlock_px; ++x) sum += row[x];
   }
   const int mean = (sum + kBlockArea_px / 2) / kBlockArea_px;
   int difference = 0;
   for (int y = 0; y < kBlock_px; ++y) {
-    const uint8_t* row = picture.row(y_px + y) + x_px;
+    const uint8_t* row = picture.row(at_px.y() + y) + at_px.x();
     for (int x = 0; x < kBlock_px; ++x) difference += std::abs(row[x] - mean);
   }
   return difference;
@@ -44,29 +48,31 @@ double squared(double value) {
   return value * value;
 }
 
-bool is_finite_motion(float x_px, float y_px) {
+bool is_finite_motion(const Vector2f& moved_px) {
   constexpr float kMost_px = 4096;
-  return std::abs(x_px) < kMost_px && std::abs(y_px) < kMost_px;
+  return std::abs(moved_px.x()) < kMost_px && std::abs(moved_px.y()) < kMost_px;
 }
 
-/// A position between two pixels.
-struct Position {
-  int pixel;
-  int fraction;  ///< of kFractionOne
+BlockPixels pixels_at(const PaddedImage& picture, const Vector2i& corner_px) {
+  return {picture.row(corner_px.y()) + corner_px.x(), picture.stride()};
+}
 
-  Position(int begin_px, float moved_px) {
-    const float position = static_cast<float>(begin_px) + moved_px;
-    pixel = static_cast<int>(std::floor(position));
-    fraction = static_cast<int>((position - static_cast<float>(pixel)) * kFractionOne + 0.5f);
+/// A position between pixels.
+struct Position {
+  Vector2i pixel;
+  Vector2i fraction;  ///< of kFractionOne
+
+  Position(const Vector2i& begin_px, const Vector2f& moved_px) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const float position = static_cast<float>(begin_px[axis]) + moved_px[axis];
+      pixel[axis] = static_cast<int>(std::floor(position));
+      fraction[axis] =
+          static_cast<int>((position - static_cast<float>(pixel[axis])) * kFractionOne + 0.5f);
+    }
   }
 };
 
 }  // namespace
-
-float MotionBlock::weakest_texture() const {
-  const float unequal = xx - yy;
-  return (xx + yy - std::sqrt(unequal * unequal + 4 * xy * xy)) / 2;
-}
 
 void BlockField::resize(const PaddedImage& base) {
   base_width_ = base.width();
@@ -86,10 +92,10 @@ void BlockField::reduce(const PaddedImage& base) {
 void BlockField::begin() {
   has_picture_ = true;
   grid_ = BlockGrid::over(now_.width(), now_.height());
-  matches_.assign(static_cast<size_t>(grid_.size()), BlockMatch());
+  matches_.assign(grid_.size(), BlockMatch());
   coarse_grid_ = BlockGrid::over(coarse_now_.width(), coarse_now_.height());
-  coarse_matches_.assign(static_cast<size_t>(coarse_grid_.size()), BlockMatch());
-  blocks_.assign(static_cast<size_t>(grid_.size()), MotionBlock());
+  coarse_matches_.assign(coarse_grid_.size(), BlockMatch());
+  blocks_.assign(grid_.size(), MotionBlock());
   textured_.reserve(blocks_.size());
   residuals_.reserve(blocks_.size());
 }
@@ -119,9 +125,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
 void BlockField::measure_noise() {
   residuals_.clear();
   for (const MotionBlock& block : blocks_) residuals_.push_back(block.residual);
-  const auto third = residuals_.begin() + static_cast<ptrdiff_t>(residuals_.size() / 3);
-  std::nth_element(residuals_.begin(), third, residuals_.end());
-  noise_grey2_ = *third;
+  noise_grey2_ = quantile(residuals_, 1 / 3.0);
 }
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
@@ -154,9 +158,7 @@ bool BlockField::is_cut() {
 }
 
 int BlockField::contrast_of(size_t block) const {
-  const int column = static_cast<int>(block) % grid_.columns;
-  const int row = static_cast<int>(block) / grid_.columns;
-  return difference_from_mean(now_, grid_.x_px(column), grid_.y_px(row));
+  return difference_from_mean(now_, grid_.corner_of(block));
 }
 
 BlockField::Match BlockField::match_of(size_t block) const {
@@ -171,29 +173,18 @@ void BlockField::find_hints() {
   hints_.clear();
   if (coarse_grid_.size() == 0) return;
   search_.find(coarse_before_, coarse_now_, coarse_grid_, hints_, coarse_matches_);
-  const auto coarse_position = [](int centre_px, int begin_px, int count) {
-    const int position = (centre_px / kCoarser - begin_px) / kBlock_px;
-    return std::min(std::max(position, 0), count - 1);
-  };
-  for (int row = 0; row < grid_.rows; ++row) {
-    for (int column = 0; column < grid_.columns; ++column) {
-      const int i = coarse_position(grid_.x_px(column) + kBlock_px / 2, coarse_grid_.left_px,
-                                    coarse_grid_.columns);
-      const int j =
-          coarse_position(grid_.y_px(row) + kBlock_px / 2, coarse_grid_.top_px, coarse_grid_.rows);
-      BlockMatch hint = coarse_matches_[static_cast<size_t>(j * coarse_grid_.columns + i)];
-      hint.dx = static_cast<int16_t>(kCoarser * hint.dx);
-      hint.dy = static_cast<int16_t>(kCoarser * hint.dy);
-      hints_.push_back(hint);
-    }
+  for (size_t i = 0; i < grid_.size(); ++i) {
+    const Vector2i middle_px = grid_.corner_of(i) + Vector2i::Constant(kBlock_px / 2);
+    BlockMatch hint = coarse_matches_[coarse_grid_.block_at((middle_px / kCoarser).cast<double>())];
+    hint.from_px *= kCoarser;
+    hints_.push_back(hint);
   }
 }
 
 void BlockField::stand_still() {
   for (BlockMatch& match : matches_) match = BlockMatch();
   for (MotionBlock& block : blocks_) {
-    block.moved_x_px = 0;
-    block.moved_y_px = 0;
+    block.moved_px.setZero();
     block.residual = 0;
     block.difference = 0;
   }
@@ -202,106 +193,86 @@ void BlockField::stand_still() {
 
 void BlockField::refine(size_t index) {
   const BlockMatch& match = matches_[index];
-  const int column = static_cast<int>(index) % grid_.columns;
-  const int row = static_cast<int>(index) / grid_.columns;
-  const int x_px = grid_.x_px(column);
-  const int y_px = grid_.y_px(row);
+  const Vector2i corner_px = grid_.corner_of(index);
   const BlockSums s =
-      compare_blocks({now_.row(y_px) + x_px, now_.stride()},
-                     {before_.row(y_px + match.dy) + x_px + match.dx, before_.stride()});
+      compare_blocks(pixels_at(now_, corner_px), pixels_at(before_, corner_px + match.from_px));
 
   // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
   const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kBlockArea_px; };
-  const float gx = mean(s.x);
-  const float gy = mean(s.y);
+  const Vector2f g(mean(s.x), mean(s.y));
   const float d = mean(s.difference);
   MotionBlock& block = blocks_[index];
-  block.xx = (mean(s.xx) - gx * gx) / 16;
-  block.xy = (mean(s.xy) - gx * gy) / 16;
-  block.yy = (mean(s.yy) - gy * gy) / 16;
-  const float xd = (mean(s.xd) - gx * d) / 4;
-  const float yd = (mean(s.yd) - gy * d) / 4;
+  Eigen::Matrix2f& S = block.structure;
+  S << mean(s.xx), mean(s.xy), mean(s.xy), mean(s.yy);
+  S = (S - g * g.transpose()) / 16;
+  const Vector2f gd = (Vector2f(mean(s.xd), mean(s.yd)) - g * d) / 4;
   const float dd = mean(s.squared) - d * d;
 
   // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
-  const float a = block.xx + MotionBlock::kRegularization;
-  const float b = block.yy + MotionBlock::kRegularization;
-  const float determinant = a * b - block.xy * block.xy;
-  const auto clamp = [](float step_px) {
-    return std::min(std::max(step_px, -kMostOff_px), kMostOff_px);
-  };
-  const float ex = clamp(-(b * xd - block.xy * yd) / determinant);
-  const float ey = clamp(-(a * yd - block.xy * xd) / determinant);
-  const float left = dd + 2 * (ex * xd + ey * yd) + ex * ex * block.xx + 2 * ex * ey * block.xy +
-                     ey * ey * block.yy;
-  block.x_px = static_cast<float>(x_px) + 0.5f * static_cast<float>(kBlock_px - now_.width());
-  block.y_px = static_cast<float>(y_px) + 0.5f * static_cast<float>(kBlock_px - now_.height());
-  block.moved_x_px = ex - static_cast<float>(match.dx);
-  block.moved_y_px = ey - static_cast<float>(match.dy);
+  const float a = S(0, 0) + MotionBlock::kRegularization;
+  const float b = S(1, 1) + MotionBlock::kRegularization;
+  const float determinant = a * b - S(0, 1) * S(0, 1);
+  const Vector2f e = Vector2f(-(b * gd.x() - S(0, 1) * gd.y()) / determinant,
+                              -(a * gd.y() - S(0, 1) * gd.x()) / determinant)
+                         .cwiseMax(-kMostOff_px)
+                         .cwiseMin(kMostOff_px);
+  const float left = dd + 2 * (e.x() * gd.x() + e.y() * gd.y()) + e.x() * e.x() * S(0, 0) +
+                     2 * e.x() * e.y() * S(0, 1) + e.y() * e.y() * S(1, 1);
+  block.centre_px =
+      corner_px.cast<float>() +
+      0.5f * (Vector2i::Constant(kBlock_px) - Vector2i(now_.width(), now_.height())).cast<float>();
+  block.moved_px = e - match.from_px.cast<float>();
   block.residual = std::max(0.0f, left);
   block.difference = match.difference;
 }
 
 /// Whether a block may begin between this pixel and the next ones in both directions.
-bool BlockField::is_in_reach(int left_px, int top_px) const {
-  return left_px >= -kBlockReach_px && top_px >= -kBlockReach_px &&
-         left_px + 1 + kBlock_px <= now_.width() + kBlockReach_px &&
-         top_px + 1 + kBlock_px <= now_.height() + kBlockReach_px;
+bool BlockField::is_in_reach(const Vector2i& corner_px) const {
+  const Vector2i last_px(now_.width() - kBlock_px - 1, now_.height() - kBlock_px - 1);
+  return (corner_px.array() >= -kBlockReach_px).all() &&
+         ((corner_px - last_px).array() <= kBlockReach_px).all();
 }
 
 size_t BlockField::origin_of(size_t index) const {
-  const MotionBlock& block = blocks_[index];
-  const int column = static_cast<int>(index) % grid_.columns;
-  const int row = static_cast<int>(index) / grid_.columns;
-  const auto back = [](int position, float moved_px, int count) {
+  const Vector2f& moved_px = blocks_[index].moved_px;
+  const auto back = [](int position, float by_px, int count) {
     // Clamped first: half a block outside is the first or the last one. std::lround() would be a
     // call, three times for each block.
-    const float from = static_cast<float>(position) - moved_px / kBlock_px;
+    const float from = static_cast<float>(position) - by_px / kBlock_px;
     const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
     return static_cast<int>(inside + 0.5);
   };
-  return static_cast<size_t>(back(row, block.moved_y_px, grid_.rows) * grid_.columns +
-                             back(column, block.moved_x_px, grid_.columns));
+  return grid_.index(back(grid_.column(index), moved_px.x(), grid_.columns),
+                     back(grid_.row(index), moved_px.y(), grid_.rows));
 }
 
-int BlockField::difference_if_moved(int block, float x_px, float y_px) const {
-  if (!is_finite_motion(x_px, y_px)) return -1;
-  const int left = grid_.x_px(block % grid_.columns);
-  const int top = grid_.y_px(block / grid_.columns);
-  const Position x(left, -x_px);
-  const Position y(top, -y_px);
-  if (!is_in_reach(x.pixel, y.pixel)) return -1;
-  const BlockPixels here{now_.row(top) + left, now_.stride()};
-  const auto there = [&](int j, int i) {
-    return BlockPixels{before_.row(y.pixel + j) + x.pixel + i, before_.stride()};
-  };
-  int least = bilinear_difference(here, there(0, 0), x.fraction, y.fraction);
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      least = std::min(least, block_difference(here, there(j, i), least));
-    }
+int BlockField::difference_if_moved(size_t block, const Vector2f& moved_px) const {
+  if (!is_finite_motion(moved_px)) return -1;
+  const Vector2i corner_px = grid_.corner_of(block);
+  const Position from(corner_px, -moved_px);
+  if (!is_in_reach(from.pixel)) return -1;
+  const BlockPixels here = pixels_at(now_, corner_px);
+  int least = bilinear_difference(here, pixels_at(before_, from.pixel), from.fraction.x(),
+                                  from.fraction.y());
+  for (const Vector2i& next : {Vector2i(0, 0), Vector2i(1, 0), Vector2i(0, 1), Vector2i(1, 1)}) {
+    const BlockPixels there = pixels_at(before_, from.pixel + next);
+    least = std::min(least, block_difference(here, there, least));
   }
   return least;
 }
 
-StayingPixels BlockField::staying_pixels(int block, float x_px, float y_px, int beside_x_px,
-                                         int beside_y_px) const {
-  if (!is_finite_motion(x_px, y_px)) return {};
-  const int left = grid_.x_px(block % grid_.columns) + beside_x_px;
-  const int top = grid_.y_px(block / grid_.columns) + beside_y_px;
-  const auto moved = [&](const PaddedImage& picture, const Position& x, const Position& y) {
-    return MovedBlock{{picture.row(y.pixel) + x.pixel, picture.stride()}, x.fraction, y.fraction};
+StayingPixels BlockField::staying_pixels(size_t block, const Vector2f& moved_px,
+                                         const Vector2i& beside_px) const {
+  if (!is_finite_motion(moved_px)) return {};
+  const Vector2i corner_px = grid_.corner_of(block) + beside_px;
+  const Position from(corner_px, -moved_px);
+  const Position to(corner_px, moved_px);
+  if (!is_in_reach(corner_px) || !is_in_reach(from.pixel) || !is_in_reach(to.pixel)) return {};
+  const auto moved = [](const PaddedImage& picture, const Position& at) {
+    return MovedBlock{pixels_at(picture, at.pixel), at.fraction.x(), at.fraction.y()};
   };
-  const Position from_x(left, -x_px);
-  const Position from_y(top, -y_px);
-  const Position to_x(left, x_px);
-  const Position to_y(top, y_px);
-  if (!is_in_reach(left, top) || !is_in_reach(from_x.pixel, from_y.pixel) ||
-      !is_in_reach(to_x.pixel, to_y.pixel))
-    return {};
-  return spidar::staying_pixels({now_.row(top) + left, now_.stride()},
-                                {before_.row(top) + left, before_.stride()},
-                                moved(before_, from_x, from_y), moved(now_, to_x, to_y));
+  return spidar::staying_pixels(pixels_at(now_, corner_px), pixels_at(before_, corner_px),
+                                moved(before_, from), moved(now_, to));
 }
 
 }  // namespace spidar

@@ -3,16 +3,26 @@
 /// How each part of the picture moves, from one frame to the next.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "core/field/block_grid.h"
 #include "core/field/block_kernels.h"
 #include "core/field/block_search.h"
 #include "core/field/field_picture.h"
 
 namespace spidar {
+
+/// The smaller eigenvalue of a symmetric matrix.
+template <typename Scalar>
+Scalar smaller_eigenvalue(const Eigen::Matrix<Scalar, 2, 2>& S) {
+  const Scalar unequal = S(0, 0) - S(1, 1);
+  return (S.trace() - std::sqrt(unequal * unequal + 4 * S(0, 1) * S(0, 1))) / 2;
+}
 
 /// How far a block's motion in whole pixels may be off: it is right to half a pixel, or wrong. What
 /// is further away shows something else, px of the picture in which motion is measured.
@@ -21,14 +31,10 @@ constexpr float kMostOff_px = 1;
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
 /// in pixels of that picture, measured from its centre; x right, y down.
 struct MotionBlock {
-  float x_px = 0;  ///< of its centre
-  float y_px = 0;
-  float moved_x_px = 0;  ///< since the picture before
-  float moved_y_px = 0;
-  /// Structure tensor: mean over the block, without its common slope, (grey / px)².
-  float xx = 0;
-  float xy = 0;
-  float yy = 0;
+  Eigen::Vector2f centre_px = Eigen::Vector2f::Zero();
+  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();  ///< since the picture before
+  /// Structure tensor: mean of g gᵀ over the block, without its common slope, (grey / px)².
+  Eigen::Matrix2f structure = Eigen::Matrix2f::Zero();
   /// What the block's motion leaves unexplained: mean squared difference without its common offset,
   /// grey².
   float residual = 0;
@@ -41,13 +47,15 @@ struct MotionBlock {
   /// twice that of nothing but noise of two grey levels, which moves such a block by 0.08 px.
   static constexpr float kLeastTexture = 5;
   /// Whether the motion is known in one direction at least.
-  bool has_texture() const { return xx + yy > 2 * kLeastTexture; }
+  bool has_texture() const { return structure.trace() > 2 * kLeastTexture; }
   /// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a
   /// match along the edge would only follow noise.
   static constexpr double kLeastRoundness = 0.05;
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.
-  float weakest_texture() const;
+  float weakest_texture() const { return smaller_eigenvalue(structure); }
+  /// Whether the motion is known to a fraction of a pixel in every direction.
+  bool has_corners() const { return weakest_texture() >= kLeastTexture; }
 };
 
 /// Motion of blocks between two pictures of about 427 × 240 px: BlockSearch finds it in whole
@@ -88,19 +96,31 @@ class BlockField {
     kLost,  ///< its best match shows something else
   };
   Match match_of(size_t block) const;
+  /// Whether more of the blocks for which `counts(block)` holds are lost than found.
+  template <typename Counts>
+  bool are_lost(Counts&& counts) const {
+    int lost = 0;
+    int found = 0;
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      if (!counts(i)) continue;
+      const Match match = match_of(i);
+      lost += match == Match::kLost;
+      found += match == Match::kFound;
+    }
+    return lost > found;
+  }
 
   /// Block of the previous picture from which block `index` has come: the nearest one of the grid.
   size_t origin_of(size_t index) const;
 
-  /// Σ |now − before| of a block if it had moved by (`x_px`, `y_px`): the smaller of the values at
-  /// the exact position and at the nearest whole pixels. Negative when that position is out of
-  /// reach.
-  int difference_if_moved(int block, float x_px, float y_px) const;
+  /// Σ |now − before| of a block if it had moved by `moved_px`: the smaller of the values at the
+  /// exact position and at the nearest whole pixels. Negative when that position is out of reach.
+  int difference_if_moved(size_t block, const Eigen::Vector2f& moved_px) const;
 
-  /// Pixels of a block, or of the area `beside_x_px`, `beside_y_px` beside it, that stayed in place
-  /// while their surroundings moved by (`x_px`, `y_px`); none when that is out of reach.
-  StayingPixels staying_pixels(int block, float x_px, float y_px, int beside_x_px = 0,
-                               int beside_y_px = 0) const;
+  /// Pixels of a block, or of the area `beside_px` beside it, that stayed in place while their
+  /// surroundings moved by `moved_px`; none when that is out of reach.
+  StayingPixels staying_pixels(size_t block, const Eigen::Vector2f& moved_px,
+                               const Eigen::Vector2i& beside_px = {0, 0}) const;
 
  private:
   void resize(const PaddedImage& base);
@@ -109,7 +129,7 @@ class BlockField {
   void find_hints();
   bool is_cut();
   int contrast_of(size_t block) const;
-  bool is_in_reach(int left_px, int top_px) const;
+  bool is_in_reach(const Eigen::Vector2i& corner_px) const;
   void refine(size_t index);
   void measure_noise();
 

@@ -24,32 +24,29 @@ constexpr int kNearest_px = kBlock_px / 4;
 /// A walk goes as far as a deviation costs more and more.
 constexpr int kMostSteps = kMostDeviation_px;
 
-struct Vector {
-  int dx;
-  int dy;
-  bool operator==(const Vector& o) const { return dx == o.dx && dy == o.dy; }
-};
+using Eigen::Vector2i;
 
-int middle(int a, int b, int c) {
-  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+/// The median of each coordinate.
+Vector2i middle(const Vector2i& a, const Vector2i& b, const Vector2i& c) {
+  return a.cwiseMin(b).cwiseMax(a.cwiseMax(b).cwiseMin(c));
 }
 
 /// The search of one block.
 class Walk {
  public:
-  Walk(const PaddedImage& before, BlockPixels block, int x_px, int y_px)
+  Walk(const PaddedImage& before, const PaddedImage& now, const Vector2i& at_px)
       : before_(before),
-        block_(block),
-        origin_(before.row(y_px) + x_px),
-        low_{-x_px - kBlockReach_px, -y_px - kBlockReach_px},
-        high_{before.width() + kBlockReach_px - kBlock_px - x_px,
-              before.height() + kBlockReach_px - kBlock_px - y_px} {}
+        block_{now.row(at_px.y()) + at_px.x(), now.stride()},
+        origin_(before.row(at_px.y()) + at_px.x()),
+        low_(Vector2i::Constant(-kBlockReach_px) - at_px),
+        high_(Vector2i(before.width(), before.height()) +
+              Vector2i::Constant(kBlockReach_px - kBlock_px) - at_px) {}
 
-  void expect(Vector expected) { expected_ = expected; }
+  void expect(const Vector2i& expected) { expected_ = expected; }
 
   /// Adds a vector unless it is a candidate already.
-  void add_candidate(Vector v) {
-    v = inside(v);
+  void add_candidate(const Vector2i& candidate) {
+    const Vector2i v = inside(candidate);
     const auto end = candidates_.begin() + count_;
     if (std::find(candidates_.begin(), end, v) == end)
       candidates_[static_cast<size_t>(count_++)] = v;
@@ -59,7 +56,7 @@ class Walk {
     for (int i = 0; i < count_; ++i) try_at(candidates_[static_cast<size_t>(i)]);
   }
 
-  void try_hint(Vector hint) { try_at(inside(hint)); }
+  void try_hint(const Vector2i& hint) { try_at(inside(hint)); }
 
   /// Tries every second pixel around rest; used for the few blocks of a coarse picture.
   void search_everywhere(const AreaSums& before) {
@@ -67,38 +64,35 @@ class Walk {
     for (int y = 0; y < kBlock_px; ++y) {
       for (int x = 0; x < kBlock_px; ++x) sum += block_.pixels[y * block_.stride + x];
     }
-    for (int dy = -kFarthest_px; dy <= kFarthest_px; dy += 2) {
-      for (int dx = -kFarthest_px; dx <= kFarthest_px; dx += 2) {
-        const Vector v = inside({dx, dy});
-        const int least = std::abs(sum - before.at(v.dx - low_.dx, v.dy - low_.dy));
+    for (int y = -kFarthest_px; y <= kFarthest_px; y += 2) {
+      for (int x = -kFarthest_px; x <= kFarthest_px; x += 2) {
+        const Vector2i v = inside({x, y});
+        const int least = std::abs(sum - before.at(v.x() - low_.x(), v.y() - low_.y()));
         if (least < cost_) try_at(v);
       }
     }
   }
 
   void search_far() {
-    static constexpr std::array<Vector, 8> kAround{
+    static const std::array<Vector2i, 8> kAround{
         {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
     for (int step = kFarthest_px; step >= kNearest_px; step /= 2) {
-      const Vector from = best_;
-      for (const Vector& v : kAround) {
-        try_at(inside({from.dx + step * v.dx, from.dy + step * v.dy}));
-      }
+      const Vector2i from = best_;
+      for (const Vector2i& v : kAround) try_at(inside(from + step * v));
     }
   }
 
   /// Moves one pixel at a time and never back in the direction from which it came.
   void walk_downhill() {
     if (lowest_ && *lowest_ == best_) return;
-    static constexpr std::array<Vector, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    static const std::array<Vector2i, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     int came_by = -1;
     for (int step = 0; step < kMostSteps; ++step) {
-      const Vector from = best_;
+      const Vector2i from = best_;
       int taken = -1;
       for (int k = 0; k < 4; ++k) {
         if (came_by >= 0 && k == (came_by + 2) % 4) continue;
-        const Vector& v = kSteps[static_cast<size_t>(k)];
-        const Vector to{from.dx + v.dx, from.dy + v.dy};
+        const Vector2i to = from + kSteps[static_cast<size_t>(k)];
         if (inside(to) == to && try_at(to)) taken = k;
       }
       if (taken < 0) {
@@ -110,21 +104,16 @@ class Walk {
   }
 
   int difference() const { return difference_; }
-  BlockMatch match() const {
-    return {static_cast<int16_t>(best_.dx), static_cast<int16_t>(best_.dy), difference_};
-  }
+  BlockMatch match() const { return {best_, difference_}; }
 
  private:
-  Vector inside(Vector v) const {
-    return {std::min(std::max(v.dx, low_.dx), high_.dx),
-            std::min(std::max(v.dy, low_.dy), high_.dy)};
-  }
+  Vector2i inside(const Vector2i& v) const { return v.cwiseMax(low_).cwiseMin(high_); }
 
-  bool try_at(Vector v) {
-    const int deviation_px = std::abs(v.dx - expected_.dx) + std::abs(v.dy - expected_.dy);
+  bool try_at(const Vector2i& v) {
+    const int deviation_px = (v - expected_).cwiseAbs().sum();
     const int dearer = kLambda * std::min(deviation_px, kMostDeviation_px);
     if (dearer >= cost_) return false;
-    const BlockPixels there{origin_ + v.dy * before_.stride() + v.dx, before_.stride()};
+    const BlockPixels there{origin_ + v.y() * before_.stride() + v.x(), before_.stride()};
     const int difference = block_difference(block_, there, cost_ - dearer);
     if (difference + dearer >= cost_) return false;
     cost_ = difference + dearer;
@@ -136,96 +125,67 @@ class Walk {
   const PaddedImage& before_;
   BlockPixels block_;
   const uint8_t* origin_;
-  Vector low_;
-  Vector high_;
-  Vector expected_{0, 0};
-  std::array<Vector, 9> candidates_{};
+  Vector2i low_;
+  Vector2i high_;
+  Vector2i expected_{0, 0};
+  std::array<Vector2i, 9> candidates_;
   int count_ = 0;
-  Vector best_{0, 0};
-  std::optional<Vector> lowest_;  ///< around which no step is better
+  Vector2i best_{0, 0};
+  std::optional<Vector2i> lowest_;  ///< around which no step is better
   int cost_ = std::numeric_limits<int>::max();
   int difference_ = 0;
 };
 
-Vector vector_of(const BlockMatch& match) {
-  return {match.dx, match.dy};
-}
-
 }  // namespace
-
-BlockGrid BlockGrid::over(int width, int height) {
-  BlockGrid grid;
-  grid.columns = width / kBlock_px;
-  grid.rows = height / kBlock_px;
-  grid.left_px = (width - grid.columns * kBlock_px) / 2;
-  grid.top_px = (height - grid.rows * kBlock_px) / 2;
-  return grid;
-}
-
-int BlockGrid::x_px(int column) const {
-  return left_px + column * kBlock_px;
-}
-
-int BlockGrid::y_px(int row) const {
-  return top_px + row * kBlock_px;
-}
 
 void BlockSearch::find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
                        const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches) {
   last_ = matches;
   if (hints.empty()) before_sums_.resize(before.width(), before.height());
   bool has_sums = false;
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const auto i = static_cast<size_t>(row * grid.columns + column);
-      const auto above = i - static_cast<size_t>(grid.columns);
-      const auto below = i + static_cast<size_t>(grid.columns);
-      const bool has_left = column > 0;
-      const bool has_right = column + 1 < grid.columns;
-      const bool has_above = row > 0;
-      const int x_px = grid.x_px(column);
-      const int y_px = grid.y_px(row);
-      Walk walk(before, {now.row(y_px) + x_px, now.stride()}, x_px, y_px);
+  for (size_t i = 0; i < matches.size(); ++i) {
+    const size_t above = i - static_cast<size_t>(grid.columns);
+    const size_t below = i + static_cast<size_t>(grid.columns);
+    const bool has_left = grid.column(i) > 0;
+    const bool has_right = grid.column(i) + 1 < grid.columns;
+    const bool has_above = grid.row(i) > 0;
+    Walk walk(before, now, grid.corner_of(i));
 
-      Vector expected = vector_of(last_[i]);
-      if (has_left && has_above && has_right) {
-        const BlockMatch& a = matches[i - 1];
-        const BlockMatch& b = matches[above];
-        const BlockMatch& c = matches[above + 1];
-        expected = {middle(a.dx, b.dx, c.dx), middle(a.dy, b.dy, c.dy)};
-      } else if (has_left) {
-        expected = vector_of(matches[i - 1]);
-      } else if (has_above) {
-        expected = vector_of(matches[above]);
-      }
-      walk.expect(expected);
-      walk.add_candidate(expected);
-      if (has_left) walk.add_candidate(vector_of(matches[i - 1]));
-      if (has_above) walk.add_candidate(vector_of(matches[above]));
-      if (has_above && has_right) walk.add_candidate(vector_of(matches[above + 1]));
-      walk.add_candidate(vector_of(last_[i]));
-      if (has_right) walk.add_candidate(vector_of(last_[i + 1]));
-      if (row + 1 < grid.rows) walk.add_candidate(vector_of(last_[below]));
-      if (has_left) walk.add_candidate(vector_of(last_[i - 1]));
-      walk.add_candidate({0, 0});
-      walk.try_candidates();
-      const auto difference = static_cast<float>(walk.difference());
-      if (difference > kRounding_grey * kBlockArea_px) walk.walk_downhill();
-      // The search is widened only if no nearby position fits, because a repetitive pattern looks
-      // the same in many positions.
-      if (walk.difference() > kDoubtful_grey * kBlockArea_px) {
-        if (hints.empty()) {
-          if (!has_sums) before_sums_.read(before);
-          has_sums = true;
-          walk.search_everywhere(before_sums_);
-        } else {
-          walk.try_hint(vector_of(hints[i]));
-          if (walk.difference() > kClear_grey * kBlockArea_px) walk.search_far();
-        }
-        walk.walk_downhill();
-      }
-      matches[i] = walk.match();
+    Vector2i expected = last_[i].from_px;
+    if (has_left && has_above && has_right) {
+      expected = middle(matches[i - 1].from_px, matches[above].from_px, matches[above + 1].from_px);
+    } else if (has_left) {
+      expected = matches[i - 1].from_px;
+    } else if (has_above) {
+      expected = matches[above].from_px;
     }
+    walk.expect(expected);
+    walk.add_candidate(expected);
+    if (has_left) walk.add_candidate(matches[i - 1].from_px);
+    if (has_above) walk.add_candidate(matches[above].from_px);
+    if (has_above && has_right) walk.add_candidate(matches[above + 1].from_px);
+    walk.add_candidate(last_[i].from_px);
+    if (has_right) walk.add_candidate(last_[i + 1].from_px);
+    if (grid.row(i) + 1 < grid.rows) walk.add_candidate(last_[below].from_px);
+    if (has_left) walk.add_candidate(last_[i - 1].from_px);
+    walk.add_candidate({0, 0});
+    walk.try_candidates();
+    const auto difference = static_cast<float>(walk.difference());
+    if (difference > kRounding_grey * kBlockArea_px) walk.walk_downhill();
+    // The search is widened only if no nearby position fits, because a repetitive pattern looks the
+    // same in many positions.
+    if (walk.difference() > kDoubtful_grey * kBlockArea_px) {
+      if (hints.empty()) {
+        if (!has_sums) before_sums_.read(before);
+        has_sums = true;
+        walk.search_everywhere(before_sums_);
+      } else {
+        walk.try_hint(hints[i].from_px);
+        if (walk.difference() > kClear_grey * kBlockArea_px) walk.search_far();
+      }
+      walk.walk_downhill();
+    }
+    matches[i] = walk.match();
   }
 }
 

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "core/field/block_grid.h"
 #include "core/picture/padded_image.h"
 
 namespace spidar {
@@ -35,24 +38,9 @@ class AreaSums {
 /// and the interpolation read around them.
 constexpr int kBlockReach_px = PaddedImage::kPad_px - 2;
 
-/// Blocks side by side, centred on the picture. The strip that is left at each border is narrower
-/// than a block.
-struct BlockGrid {
-  int columns = 0;
-  int rows = 0;
-  int left_px = 0;  ///< of the first block
-  int top_px = 0;
-
-  static BlockGrid over(int width, int height);
-  int size() const { return columns * rows; }
-  int x_px(int column) const;
-  int y_px(int row) const;
-};
-
-/// A block at p was at p + (dx, dy) in the picture before.
+/// A block at p was at p + from_px in the picture before.
 struct BlockMatch {
-  int16_t dx = 0;  ///< px
-  int16_t dy = 0;
+  Eigen::Vector2i from_px{0, 0};
   int difference = 0;  ///< Σ |now − before| of the block
 };
 

@@ -32,20 +32,10 @@ bool read_square(const ImageView& frame, int left, int top, int side, std::vecto
   return true;
 }
 
-/// The block at a position of the field's picture, or the nearest one.
+/// The block at a position relative to the centre of the field's picture, or the nearest one.
 size_t block_at(const BlockField& field, const Eigen::Vector2d& at_px) {
-  const BlockGrid& grid = field.grid();
-  const auto index = [](double px, int begin_px, int count) {
-    return std::clamp(static_cast<int>(std::floor((px - begin_px) / kBlock_px)), 0, count - 1);
-  };
-  const int column = index(at_px.x() + field.picture().width() / 2.0, grid.left_px, grid.columns);
-  const int row = index(at_px.y() + field.picture().height() / 2.0, grid.top_px, grid.rows);
-  return static_cast<size_t>(row * grid.columns + column);
-}
-
-Eigen::Vector2d motion_of(const BlockField& field, size_t block) {
-  const MotionBlock& moved = field.blocks()[block];
-  return Eigen::Vector2f(moved.moved_x_px, moved.moved_y_px).cast<double>();
+  const PaddedImage& picture = field.picture();
+  return field.grid().block_at(at_px + Eigen::Vector2d(picture.width(), picture.height()) / 2);
 }
 
 }  // namespace
@@ -57,7 +47,7 @@ FineWindows::FineWindows() {
 
 /// Reads the pixels of a window whose position is set. False where it does not fit or shows too
 /// little.
-bool FineWindows::read(const ImageView& frame, Window& window) {
+bool FineWindows::read(const ImageView& frame, Template& window) {
   constexpr int kAround = kSide_px + 2;
   if (!read_square(frame, window.left_px - 1, window.top_px - 1, kAround, row_, patch_.data())) {
     return false;
@@ -98,12 +88,10 @@ bool FineWindows::read(const ImageView& frame, Window& window) {
 
 void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
                            const FieldPosition& position, size_t block) {
-  const MotionBlock& middle = field.blocks()[block];
   const Eigen::Vector2d at_px =
-      position.centre_px +
-      position.scale * Eigen::Vector2f(middle.x_px, middle.y_px).cast<double>();
+      position.centre_px + position.scale * field.blocks()[block].centre_px.cast<double>();
   windows_.emplace_back();
-  Window& window = windows_.back();
+  Template& window = windows_.back();
   window.block = block;
   window.left_px = static_cast<int>(std::lround(at_px.x())) - kSide_px / 2;
   window.top_px = static_cast<int>(std::lround(at_px.y())) - kSide_px / 2;
@@ -120,7 +108,7 @@ void FineWindows::keep(const ImageView& frame, const BlockField& field,
 
 /// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of
 /// reach.
-bool FineWindows::step(const Window& window, const Eigen::Vector2f& offset_px,
+bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
                        Eigen::Vector2f& step_px, float& residual) const {
   if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
   const Eigen::Vector2f from = offset_px + Eigen::Vector2f::Constant(kReach_px);
@@ -154,7 +142,7 @@ bool FineWindows::step(const Window& window, const Eigen::Vector2f& offset_px,
 
 /// Finds a window in `frame`. `moved_px`: where its block went, then where it went itself, px of
 /// the frame. False where it is lost.
-bool FineWindows::match(const ImageView& frame, const Window& window, Eigen::Vector2d& moved_px) {
+bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px) {
   const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
   // Not finite, or outside of any frame.
   if (!(whole_px.cwiseAbs().maxCoeff() < frame.width + frame.height)) return false;
@@ -176,14 +164,17 @@ bool FineWindows::match(const ImageView& frame, const Window& window, Eigen::Vec
 const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const BlockField& field,
                                                  const FieldPosition& position) {
   found_.clear();
-  for (const Window& window : windows_) {
+  const auto moved_with = [&](size_t block) -> Eigen::Vector2d {
+    return field.blocks()[block].moved_px.cast<double>();
+  };
+  for (const Template& window : windows_) {
     // The middle of the window in the picture before, and the block that is there now: it gives a
     // first estimate of the new position, and the block at that position gives the motion.
     const Eigen::Vector2d corner_px(window.left_px, window.top_px);
     const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
     const Eigen::Vector2d from_px = (middle_px - position.centre_px) / position.scale;
-    const size_t there = block_at(field, from_px + motion_of(field, block_at(field, from_px)));
-    Eigen::Vector2d moved_px = position.scale * motion_of(field, there);
+    const size_t there = block_at(field, from_px + moved_with(block_at(field, from_px)));
+    Eigen::Vector2d moved_px = position.scale * moved_with(there);
     if (!match(frame, window, moved_px)) continue;
     moved_px /= position.scale;
     found_.push_back({block_at(field, from_px + moved_px), from_px, moved_px});

@@ -60,7 +60,7 @@ class FineWindows {
   static constexpr int kReach_px = 2;
   static constexpr int kPixels = kSide_px * kSide_px;
 
-  struct Window {
+  struct Template {
     size_t block = 0;
     int left_px = 0;
     int top_px = 0;
@@ -73,16 +73,16 @@ class FineWindows {
     float variance = 0;  ///< of the grey levels
   };
 
-  bool read(const ImageView& frame, Window& window);
+  bool read(const ImageView& frame, Template& window);
   void keep_one(const ImageView& frame, const BlockField& field, const FieldPosition& position,
                 size_t block);
-  bool step(const Window& window, const Eigen::Vector2f& offset_px, Eigen::Vector2f& step_px,
+  bool step(const Template& window, const Eigen::Vector2f& offset_px, Eigen::Vector2f& step_px,
             float& residual) const;
-  bool match(const ImageView& frame, const Window& window, Eigen::Vector2d& moved_px);
+  bool match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px);
 
   /// A window with kReach_px, and one for the interpolation, around it.
   static constexpr int kPatch_px = kSide_px + 2 * kReach_px + 2;
-  std::vector<Window> windows_;
+  std::vector<Template> windows_;
   std::vector<FineMotion> found_;
   std::vector<uint8_t> row_;
   std::array<float, kPatch_px * kPatch_px> patch_;

@@ -42,12 +42,10 @@ void MotionEstimator::report_tracks(const FieldPosition& position,
   const Eigen::Vector2f centre_px = position.centre_px.cast<float>();
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
     const MotionBlock& block = field_.blocks()[i];
-    const bool shows_motion =
-        objects_.is_measured(i) || block.weakest_texture() >= MotionBlock::kLeastTexture;
-    if (!shows_motion) continue;
-    const ImagePoint to{centre_px.x() + scale * block.x_px, centre_px.y() + scale * block.y_px};
-    const ImagePoint from{to.x_px - scale * block.moved_x_px, to.y_px - scale * block.moved_y_px};
-    tracks.push_back({static_cast<uint32_t>(i), from, to});
+    if (!objects_.is_measured(i) && !block.has_corners()) continue;
+    const Eigen::Vector2f to = centre_px + scale * block.centre_px;
+    const Eigen::Vector2f from = to - scale * block.moved_px;
+    tracks.push_back({static_cast<uint32_t>(i), {from.x(), from.y()}, {to.x(), to.y()}});
   }
 }
 

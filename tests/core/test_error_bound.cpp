@@ -129,10 +129,9 @@ double bound_of_blocks_px(double across, int side) {
   }
   std::vector<RelativeBlock> relative(field.blocks().size());
   std::vector<uint32_t> owners(relative.size());
-  for (int i = 0; i < static_cast<int>(owners.size()); ++i) {
-    const int columns = field.grid().columns;
-    relative[static_cast<size_t>(i)].shows_motion = true;
-    owners[static_cast<size_t>(i)] = i % columns < side && i / columns < side;
+  for (size_t i = 0; i < owners.size(); ++i) {
+    relative[i].shows_motion = true;
+    owners[i] = field.grid().column(i) < side && field.grid().row(i) < side;
   }
   ObjectMotion found;
   found.model.kind = ModelKind::kTranslation;

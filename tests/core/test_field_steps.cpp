@@ -166,8 +166,8 @@ constexpr double kRounded = 2;
 /// texture that is about the same in all directions, else perhaps at the next one along an edge.
 double step_px(const MotionBlock& block, double nearest_px) {
   const float weakest = block.weakest_texture();
-  const bool is_round =
-      weakest > 8 * MotionBlock::kRegularization && 2 * weakest >= block.xx + block.yy - weakest;
+  const bool is_round = weakest > 8 * MotionBlock::kRegularization &&
+                        2 * weakest >= block.structure.trace() - weakest;
   return is_round || nearest_px == 0 ? nearest_px : static_cast<double>(kMostOff_px);
 }
 
@@ -175,15 +175,13 @@ double step_px(const MotionBlock& block, double nearest_px) {
 void expect_field(const BlockField& field, double x_px, double y_px, double rounded = kRounded) {
   const BlockGrid& grid = field.grid();
   const double nearest_px = std::hypot(x_px - std::round(x_px), y_px - std::round(y_px));
-  for (int row = 4; row + 4 < grid.rows; ++row) {
-    for (int column = 4; column + 4 < grid.columns; ++column) {
-      const MotionBlock& block = field.blocks()[static_cast<size_t>(row * grid.columns + column)];
-      const auto texture = static_cast<double>(block.weakest_texture());
-      if (texture < 6) continue;
-      ASSERT_LT(std::hypot(block.moved_x_px - x_px, block.moved_y_px - y_px),
-                block_tolerance_px(step_px(block, nearest_px), texture, rounded))
-          << column << ", " << row << ", texture " << texture;
-    }
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const MotionBlock& block = field.blocks()[i];
+    const auto texture = static_cast<double>(block.weakest_texture());
+    if (grid.columns_beside(i) < 4 || grid.rows_beside(i) < 4 || texture < 6) continue;
+    ASSERT_LT((block.moved_px.cast<double>() - Eigen::Vector2d(x_px, y_px)).norm(),
+              block_tolerance_px(step_px(block, nearest_px), texture, rounded))
+        << grid.column(i) << ", " << grid.row(i) << ", texture " << texture;
   }
 }
 
@@ -215,7 +213,7 @@ TEST(FieldSteps, LightThatChangesInAPanIsNoMotion) {
     EXPECT_EQ(field.update(moved_texture(2 * pan_px, 0, 0.9)), BlockField::Result::kMoved);
     int right = 0;
     for (const MotionBlock& block : field.blocks()) {
-      right += std::hypot(block.moved_x_px - pan_px, block.moved_y_px) < 0.5;
+      right += (block.moved_px.cast<double>() - Eigen::Vector2d(pan_px, 0)).norm() < 0.5;
     }
     // The blocks of the column that comes into view were not in the picture before.
     EXPECT_GE(right, (field.grid().columns - 2) * field.grid().rows) << pan_px;
@@ -226,7 +224,7 @@ TEST(FieldSteps, AnotherPictureIsACut) {
   BlockField field;
   field.update(noise(427, 240, 1));
   EXPECT_EQ(field.update(noise(427, 240, 2)), BlockField::Result::kCut);
-  for (const MotionBlock& block : field.blocks()) EXPECT_EQ(block.moved_x_px, 0);
+  for (const MotionBlock& block : field.blocks()) EXPECT_EQ(block.moved_px.x(), 0);
   EXPECT_EQ(field.update(noise(320, 240, 2)), BlockField::Result::kFirst) << "another size";
 }
 
@@ -254,12 +252,12 @@ TEST(FieldSteps, DifferenceIsLeastWhereTheBlockCameFrom) {
   BlockField field;
   field.update(moved_texture(0, 0));
   field.update(moved_texture(2.5, 1));
-  const int middle = field.grid().size() / 2;
-  const int there = field.difference_if_moved(middle, 2.5f, 1);
-  EXPECT_LT(there, field.difference_if_moved(middle, 0, 0));
-  EXPECT_LT(there, field.difference_if_moved(middle, 5, 3));
-  EXPECT_LT(field.difference_if_moved(middle, 1000, 0), 0) << "out of reach";
-  EXPECT_LT(field.difference_if_moved(middle, std::nanf(""), 0), 0);
+  const size_t middle = field.grid().size() / 2;
+  const int there = field.difference_if_moved(middle, {2.5f, 1});
+  EXPECT_LT(there, field.difference_if_moved(middle, {0, 0}));
+  EXPECT_LT(there, field.difference_if_moved(middle, {5, 3}));
+  EXPECT_LT(field.difference_if_moved(middle, {1000, 0}), 0) << "out of reach";
+  EXPECT_LT(field.difference_if_moved(middle, {std::nanf(""), 0}), 0);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/camera/block_votes.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace spidar {
@@ -27,60 +26,40 @@ enum class Voters { kTextured, kEdgesToo };
 bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
   votes.clear();
   votes.with_edges = voters == Voters::kEdgesToo;
-  MotionBlock together;
+  Eigen::Matrix2f together = Eigen::Matrix2f::Zero();
   const BlockGrid& grid = field.grid();
   const int left = past.margin_columns;
   const int top = past.margin_rows;
   votes.size_px = {(grid.columns - 2 * left) * kBlock_px, (grid.rows - 2 * top) * kBlock_px};
-  for (int row = top; row < grid.rows - top; ++row) {
-    for (int column = left; column < grid.columns - left; ++column) {
-      const bool at_border = std::min(column, grid.columns - 1 - column) < left + kBorderBlocks ||
-                             std::min(row, grid.rows - 1 - row) < top + kBorderBlocks;
-      votes.all += at_border ? kBorderVotes : 1;
-      const auto i = static_cast<size_t>(row * grid.columns + column);
-      const MotionBlock& block = field.blocks()[i];
-      const double texture = static_cast<double>(block.weakest_texture());
-      const bool may_vote = voters == Voters::kEdgesToo
-                                ? block.has_texture() && texture > 0
-                                : block.weakest_texture() >= MotionBlock::kLeastTexture;
-      if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
-      if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
-      double weight = texture / (texture + kFullTexture) /
-                      (1 + static_cast<double>(block.residual) / kBadResidual);
-      // Right to half a pixel, as all motion is before it is refined.
-      const bool rests = std::hypot(block.moved_x_px, block.moved_y_px) < kMostOff_px / 2;
-      if (at_border && !rests) weight *= kBorderVotes;
-      if (!past.persistence.empty()) {
-        weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
-      }
-      const Eigen::Vector2d moved_px =
-          Eigen::Vector2f(block.moved_x_px, block.moved_y_px).cast<double>();
-      const Eigen::Vector2d at_px = Eigen::Vector2f(block.x_px, block.y_px).cast<double>();
-      votes.points.push_back({0, at_px - moved_px, moved_px});
-      votes.weights.push_back(weight);
-      votes.at_border.push_back(at_border);
-      votes.sources.push_back(i);
-      const float all_texture = block.xx + block.yy;
-      together.xx += block.xx / all_texture;
-      together.xy += block.xy / all_texture;
-      together.yy += block.yy / all_texture;
+  for (size_t i = 0; i < grid.size(); ++i) {
+    const int across = grid.columns_beside(i) - left, down = grid.rows_beside(i) - top;
+    if (across < 0 || down < 0) continue;
+    const bool at_border = across < kBorderBlocks || down < kBorderBlocks;
+    votes.all += at_border ? kBorderVotes : 1;
+    const MotionBlock& block = field.blocks()[i];
+    const double texture = static_cast<double>(block.weakest_texture());
+    const bool may_vote =
+        votes.with_edges ? block.has_texture() && texture > 0 : block.has_corners();
+    if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
+    if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
+    double weight = texture / (texture + kFullTexture) /
+                    (1 + static_cast<double>(block.residual) / kBadResidual);
+    // Right to half a pixel, as all motion is before it is refined.
+    const bool rests = std::hypot(block.moved_px.x(), block.moved_px.y()) < kMostOff_px / 2;
+    if (at_border && !rests) weight *= kBorderVotes;
+    if (!past.persistence.empty()) {
+      weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
     }
+    const Eigen::Vector2d moved_px = block.moved_px.cast<double>();
+    votes.points.push_back({0, block.centre_px.cast<double>() - moved_px, moved_px});
+    votes.weights.push_back(weight);
+    votes.at_border.push_back(at_border);
+    votes.sources.push_back(i);
+    together += block.structure / block.structure.trace();
   }
-  const auto across = static_cast<double>(together.weakest_texture());
-  const auto both = static_cast<double>(together.xx + together.yy);
+  const auto across = static_cast<double>(smaller_eigenvalue(together));
+  const auto both = static_cast<double>(together.trace());
   return across > MotionBlock::kLeastRoundness * (both - across);
-}
-
-/// Whether most of the blocks with texture are not found in the picture before.
-bool are_lost(const BlockField& field) {
-  int lost = 0;
-  int found = 0;
-  for (size_t i = 0; i < field.blocks().size(); ++i) {
-    const BlockField::Match match = field.match_of(i);
-    lost += match == BlockField::Match::kLost;
-    found += match == BlockField::Match::kFound;
-  }
-  return lost > found;
 }
 
 }  // namespace
@@ -91,7 +70,7 @@ void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& v
   if (!collect(field, past, Voters::kEdgesToo, votes)) {
     collect(field, past, Voters::kTextured, votes);
   }
-  votes.are_lost = are_lost(field);
+  votes.are_lost = field.are_lost([](size_t) { return true; });
 }
 
 }  // namespace spidar

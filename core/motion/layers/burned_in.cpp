@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/motion/camera/robust_fit.h"
+#include "core/quantile.h"
 
 namespace spidar {
 namespace {
@@ -75,26 +76,14 @@ void BurnedIn::begin(const BlockField& field, bool camera_moves) {
 /// Median of what the motion leaves unexplained in the blocks around one, grey²; nothing if too few
 /// of them move with the background.
 std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const Block& block) {
-  const BlockGrid& grid = field.grid();
-  const int column = static_cast<int>(block.index) % grid.columns;
-  const int row = static_cast<int>(block.index) / grid.columns;
-  const int first_column = std::max(column - kAround_blocks, 0);
-  const int last_column = std::min(column + kAround_blocks, grid.columns - 1);
   nearby_.clear();
-  for (int j = std::max(row - kAround_blocks, 0);
-       j <= std::min(row + kAround_blocks, grid.rows - 1); ++j) {
-    for (int i = first_column; i <= last_column; ++i) {
-      const MotionBlock& other = field.blocks()[static_cast<size_t>(j * grid.columns + i)];
-      const float x_px = other.moved_x_px - block.background_x_px;
-      const float y_px = other.moved_y_px - block.background_y_px;
-      if (x_px * x_px + y_px * y_px < kWithBackground_px * kWithBackground_px)
-        nearby_.push_back(other.residual);
-    }
-  }
+  field.grid().each_around(block.index, kAround_blocks, [&](size_t i) {
+    const MotionBlock& other = field.blocks()[i];
+    const float apart_px2 = (other.moved_px - block.background_px).squaredNorm();
+    if (apart_px2 < kWithBackground_px * kWithBackground_px) nearby_.push_back(other.residual);
+  });
   if (nearby_.size() < kLeastAround) return std::nullopt;
-  const auto median = nearby_.begin() + static_cast<ptrdiff_t>(nearby_.size() / 2);
-  std::nth_element(nearby_.begin(), median, nearby_.end());
-  return *median;
+  return median(nearby_.begin(), nearby_.end());
 }
 
 /// Whether neither noise nor the block's motion explains its pixels. Noise explains twice its
@@ -109,9 +98,8 @@ bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float
 
 bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
   const auto stays = [&](int x_px, int y_px) {
-    const StayingPixels staying = field.staying_pixels(
-        static_cast<int>(block.index), block.background_x_px, block.background_y_px, x_px, y_px);
-    return is_same(staying, kExactFractionElsewhere);
+    return is_same(field.staying_pixels(block.index, block.background_px, {x_px, y_px}),
+                   kExactFractionElsewhere);
   };
   return stays(-kBeside_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
          stays(0, kBeside_px);
@@ -120,9 +108,8 @@ bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
 void BurnedIn::look(const BlockField& field, const Block& block) {
   if (!camera_moves_) return;
   const MotionBlock& own = field.blocks()[block.index];
-  const float moved_px = std::hypot(own.moved_x_px, own.moved_y_px);
-  const StayingPixels staying = field.staying_pixels(static_cast<int>(block.index),
-                                                     block.background_x_px, block.background_y_px);
+  const float moved_px = std::hypot(own.moved_px.x(), own.moved_px.y());
+  const StayingPixels staying = field.staying_pixels(block.index, block.background_px);
   Sign& sign = signs_[block.index];
   if (is_same(staying, moved_px < kMostOff_px ? kExactFraction : kExactFractionElsewhere)) {
     sign = Sign::kStays;
@@ -136,17 +123,6 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   }
 }
 
-bool BurnedIn::is_beside_staying(const BlockGrid& grid, size_t index) const {
-  const int column = static_cast<int>(index) % grid.columns;
-  const int row = static_cast<int>(index) / grid.columns;
-  for (int j = std::max(row - 1, 0); j <= std::min(row + 1, grid.rows - 1); ++j) {
-    for (int i = std::max(column - 1, 0); i <= std::min(column + 1, grid.columns - 1); ++i) {
-      if (lasting_[static_cast<size_t>(j * grid.columns + i)] >= kLasting) return true;
-    }
-  }
-  return false;
-}
-
 void BurnedIn::end(const BlockGrid& grid) {
   for (size_t i = 0; i < signs_.size(); ++i) {
     const int change = signs_[i] == Sign::kStays ? kGain : -1;
@@ -157,7 +133,8 @@ void BurnedIn::end(const BlockGrid& grid) {
   for (size_t i = 0; i < signs_.size(); ++i) {
     contained_[i] = occluded_[i] = margins_.contains(grid, i);
     if (!camera_moves_ || contained_[i] != 0) continue;
-    const bool beside = is_beside_staying(grid, i);
+    const bool beside =
+        grid.any_around(i, [&](size_t other) { return lasting_[other] >= kLasting; });
     contained_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
                     lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);
     occluded_[i] = contained_[i] != 0 && beside;

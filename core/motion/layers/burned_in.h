@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/field/block_field.h"
 #include "core/motion/layers/margins.h"
 
@@ -31,10 +33,9 @@ class BurnedIn {
   /// A block that differs from the background.
   struct Block {
     size_t index = 0;
-    float background_x_px = 0;  ///< motion of the background at this position
-    float background_y_px = 0;
-    bool is_slow = false;      ///< it hardly differs from the background
-    bool is_expected = false;  ///< it belongs to a known object
+    Eigen::Vector2f background_px;  ///< motion of the background at this position
+    bool is_slow = false;           ///< it hardly differs from the background
+    bool is_expected = false;       ///< it belongs to a known object
   };
 
   /// Begins a pair of pictures. If the camera does not move (`camera_moves` is false), constant
@@ -75,7 +76,6 @@ class BurnedIn {
   std::optional<float> noise_around_grey2(const BlockField& field, const Block& block);
   bool is_unexplained(const BlockField& field, const Block& block, float moved_px);
   bool stays_beside(const BlockField& field, const Block& block) const;
-  bool is_beside_staying(const BlockGrid& grid, size_t index) const;
 
   Margins margins_;
   std::vector<Sign> signs_;

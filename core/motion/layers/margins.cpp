@@ -29,9 +29,9 @@ struct Side {
 
   bool has_changed(int line, int position) const {
     if (from_end) line = lines() - 1 - line;
-    const int columns = field.grid().columns;
-    const int block = are_columns ? position * columns + line : line * columns + position;
-    const auto difference = static_cast<float>(field.difference_if_moved(block, 0, 0));
+    const size_t block =
+        are_columns ? field.grid().index(line, position) : field.grid().index(position, line);
+    const auto difference = static_cast<float>(field.difference_if_moved(block, {0, 0}));
     return difference > kRounding_grey * kBlockArea_px;
   }
 

@@ -3,7 +3,6 @@
 /// Finds the bars or the frame around a film.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -35,10 +34,7 @@ class Margins {
 
   /// Whether a block is outside of the film.
   bool contains(const BlockGrid& grid, size_t block) const {
-    const int column = static_cast<int>(block) % grid.columns;
-    const int row = static_cast<int>(block) / grid.columns;
-    return std::min(column, grid.columns - 1 - column) < columns() ||
-           std::min(row, grid.rows - 1 - row) < rows();
+    return grid.columns_beside(block) < columns() || grid.rows_beside(block) < rows();
   }
 
   void reset();

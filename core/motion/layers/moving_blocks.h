@@ -6,13 +6,25 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/field/block_field.h"
 #include "core/motion/camera/background.h"
-#include "core/motion/camera/relative_block.h"
 #include "core/motion/layers/burned_in.h"
 #include "core/motion/layers/parallax.h"
 
 namespace spidar {
+
+/// A block compared with the background. Lengths are in pixels of the field's picture.
+struct RelativeBlock {
+  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();       ///< against the background
+  Eigen::Vector2f background_px = Eigen::Vector2f::Zero();  ///< motion of the background there
+  bool shows_motion = false;  ///< its texture, or its pixels, tell how it moves
+  bool was_outside = false;   ///< most of it was outside of the film in the previous picture
+  bool is_occluded = false;   ///< something burned in hides the film here, see BurnedIn::occludes()
+  bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
+  bool moves = false;         ///< moves by itself, taking its neighbours into account
+};
 
 /// Of the motion of a body, by how much that of its limbs may differ from it.
 constexpr double kAlikeFraction = 0.5;

@@ -60,8 +60,7 @@ class RegionFinder {
   std::vector<int> parent_;
   std::vector<int16_t> region_of_root_;
   std::vector<int16_t> labels_;
-  std::vector<float> x_px_;
-  std::vector<float> y_px_;
+  std::vector<Eigen::Vector2f> moved_px_;  ///< of the blocks of a region
   std::vector<Region> regions_;
 };
 

@@ -25,8 +25,7 @@ bool is_around(const Region& region, const Eigen::Vector2d& at_px) {
 
 ErrorBound::ErrorBound() {
   squares_px2_.reserve(kMostDisplacements);
-  beside_x_px_.reserve(kMostDisplacements);
-  beside_y_px_.reserve(kMostDisplacements);
+  beside_px_.reserve(kMostDisplacements);
 }
 
 /// Variance of each coordinate that comes from the object's blocks: of their median, and of the
@@ -35,53 +34,44 @@ ErrorBound::ErrorBound() {
 double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
                                     const ObjectEvidence& evidence) {
   squares_px2_.clear();
-  MotionBlock sum;
+  Eigen::Matrix2f structure = Eigen::Matrix2f::Zero();
+  float residual = 0;
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const RelativeBlock& relative = evidence.relative[i];
     if (evidence.owners[i] != key || !relative.shows_motion) continue;
     const MotionBlock& block = evidence.field.blocks()[i];
-    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
-    const Eigen::Vector2d from_px = Eigen::Vector2d(block.x_px, block.y_px) - moved_px;
+    const Eigen::Vector2d moved_px = relative.moved_px.cast<double>();
+    const Eigen::Vector2d from_px = block.centre_px.cast<double>() - moved_px;
     squares_px2_.push_back((moved_px - found.model.displacement_px(from_px)).squaredNorm());
-    sum.xx += block.xx;
-    sum.xy += block.xy;
-    sum.yy += block.yy;
-    sum.residual += block.residual;
+    structure += block.structure;
+    residual += block.residual;
   }
   if (squares_px2_.empty()) return 0;
   const auto n = static_cast<double>(squares_px2_.size());
   const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
   const double texture =
-      static_cast<double>(std::max(sum.weakest_texture(), MotionBlock::kLeastTexture));
+      static_cast<double>(std::max(smaller_eigenvalue(structure), MotionBlock::kLeastTexture));
   return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
-         static_cast<double>(sum.residual) / (n * kBlockArea_px * texture);
+         static_cast<double>(residual) / (n * kBlockArea_px * texture);
 }
 
 /// The variance of the background: the median of what its model leaves over beside the object, or
 /// the noise of a single block where nothing shows it.
 double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
-  beside_x_px_.clear();
-  beside_y_px_.clear();
+  beside_px_.clear();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const MotionBlock& block = evidence.field.blocks()[i];
     const RelativeBlock& relative = evidence.relative[i];
-    if (evidence.owners[i] != 0 || relative.was_outside ||
-        !is_around(region, {block.x_px, block.y_px}) ||
-        block.weakest_texture() < MotionBlock::kLeastTexture) {
-      continue;
-    }
-    beside_x_px_.push_back(relative.x_px);
-    beside_y_px_.push_back(relative.y_px);
+    if (evidence.owners[i] != 0 || relative.was_outside || !block.has_corners()) continue;
+    if (is_around(region, block.centre_px.cast<double>())) beside_px_.push_back(relative.moved_px);
   }
   const bool moves = evidence.background.model.kind != ModelKind::kStill;
   const double shared_px2 = moves ? kSharedError_px * kSharedError_px : 0;
-  if (beside_x_px_.empty()) {
+  if (beside_px_.empty()) {
     const double noise_px = moves ? evidence.background.sigma_px : 0;
     return shared_px2 + noise_px * noise_px;
   }
-  const Eigen::Vector2d left_px(median(beside_x_px_.begin(), beside_x_px_.end()),
-                                median(beside_y_px_.begin(), beside_y_px_.end()));
-  return shared_px2 + left_px.squaredNorm() / 2;
+  return shared_px2 + median_of_each(beside_px_).cast<double>().squaredNorm() / 2;
 }
 
 double ErrorBound::px(uint32_t key, const Region& region, const ObjectMotion& found,

@@ -42,9 +42,8 @@ class ErrorBound {
   double own_variance_px2(uint32_t key, const ObjectMotion& found, const ObjectEvidence& evidence);
   double background_variance_px2(const Region& region, const ObjectEvidence& evidence);
 
-  std::vector<double> squares_px2_;  ///< distances of the blocks from the object's motion
-  std::vector<float> beside_x_px_;   ///< motion of blocks beside the object
-  std::vector<float> beside_y_px_;
+  std::vector<double> squares_px2_;         ///< distances of the blocks from the object's motion
+  std::vector<Eigen::Vector2f> beside_px_;  ///< motion of blocks beside the object
 };
 
 }  // namespace spidar

@@ -27,9 +27,8 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
     const RelativeBlock& relative = evidence.relative[i];
     if (evidence.owners[i] != key || !relative.shows_motion) continue;
     if (collected_.points.size() >= kMostDisplacements) break;
-    const Eigen::Vector2d moved_px(relative.x_px, relative.y_px);
-    const Eigen::Vector2d at_px(blocks[i].x_px, blocks[i].y_px);
-    collected_.points.push_back({0, at_px - moved_px, moved_px});
+    const Eigen::Vector2d moved_px = relative.moved_px.cast<double>();
+    collected_.points.push_back({0, blocks[i].centre_px.cast<double>() - moved_px, moved_px});
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
   collected_.sigma_px = 2 * evidence.background.sigma_px;

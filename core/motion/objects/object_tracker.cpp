@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/motion/layers/margins.h"
 #include "core/motion/layers/salience.h"
@@ -104,7 +105,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
     if (life.is_seen()) life.turn(State::kHidden);
   }
   order_.resize(regions.size());
-  for (size_t k = 0; k < order_.size(); ++k) order_[k] = k;
+  std::iota(order_.begin(), order_.end(), size_t{0});
   std::sort(order_.begin(), order_.end(),
             [&](size_t a, size_t b) { return regions[a].blocks > regions[b].blocks; });
   for (const size_t k : order_) {
@@ -169,7 +170,7 @@ double ObjectTracker::noise_around(const Life& life) {
         moving_.burned_in().contains(i)) {
       continue;
     }
-    around_px_.emplace_back(block.x_px, block.y_px);
+    around_px_.push_back(block.moved_px);
   }
   parallax_.measure(around_px_);
   return parallax_.sigma_px(life.region.relative_px);
@@ -178,16 +179,8 @@ double ObjectTracker::noise_around(const Life& life) {
 /// Whether something else is in the place of most of an object: what is visible is a rim, and most
 /// of its blocks are not found in the picture before. Their motions are those of errors.
 bool ObjectTracker::has_vanished(const Life& life, const FieldInFrame& frame) const {
-  if (!life.is_rim(life.region)) return false;
-  int lost = 0;
-  int found = 0;
-  for (size_t i = 0; i < owners_.size(); ++i) {
-    if (owners_[i] != life.key) continue;
-    const BlockField::Match match = frame.field.match_of(i);
-    lost += match == BlockField::Match::kLost;
-    found += match == BlockField::Match::kFound;
-  }
-  return lost > found;
+  return life.is_rim(life.region) &&
+         frame.field.are_lost([&](size_t block) { return owners_[block] == life.key; });
 }
 
 void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
