@@ -75,7 +75,7 @@ bool is_gap(const TimedWrench& frame, int64_t next_ns) {
 
 size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
   size_t after = 0;
-  while (after < count_ && segment(count_ - 1 - after).frame.time_ns > time_ns) ++after;
+  while (after < size() && segments_[after].frame.time_ns > time_ns) ++after;
   return after;
 }
 
@@ -85,10 +85,10 @@ size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
 // p0 is the value of the segment before at the same time. It is constant when that segment has
 // ended; otherwise m0 = 0, and the curve leaves that segment with its slope, because the weight of
 // p1 and its derivative are zero at s = 0.
-Wrench WrenchTimeline::value(size_t i, int64_t time_ns) const noexcept {
-  const Segment& here = segment(i);
-  if (time_ns >= here.to_ns || i == 0) return here.frame.wrench;
-  const Wrench before = here.from_rest ? Wrench() : value(i - 1, time_ns);
+Wrench WrenchTimeline::value(size_t age, int64_t time_ns) const noexcept {
+  const Segment& here = segments_[age];
+  if (time_ns >= here.to_ns || age + 1 == size()) return here.frame.wrench;
+  const Wrench before = here.from_rest ? Wrench() : value(age + 1, time_ns);
   const double duration_s = elapsed_s(here.from_ns, here.to_ns);
   const double s = elapsed_s(here.from_ns, time_ns) / duration_s;
   return interpolate(before, here.frame.wrench, s * s * (3 - 2 * s)) +
@@ -96,12 +96,12 @@ Wrench WrenchTimeline::value(size_t i, int64_t time_ns) const noexcept {
 }
 
 void WrenchTimeline::join_smoothly(Segment& next) noexcept {
-  Segment& last = segment(count_ - 1);
+  Segment& last = segments_[0];
   const bool has_begun = present_ns_ > last.from_ns;
   const bool is_plain =  // neither late nor bending away from the segment before
-      count_ > 1 && last.to_ns == last.frame.time_ns && last.from_ns >= segment(count_ - 2).to_ns;
+      size() > 1 && last.to_ns == last.frame.time_ns && last.from_ns >= segments_[1].to_ns;
   if (has_begun || !is_plain) return;
-  const Wrench before = last.from_rest ? Wrench() : segment(count_ - 2).frame.wrench;
+  const Wrench before = last.from_rest ? Wrench() : segments_[1].frame.wrench;
   last.to_slope = next.from_slope =
       slope_between(before, last.frame.wrench, next.frame.wrench,
                     elapsed_s(last.from_ns, last.to_ns), elapsed_s(last.to_ns, next.to_ns));
@@ -131,9 +131,9 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
   Segment next;
   next.frame = added;
   next.from_ns = next.to_ns = added.time_ns;
-  if (count_ == 0) return next;
+  if (segments_.empty()) return next;
 
-  const Segment& last = segment(count_ - 1);
+  const Segment& last = segments_[0];
   const int64_t soonest_ns = soonest(last.frame, added);
   const bool is_late = std::max(soonest_ns, last.to_ns) > added.time_ns;
   if (is_late) {
@@ -153,50 +153,39 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
   return next;
 }
 
-void WrenchTimeline::append(const Segment& next) noexcept {
-  if (count_ == kCapacity) {
-    first_ = (first_ + 1) % kCapacity;
-    --count_;
-  }
-  segment(count_) = next;
-  ++count_;
-}
-
 bool WrenchTimeline::push(const TimedWrench& added) noexcept {
-  if (count_ > 0) {
-    TimedWrench& last = segment(count_ - 1).frame;
+  if (!segments_.empty()) {
+    TimedWrench& last = segments_[0].frame;
     if (added.time_ns <= last.time_ns) return false;
     if (added.repeated) {
       if (!has_expired(last, present_ns_)) hold_until(last, added);
       return true;
     }
   }
-  append(segment_to(added));
+  segments_.add(segment_to(added));
   return true;
 }
 
 TimelineResult WrenchTimeline::at(int64_t time_ns) noexcept {
   TimelineResult result;
-  if (count_ == 0) return result;
+  if (segments_.empty()) return result;
   present_ns_ = time_ns;
-  size_t later = count_;
-  while (later > 0 && segment(later - 1).frame.time_ns > time_ns) --later;
-  if (later == 0) return result;
+  const size_t later = size_after(time_ns);
+  if (later == size()) return result;
 
-  const Segment& reached = segment(later - 1);
+  const Segment& reached = segments_[later];
   const uint64_t since_ns = elapsed_ns(reached.frame.time_ns, time_ns);
   result.frame_time_ns = reached.frame.time_ns;
-  // From the newest back: the time asked for is near the end.
-  size_t begun = count_ - 1;
-  while (begun > 0 && segment(begun).from_ns > time_ns) --begun;
+  size_t begun = 0;
+  while (begun + 1 < size() && segments_[begun].from_ns > time_ns) ++begun;
   if (since_ns == 0 && reached.to_ns == time_ns) {
     result.wrench = reached.frame.wrench;
     result.found = Found::kExact;
-  } else if (time_ns < segment(begun).to_ns) {
+  } else if (time_ns < segments_[begun].to_ns) {
     result.wrench = value(begun, time_ns);
     result.found = Found::kInterpolated;
   } else {
-    result.wrench = segment(begun).frame.wrench;
+    result.wrench = segments_[begun].frame.wrench;
     result.found = has_expired(reached.frame, time_ns) ? Found::kExpired : Found::kHeld;
   }
   return result;

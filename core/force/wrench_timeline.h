@@ -3,10 +3,10 @@
 /// Wrenches with the time at which each is to be felt.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/history.h"
 #include "core/wrench.h"
 
 namespace spidar {
@@ -95,10 +95,10 @@ class WrenchTimeline {
   TimelineResult at(int64_t time_ns) noexcept;
 
   void clear() noexcept {
-    count_ = 0;
+    segments_.clear();
     present_ns_ = INT64_MIN;
   }
-  size_t size() const noexcept { return count_; }
+  size_t size() const noexcept { return segments_.size(); }
   /// How many frames are later than `time_ns`.
   size_t size_after(int64_t time_ns) const noexcept;
 
@@ -115,21 +115,16 @@ class WrenchTimeline {
     bool from_rest = false;
   };
 
-  Segment& segment(size_t i) noexcept { return segments_[(first_ + i) % kCapacity]; }
-  const Segment& segment(size_t i) const noexcept { return segments_[(first_ + i) % kCapacity]; }
   int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
   /// When the segment to a frame that has just become known begins and ends.
   Segment segment_to(const TimedWrench& added) noexcept;
   /// The slope at the last frame depends on the next one. It is set now, when that one has become
   /// known, unless the segment to the last frame has begun.
   void join_smoothly(Segment& next) noexcept;
-  void append(const Segment& next) noexcept;
-  /// In segment `i` or, after it, at its frame.
-  Wrench value(size_t i, int64_t time_ns) const noexcept;
+  /// In the segment of this age or, after it, at its frame.
+  Wrench value(size_t age, int64_t time_ns) const noexcept;
 
-  std::array<Segment, kCapacity> segments_{};
-  size_t first_ = 0;
-  size_t count_ = 0;
+  History<Segment, kCapacity> segments_;
   int64_t present_ns_ = INT64_MIN;  // nothing was felt yet
 };
 

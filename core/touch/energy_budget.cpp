@@ -19,15 +19,18 @@ Eigen::Vector3d bounded(const Eigen::Vector3d& vector, double most) noexcept {
 void EnergyBudget::follow(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s,
                           double put_in_J, double stored_J) noexcept {
   left_J_ = std::min(left_J_ - before_N_.dot(way_m) + put_in_J, stored_J);
-  std::rotate(velocity_m_s_.begin(), velocity_m_s_.end() - 1, velocity_m_s_.end());
-  velocity_m_s_.front() = velocity_m_s;
+  velocity_m_s_.add(velocity_m_s);
 }
 
 double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& path,
                             double dt_s) const noexcept {
-  const Eigen::Vector3d gained_m_s = velocity_m_s_.front() - velocity_m_s_.back();
+  // At rest before the first tick.
+  const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
+    return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
+  };
+  const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(kSlope);
   const Eigen::Vector3d then_m_s =
-      velocity_m_s_.front() + gained_m_s * (path.velocity_lag_s / (kSlope * dt_s));
+      velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / (kSlope * dt_s));
   const double out_m_s = then_m_s.dot(direction);
   const double left_J = std::max(0.0, left_J_ - mean_N_.dot(direction) * dt_s * out_m_s);
   const double mass_kg = path.least_mass_kg;

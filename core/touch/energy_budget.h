@@ -3,10 +3,11 @@
 /// Limits the energy that a contact returns to the hand.
 #pragma once
 
-#include <array>
 #include <limits>
 
 #include <Eigen/Core>
+
+#include "core/history.h"
 
 namespace spidar {
 
@@ -62,19 +63,13 @@ class EnergyBudget {
   static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
 
   double left_J_ = 0;
-  double bounded_N_ = std::numeric_limits<double>::infinity();      // infinite: it was not bounded
-  std::array<Eigen::Vector3d, kSlope + 1> velocity_m_s_ = zeros();  // latest first
-  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();             // contact + beside, limited
-  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();              // alone, with the same limits
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();   // on the grip, at the end of the last tick
-  Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();    // in the last tick, not yet measured
-  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  // in the tick before
-
-  static std::array<Eigen::Vector3d, kSlope + 1> zeros() {
-    std::array<Eigen::Vector3d, kSlope + 1> all;
-    all.fill(Eigen::Vector3d::Zero());
-    return all;
-  }
+  double bounded_N_ = std::numeric_limits<double>::infinity();  // infinite: it was not bounded
+  History<Eigen::Vector3d, kSlope + 1> velocity_m_s_;
+  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  // contact + beside, limited
+  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   // alone, with the same limits
+  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();    // on the grip, at the end of the last tick
+  Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();     // in the last tick, not yet measured
+  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();   // in the tick before
 };
 
 }  // namespace spidar
