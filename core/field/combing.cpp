@@ -3,7 +3,6 @@
 #include "core/field/combing.h"
 
 #include <array>
-#include <cstdlib>
 
 #include "core/field/block_kernels.h"
 #include "core/picture/luma.h"
@@ -31,32 +30,20 @@ constexpr int kLines = 4;
 constexpr int kEvery = kBlock_px;
 using Lines = std::array<const uint8_t*, kLines>;
 
-/// Number of pixels from column `x` on that look like a comb.
-int combs_plain(const Lines& lines, int x, int width) {
-  int combs = 0;
-  for (; x < width; ++x) {
-    const int a = lines[0][x];
-    const int b = lines[1][x];
-    const int c = lines[2][x];
-    const int d = lines[3][x];
-    const bool returns = std::abs(a - c) <= kSame_grey && std::abs(b - d) <= kSame_grey;
-    combs += returns && ((b - a > kComb_grey && d - c > kComb_grey) ||
-                         (a - b > kComb_grey && c - d > kComb_grey));
-  }
-  return combs;
-}
+/// Pixels are compared in vectors. What fills up the last one is the same in all lines: no comb.
+constexpr int kLanes = 16;
 
-/// Counts the combs of the first columns, as many as fill whole vectors; `done` is their number.
-int combs_vectors(const Lines& lines, int width, int& done) {
+/// Number of pixels that look like a comb.
+int combs_in(const Lines& lines, int width) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
   const cv::v_uint8x16 same = cv::v_setall_u8(kSame_grey);
   const cv::v_uint8x16 one = cv::v_setall_u8(1);
   unsigned combs = 0;
-  for (done = 0; done + 16 <= width; done += 16) {
-    const cv::v_uint8x16 a = cv::v_load(lines[0] + done);
-    const cv::v_uint8x16 b = cv::v_load(lines[1] + done);
-    const cv::v_uint8x16 c = cv::v_load(lines[2] + done);
-    const cv::v_uint8x16 d = cv::v_load(lines[3] + done);
+  for (int x = 0; x < width; x += kLanes) {
+    const cv::v_uint8x16 a = cv::v_load(lines[0] + x);
+    const cv::v_uint8x16 b = cv::v_load(lines[1] + x);
+    const cv::v_uint8x16 c = cv::v_load(lines[2] + x);
+    const cv::v_uint8x16 d = cv::v_load(lines[3] + x);
     const cv::v_uint8x16 returns = (cv::v_absdiff(a, c) <= same) & (cv::v_absdiff(b, d) <= same);
     // Subtraction of 8-bit lanes saturates at 0.
     const cv::v_uint8x16 up = (b - a > comb) & (d - c > comb);
@@ -69,8 +56,8 @@ int combs_vectors(const Lines& lines, int width, int& done) {
 }  // namespace
 
 double comb_fraction(const ImageView& frame, std::vector<uint8_t>& memory) {
-  const auto width = static_cast<size_t>(frame.width);
-  memory.resize(kLines * width);
+  const auto width = static_cast<size_t>((frame.width + kLanes - 1) / kLanes * kLanes);
+  memory.assign(kLines * width, 0);
   int64_t combs = 0;
   int64_t pixels = 0;
   for (int y = kEvery / 2; y + kLines <= frame.height; y += kEvery) {
@@ -80,9 +67,7 @@ double comb_fraction(const ImageView& frame, std::vector<uint8_t>& memory) {
       copy_row(frame, 0, y + static_cast<int>(k), frame.width, line);
       lines[k] = line;
     }
-    int done = 0;
-    combs += combs_vectors(lines, frame.width, done);
-    combs += combs_plain(lines, done, frame.width);
+    combs += combs_in(lines, frame.width);
     pixels += frame.width;
   }
   return pixels > 0 ? static_cast<double>(combs) / static_cast<double>(pixels) : 0;

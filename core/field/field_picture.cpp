@@ -21,35 +21,9 @@ constexpr double kArea_px2 = 427.0 * 240.0;
 // become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
 // ninths.
 
-/// One pixel from two rows; the row at the border of the three counts twice.
-int across(int rim, int middle) {
-  return 2 * rim + middle;
-}
-
 /// ninth(v) = (v + 4) / 9 for v ≤ 9 · 255, as a multiplication: 65536 / 9 rounded up is 7282, whose
 /// error of 2 / 65536 / 9 a unit is below 0.01 at 2299.
 constexpr unsigned kNinth = 7282;
-
-uint8_t ninth(int sum) {
-  return static_cast<uint8_t>((static_cast<unsigned>(sum + 4) * kNinth) >> 16);
-}
-
-/// The two rows of `reduced` that three rows of the image give, from column `x` of the reduced
-/// picture on; `x` is even.
-void reduce_rows_plain(const uint8_t* const rows[3], int x, int width, uint8_t* upper,
-                       uint8_t* lower) {
-  for (; x < width; ++x) {
-    const int third = x / 2 * 3;
-    const int rim = third + (x % 2 == 0 ? 0 : 2);
-    const int middle = third + 1;
-    const auto sum = [&](int outer_row) {
-      const uint8_t* outer = rows[outer_row];
-      return across(across(outer[rim], outer[middle]), across(rows[1][rim], rows[1][middle]));
-    };
-    upper[x] = ninth(sum(0));
-    if (lower) lower[x] = ninth(sum(2));
-  }
-}
 
 using cv::v_uint16x8;
 using cv::v_uint8x16;
@@ -91,16 +65,16 @@ struct Columns {
   }
 };
 
-/// Returns the number of columns of the reduced picture that were computed, from the left.
-int reduce_rows_vectors(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
-  int x = 0;
-  for (; x + 32 <= width; x += 32) {
+/// The two rows of the reduced picture that three rows of the image give. The last vectors end
+/// beyond the picture, in what repeat_border() overwrites.
+void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
+  static_assert(PaddedImage::kPad_px >= 32, "a vector ends within the padding");
+  for (int x = 0; x < width; x += 32) {
     const int from = x / 2 * 3;
     const Thirds middle(rows[1] + from);
     Columns(Thirds(rows[0] + from), middle).store(upper + x);
     if (lower) Columns(Thirds(rows[2] + from), middle).store(lower + x);
   }
-  return x;
 }
 
 }  // namespace
@@ -158,10 +132,7 @@ void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced) {
     const bool has_lower = y + 1 < reduced.height();
     const uint8_t* const rows[3] = {image.row(from), image.row(from + 1),
                                     image.row(has_lower ? from + 2 : from + 1)};
-    uint8_t* const upper = reduced.row(y);
-    uint8_t* const lower = has_lower ? reduced.row(y + 1) : nullptr;
-    const int done = reduce_rows_vectors(rows, reduced.width(), upper, lower);
-    reduce_rows_plain(rows, done, reduced.width(), upper, lower);
+    reduce_rows(rows, reduced.width(), reduced.row(y), has_lower ? reduced.row(y + 1) : nullptr);
   }
 }
 
