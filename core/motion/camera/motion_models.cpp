@@ -62,61 +62,40 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
   return true;
 }
 
-/// The sums of a Gauss–Newton step for the eight parameters of a homography. In x only the first
-/// three of them act, in y the next three, with the same derivatives, and the last two act in both:
-/// what is zero, or there already, is not added up.
-class NormalEquations {
- public:
-  using Vector8 = Eigen::Matrix<double, 8, 1>;
-  using Matrix8 = Eigen::Matrix<double, 8, 8>;
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
-  /// `a` are the derivatives of the coordinates by three parameters each; `px` and `py` those of
-  /// x and of y by the perspective.
-  void add(double weight, const double (&a)[3], const double (&px)[2], const double (&py)[2],
-           double error_x, double error_y) {
-    for (int i = 0; i < 3; ++i) {
-      const double wa = weight * a[i];
-      for (int j = i; j < 3; ++j) affine_[i][j] += wa * a[j];
-      for (int k = 0; k < 2; ++k) {
-        with_x_[i][k] += wa * px[k];
-        with_y_[i][k] += wa * py[k];
-      }
-      right_[i] += weight * (error_x * a[i]);
-      right_[3 + i] += weight * (error_y * a[i]);
-    }
-    for (int k = 0; k < 2; ++k) {
-      const double wx = weight * px[k], wy = weight * py[k];
-      for (int l = k; l < 2; ++l) {
-        perspective_[k][l] += wx * px[l];
-        perspective_[k][l] += wy * py[l];
-      }
-      right_[6 + k] += weight * (error_x * px[k] + error_y * py[k]);
-    }
+/// H s = g for the Gauss–Newton step s of the eight parameters of a homography. In x only the first
+/// three of them act, in y the next three, with the same derivatives `a`, and the last two act in
+/// both, with `p_x` and `p_y`: what is zero, or there already, is not added up.
+struct HomographySums {
+  Eigen::Matrix3d aa = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 2, 3> pa_x = Eigen::Matrix<double, 2, 3>::Zero(), pa_y = pa_x;
+  Eigen::Matrix2d pp = Eigen::Matrix2d::Zero();
+  Vector8 g = Vector8::Zero();
+
+  void add(double weight, const Eigen::Vector3d& a, const Eigen::Vector2d& p_x,
+           const Eigen::Vector2d& p_y, const Eigen::Array2d& error) {
+    const Eigen::RowVector3d wa = weight * a.transpose();
+    aa += a * wa;
+    pa_x += p_x * wa;
+    pa_y += p_y * wa;
+    pp += p_x * (weight * p_x.transpose());
+    pp += p_y * (weight * p_y.transpose());
+    g.segment<3>(0) += weight * (error.x() * a);
+    g.segment<3>(3) += weight * (error.y() * a);
+    g.segment<2>(6) += weight * (error.x() * p_x + error.y() * p_y);
   }
 
-  /// The lower triangle.
-  Matrix8 matrix() const {
-    Matrix8 lower = Matrix8::Zero();
-    for (int i = 0; i < 3; ++i) {
-      for (int j = i; j < 3; ++j) lower(j, i) = lower(3 + j, 3 + i) = affine_[i][j];
-      for (int k = 0; k < 2; ++k) {
-        lower(6 + k, i) = with_x_[i][k];
-        lower(6 + k, 3 + i) = with_y_[i][k];
-      }
-    }
-    for (int k = 0; k < 2; ++k) {
-      for (int l = k; l < 2; ++l) lower(6 + l, 6 + k) = perspective_[k][l];
-    }
-    return lower;
+  /// The lower triangle of H.
+  Matrix8 lower() const {
+    Matrix8 H = Matrix8::Zero();
+    H.block<3, 3>(0, 0) = H.block<3, 3>(3, 3) = aa;
+    H.block<2, 3>(6, 0) = pa_x;
+    H.block<2, 3>(6, 3) = pa_y;
+    H.block<2, 2>(6, 6) = pp;
+    return H;
   }
-  Vector8 right() const { return Eigen::Map<const Vector8>(right_); }
-
- private:
-  double affine_[3][3] = {};
-  double with_x_[3][2] = {};
-  double with_y_[3][2] = {};
-  double perspective_[2][2] = {};
-  double right_[8] = {};
 };
 
 /// Gauss–Newton steps from the affine solution.
@@ -125,12 +104,11 @@ bool refine_homography(const std::vector<Displacement>& points, const std::vecto
   constexpr int kGaussNewtonSteps = 4;
   constexpr double kSmall = 1e-2;   // px, at kUnit_px from the centre
   constexpr double kUnit_px = 256;  // lengths near 1, so that the normal matrix is well scaled
-  using Vector8 = NormalEquations::Vector8;
   for (int step = 0; step < kGaussNewtonSteps; ++step) {
     const double h_x = model.perspective_1_px.x(), h_y = model.perspective_1_px.y();
     const Eigen::Array2d shift = model.shift_px, column_x = model.linear.col(0),
                          column_y = model.linear.col(1);
-    NormalEquations equations;
+    HomographySums sums;
     for (size_t i = 0; i < points.size(); ++i) {
       if (weights[i] == 0) continue;
       // MotionModel::displacement_px(), of which the divisor is used again.
@@ -143,14 +121,13 @@ bool refine_homography(const std::vector<Displacement>& points, const std::vecto
       const Eigen::Array2d to = at + (moved / divisor - at);
       const Eigen::Array2d error = points[i].moved_px.array() - (to - at);
       const Eigen::Array2d a = at / kUnit_px / divisor;
-      const Eigen::Array2d px = -to.x() / kUnit_px * a, py = -to.y() / kUnit_px * a;
-      equations.add(weights[i], {a.x(), a.y(), 1 / divisor}, {px.x(), px.y()}, {py.x(), py.y()},
-                    error.x(), error.y());
+      const Eigen::Array2d p_x = -to.x() / kUnit_px * a, p_y = -to.y() / kUnit_px * a;
+      sums.add(weights[i], {a.x(), a.y(), 1 / divisor}, p_x, p_y, error);
     }
-    const Eigen::LDLT<NormalEquations::Matrix8, Eigen::Lower> ldlt(equations.matrix());
+    const Eigen::LDLT<Matrix8, Eigen::Lower> ldlt(sums.lower());
     const Vector8 pivots = ldlt.vectorD();
     if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
-    const Vector8 change = ldlt.solve(equations.right());
+    const Vector8 change = ldlt.solve(sums.g);
     model.linear(0, 0) += change[0] / kUnit_px;
     model.linear(0, 1) += change[1] / kUnit_px;
     model.linear(1, 0) += change[3] / kUnit_px;
