@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -68,8 +69,9 @@ void validate(const DepthSettings& s) {
   }
 }
 
-DepthPicture::DepthPicture()
-    : cells_(kCells, kHole), levels_(kCells, kHole), count_(kMostSample + 1) {}
+DepthPicture::DepthPicture() : cells_(kCells, kHole), levels_(kCells, kHole) {
+  sorted_.reserve(kCells);
+}
 
 bool DepthPicture::read(const DepthView& depth, const DepthSettings& settings, double dt_s) {
   if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return false;
@@ -126,24 +128,17 @@ void DepthPicture::read_row(const DepthView& depth, int y, float* values) const 
   }
 }
 
-/// At least one cell must not be a hole.
+/// Rounded to whole samples. At least one cell must not be a hole.
 DepthPicture::Ends DepthPicture::percentiles() noexcept {
-  std::fill(count_.begin(), count_.end(), uint16_t{0});  // a count is at most kCells
-  int cells = 0;
-  for (const float cell : cells_) {
-    if (std::isnan(cell)) continue;
-    ++count_[static_cast<size_t>(cell + 0.5F)];
-    ++cells;
-  }
-  const int outside = static_cast<int>(kOutside * cells);
-  int low = 0;
-  for (int below = count_[0]; below <= outside; below += count_[static_cast<size_t>(low)]) ++low;
-  int high = kMostSample;
-  for (int above = count_[kMostSample]; above <= outside;
-       above += count_[static_cast<size_t>(high)]) {
-    --high;
-  }
-  return {static_cast<double>(low), static_cast<double>(high)};
+  sorted_.clear();
+  std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(sorted_),
+               [](float cell) { return !std::isnan(cell); });
+  const auto outside = static_cast<ptrdiff_t>(kOutside * static_cast<double>(sorted_.size()));
+  const auto nth = [&](auto at) {
+    std::nth_element(sorted_.begin(), at, sorted_.end());
+    return std::floor(static_cast<double>(*at + 0.5F));
+  };
+  return {nth(sorted_.begin() + outside), nth(sorted_.end() - 1 - outside)};
 }
 
 /// Whether more than kCut of the cells lie beyond the ends that are estimated.

@@ -99,7 +99,7 @@ class DepthPicture {
   std::vector<int> column_;   // of the depth image, for each column that is read
   std::vector<float> cells_;  // mean sample
   std::vector<float> levels_;
-  std::vector<uint16_t> count_;  // histogram of the cells by sample value
+  std::vector<float> sorted_;  // the cells without holes, in part
   int read_width_ = 0;
   int from_width_ = 0;
   DepthSettings settings_;  // used for the current range

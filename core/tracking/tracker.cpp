@@ -13,6 +13,7 @@
 
 #include "core/picture/reduced_frame.h"
 #include "core/picture/serial_opencv.h"
+#include "core/require.h"
 
 namespace spidar {
 namespace {
@@ -302,10 +303,7 @@ void validate(const TrackerSettings& settings) {
     throw std::invalid_argument("quality_level must be 0 to 1, got " +
                                 std::to_string(settings.quality_level));
   }
-  if (!std::isfinite(settings.min_distance_px) || settings.min_distance_px < 0) {
-    throw std::invalid_argument("min_distance_px must be finite and not negative, got " +
-                                std::to_string(settings.min_distance_px));
-  }
+  require_not_negative("min_distance_px", settings.min_distance_px);
 }
 
 }  // namespace spidar
