@@ -98,7 +98,7 @@ void ForceRenderer::configure(const AnalyzerSettings& settings) {
 Chosen ForceRenderer::choose(const Frame& frame, const FilmPlace& film) {
   if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
   return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
-                         frame.width, frame.height, static_cast<double>(frame.interval_ns) * 1e-9,
+                         frame.width, frame.height, frame.interval_s(),
                          frame.picture == PictureKind::kFirst, film, settings_.boxes.get()});
 }
 
@@ -109,13 +109,11 @@ ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace&
   if (choice.is_kept || !frame.background) return {};
   if (choice.rule->kind == FeelKind::kRegion) {
     const FeelRule& region = *choice.rule;
-    const Eigen::Vector2d a_px = film.in_frame_px(region.position, frame.width, frame.height);
-    const Eigen::Vector2d b_px = film.in_frame_px(region.far_corner, frame.width, frame.height);
-    return motion_in_box(frame.objects, a_px.cwiseMin(b_px), a_px.cwiseMax(b_px));
+    return motion_in_box(frame.objects, film.in_frame_px(region.position, region.far_corner,
+                                                         frame.width, frame.height));
   }
   if (choice.rule->kind == FeelKind::kCamera) {
-    return camera_motion(*frame.background, frame.votes,
-                         static_cast<double>(frame.interval_ns) * 1e-9);
+    return camera_motion(*frame.background, frame.votes, frame.interval_s());
   }
   return {};
 }
@@ -126,8 +124,7 @@ ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
       return frame.mean;
     case MotionKind::kCamera:
       if (!frame.background) return {};
-      return camera_motion(*frame.background, frame.votes,
-                           static_cast<double>(frame.interval_ns) * 1e-9);
+      return camera_motion(*frame.background, frame.votes, frame.interval_s());
     case MotionKind::kObjects: {
       const Eigen::Vector2d pointer_px((settings_.pointer.x() - 0.5) * frame.width,
                                        (settings_.pointer.y() - 0.5) * frame.height);
@@ -169,7 +166,7 @@ void ForceRenderer::render(Frame& frame, const FilmPlace& film) {
   }
   felt = faster(felt, lost_frames_.correction(frame.interval_ns, frame.shown_for_ns,
                                               felt.velocity_px_s.norm()));
-  const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
+  const double interval_s = frame.interval_s();
   frame.motion = bound_motion(felt, frame.width, interval_s);
   // The filter does not mix the motions of two objects.
   if (fade_.turn_to(felt_thing(choice, frame.felt_object))) filter_.reset();

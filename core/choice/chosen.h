@@ -38,6 +38,12 @@ struct FilmPlace {
     const Eigen::Vector2d coded = turn.stored_position(position);
     return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
   }
+  /// The same of a box with these two corners.
+  Eigen::AlignedBox2d in_frame_px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner,
+                                  int width, int height) const {
+    Eigen::AlignedBox2d box_px(in_frame_px(corner, width, height));
+    return box_px.extend(in_frame_px(far_corner, width, height));
+  }
 };
 
 /// An object that is kept because it was clicked.

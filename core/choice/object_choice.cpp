@@ -7,13 +7,6 @@
 #include <utility>
 
 namespace spidar {
-namespace {
-
-double area_px2(const Eigen::Vector2d& size_px) {
-  return size_px.cwiseMax(0.0).prod();
-}
-
-}  // namespace
 
 void BoxedObject::begin(const char* name) {
   *this = BoxedObject();
@@ -28,17 +21,15 @@ ChoiceState BoxedObject::state() const {
 /// The object in sight that has most in common with the box for their size; null when that is not
 /// enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame& frame) const {
-  const Eigen::Vector2d a_px = frame.px(box.position), b_px = frame.px(box.far_corner);
-  const Eigen::Vector2d from_px = a_px.cwiseMin(b_px), to_px = a_px.cwiseMax(b_px);
-  const double box_px2 = area_px2(to_px - from_px);
+  const Eigen::AlignedBox2d box_px =
+      frame.film.in_frame_px(box.position, box.far_corner, frame.width, frame.height);
+  const double box_px2 = area_px2(box_px);
   const MovingObject* best = nullptr;
   double best_fraction = 0;
   for (const MovingObject& object : frame.objects) {
     if (object.tracks == 0) continue;
-    const Eigen::Vector2d half_px = object.size_px / 2;
-    const double common_px2 = area_px2(to_px.cwiseMin(object.position_px + half_px) -
-                                       from_px.cwiseMax(object.position_px - half_px));
-    const double object_px2 = area_px2(object.size_px);
+    const double common_px2 = area_px2(box_px.intersection(object.box_px()));
+    const double object_px2 = object.size_px.prod();
     if (common_px2 <= 0 || common_px2 < kOverlap * std::min(box_px2, object_px2)) continue;
     const double fraction = common_px2 / (box_px2 + object_px2 - common_px2);
     if (fraction <= best_fraction) continue;
@@ -71,9 +62,7 @@ const MovingObject* BoxedObject::see(const ChoiceFrame& frame) {
     return best;
   }
   if (!holds) return nullptr;
-  const auto known = std::find_if(frame.objects.begin(), frame.objects.end(),
-                                  [&](const MovingObject& object) { return object.id == id_; });
-  return known == frame.objects.end() ? nullptr : &*known;
+  return find_object(frame.objects, id_);
 }
 
 namespace {
@@ -163,10 +152,7 @@ void FollowedObject::miss(double interval_s) {
 
 const MovingObject* FollowedObject::see(const std::vector<MovingObject>& objects, int frame_height,
                                         double interval_s, const Background* background) {
-  const auto known = std::find_if(objects.begin(), objects.end(), [&](const MovingObject& object) {
-    return id_ != 0 && object.id == id_;
-  });
-  const MovingObject* found = known != objects.end() ? &*known : nullptr;
+  const MovingObject* found = find_object(objects, id_);
   if (!found) {
     if (id_ != 0 && state_ != State::kLost) miss(interval_s);
     if (state_ == State::kLooking && since_s_ > kLook_s) state_ = State::kWaiting;

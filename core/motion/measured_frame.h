@@ -34,11 +34,8 @@ struct MeasuredFrame {
   uint32_t dominant = 0;                 ///< id of the object that motion=object feels; 0: none
 
   /// Null when there is none.
-  const MovingObject* dominant_object() const {
-    for (const MovingObject& object : objects)
-      if (object.id == dominant) return &object;
-    return nullptr;
-  }
+  const MovingObject* dominant_object() const { return find_object(objects, dominant); }
+  double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
   /// Nothing is known to move. The memory stays.
   void forget_motion() {
     picture = PictureKind::kFirst;

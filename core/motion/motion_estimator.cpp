@@ -61,7 +61,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
     frame.features = 0;
     return false;
   }
-  const double interval_s = static_cast<double>(frame.interval_ns) * 1e-9;
+  const double interval_s = frame.interval_s();
   const FieldPosition position = position_of(field_, reduced);
   const std::vector<FineMotion>& fine = windows_.find(image, field_, position);
   collect_votes(field_, objects_.past(), votes_);

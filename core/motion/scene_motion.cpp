@@ -14,14 +14,10 @@ double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, 
   return object.area_px2 * std::exp(-outside_px.squaredNorm() / (2 * sigma_px * sigma_px));
 }
 
-double area_in_box(const MovingObject& object, const Eigen::Vector2d& low_px,
-                   const Eigen::Vector2d& high_px) {
-  const Eigen::Vector2d half_px = object.size_px / 2;
-  const Eigen::Vector2d inside_px = ((object.position_px + half_px).cwiseMin(high_px) -
-                                     (object.position_px - half_px).cwiseMax(low_px))
-                                        .cwiseMax(0.0);
+double area_in_box(const MovingObject& object, const Eigen::AlignedBox2d& box_px) {
   const double all_px2 = object.size_px.prod();
-  return all_px2 > 0 ? object.area_px2 * inside_px.prod() / all_px2 : 0;
+  if (!(all_px2 > 0)) return 0;
+  return object.area_px2 * area_px2(object.box_px().intersection(box_px)) / all_px2;
 }
 
 /// The mean motion of the objects in sight, each with its weight.
@@ -79,10 +75,10 @@ ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
   });
 }
 
-ImageMotion motion_in_box(const std::vector<MovingObject>& objects, const Eigen::Vector2d& low_px,
-                          const Eigen::Vector2d& high_px) {
-  return weighted_motion(
-      objects, [&](const MovingObject& object) { return area_in_box(object, low_px, high_px); });
+ImageMotion motion_in_box(const std::vector<MovingObject>& objects,
+                          const Eigen::AlignedBox2d& box_px) {
+  return weighted_motion(objects,
+                         [&](const MovingObject& object) { return area_in_box(object, box_px); });
 }
 
 }  // namespace spidar

@@ -44,8 +44,8 @@ ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
 
 /// Mean motion of the objects in sight, each weighted by the area that it has in a box of the
 /// frame, px from the frame's centre: the box around it stands for its outline.
-ImageMotion motion_in_box(const std::vector<MovingObject>& objects, const Eigen::Vector2d& low_px,
-                          const Eigen::Vector2d& high_px);
+ImageMotion motion_in_box(const std::vector<MovingObject>& objects,
+                          const Eigen::AlignedBox2d& box_px);
 
 /// Motion of the camera over `interval_s` > 0: it moves to the right when the background moves to
 /// the left, and forwards when the background grows. `votes` is the number of displacements that

@@ -23,11 +23,8 @@ constexpr double kSamePlace = 0.5;
 
 /// Whether an object is where one that is out of sight would be: it is a part of the same object.
 bool takes_place(const MovingObject& object, const MovingObject& hidden) {
-  const Eigen::Vector2d apart_px = (object.position_px - hidden.position_px).cwiseAbs();
-  const Eigen::Vector2d common_px = ((object.size_px + hidden.size_px) / 2 - apart_px)
-                                        .cwiseMin(object.size_px.cwiseMin(hidden.size_px))
-                                        .cwiseMax(0.0);
-  return common_px.prod() > kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
+  return area_px2(object.box_px().intersection(hidden.box_px())) >
+         kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
 }
 
 }  // namespace
@@ -51,9 +48,7 @@ double DominantObject::reason_before(uint32_t id) const {
 
 const MovingObject* DominantObject::choose(const std::vector<MovingObject>& objects,
                                            double interval_s) {
-  const auto found = std::find_if(objects.begin(), objects.end(),
-                                  [this](const MovingObject& one) { return one.id == id_; });
-  const MovingObject* const followed = found == objects.end() ? nullptr : &*found;
+  const MovingObject* const followed = find_object(objects, id_);
   // Objects that leave the picture are dropped.
   const bool is_free = id_ == 0 || (followed && followed->has_left);
   const bool in_sight = followed && followed->tracks > 0 && !is_free;

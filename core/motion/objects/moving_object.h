@@ -3,9 +3,12 @@
 /// An object that moves relative to the background.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/motion/camera/motion_models.h"
 
@@ -24,6 +27,9 @@ struct MovingObject {
   /// of this box, which jumps by whole blocks: they move as the object does.
   Eigen::Vector2d low_off_px = Eigen::Vector2d::Zero(), high_off_px = Eigen::Vector2d::Zero();
 
+  Eigen::AlignedBox2d box_px() const {
+    return {position_px - size_px / 2, position_px + size_px / 2};
+  }
   Eigen::Vector2d drawn_low_px() const { return position_px - size_px / 2 + low_off_px; }
   Eigen::Vector2d drawn_high_px() const { return position_px + size_px / 2 + high_off_px; }
   Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();  ///< velocity relative to the background
@@ -40,5 +46,17 @@ struct MovingObject {
   double area_px2 = 0;    ///< of its blocks together
   double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };
+
+/// Null when it is not among them.
+inline const MovingObject* find_object(const std::vector<MovingObject>& objects, uint32_t id) {
+  const auto found = std::find_if(objects.begin(), objects.end(),
+                                  [id](const MovingObject& object) { return object.id == id; });
+  return found == objects.end() ? nullptr : &*found;
+}
+
+/// The area of a box, 0 of an empty one.
+inline double area_px2(const Eigen::AlignedBox2d& box_px) {
+  return box_px.sizes().cwiseMax(0.0).prod();
+}
 
 }  // namespace spidar
