@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/picture/luma.h"
-#include "core/picture/serial_opencv.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 
@@ -17,12 +17,9 @@ ImageView SquarePixelResampler::view(const ImageView& picture, double pixel_aspe
   const int width = std::max(1, static_cast<int>(std::lround(picture.width * pixel_aspect)));
   const ImageView from = in_8_bits(picture, eight_bits_);
   resampled_.resize(static_cast<size_t>(width) * static_cast<size_t>(picture.height));
-  // OpenCV does not write to what it reads.
-  const cv::Mat stored(from.height, from.width, CV_8U, const_cast<uint8_t*>(from.data),
-                       static_cast<size_t>(from.stride_bytes));
   cv::Mat square(picture.height, width, CV_8U, resampled_.data());
   run_on_this_thread([&] {
-    cv::resize(stored, square, square.size(), 0, 0,
+    cv::resize(const_mat(from), square, square.size(), 0, 0,
                width > from.width ? cv::INTER_LINEAR : cv::INTER_AREA);
   });
   return {resampled_.data(), width, picture.height, width};

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/field/light_change.h"
 #include "core/quantile.h"
 
 namespace spidar {

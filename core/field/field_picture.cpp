@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 
 #include "core/field/block_kernels.h"
 #include "core/picture/image_view.h"
+#include "core/picture/opencv.h"
 #include "core/picture/vectors.h"
 
 namespace spidar {
@@ -77,6 +80,34 @@ void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_
   }
 }
 
+/// If more than this fraction of the difference is left, the gain may be chance. Where the camera
+/// pans, most of the difference is motion, whatever the light does.
+constexpr double kAlike = 0.9;
+
+/// Whether replacing the values of `before` makes it clearly more like `now`.
+bool makes_alike(const PaddedImage& before, const PaddedImage& now,
+                 const std::array<uint8_t, 256>& table) {
+  int64_t as_it_was = 0;
+  int64_t replaced = 0;
+  for (int y = 0; y < now.height(); ++y) {
+    const uint8_t* p = before.row(y);
+    const uint8_t* q = now.row(y);
+    for (int x = 0; x < now.width(); ++x) {
+      as_it_was += std::abs(q[x] - p[x]);
+      replaced += std::abs(q[x] - table[p[x]]);
+    }
+  }
+  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
+}
+
+void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {
+  for (int y = 0; y < picture.height(); ++y) {
+    uint8_t* row = picture.row(y);
+    for (int x = 0; x < picture.width(); ++x) row[x] = table[row[x]];
+  }
+  picture.repeat_border();
+}
+
 }  // namespace
 
 FieldScale field_scale(int base_width, int base_height) {
@@ -134,6 +165,24 @@ void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced) {
                                     image.row(has_lower ? from + 2 : from + 1)};
     reduce_rows(rows, reduced.width(), reduced.row(y), has_lower ? reduced.row(y + 1) : nullptr);
   }
+}
+
+void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
+                      PaddedImage& before) {
+  cv::Scalar mean_before, mean_now, sigma_before, sigma_now;
+  cv::meanStdDev(const_mat(coarse_before.view()), mean_before, sigma_before);
+  cv::meanStdDev(const_mat(coarse_now.view()), mean_now, sigma_now);
+  // Contrast below one grey level is mostly rounding error.
+  const bool has_contrast = sigma_before[0] >= 1 && sigma_now[0] >= 1;
+  const double gain = has_contrast ? sigma_now[0] / sigma_before[0] : 1;
+  std::array<uint8_t, 256> table;
+  for (size_t v = 0; v < table.size(); ++v) {
+    const double value = gain * (static_cast<double>(v) - mean_before[0]) + mean_now[0];
+    table[v] = static_cast<uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
+  }
+  if (!makes_alike(coarse_before, coarse_now, table)) return;
+  replace_values(table, coarse_before);
+  replace_values(table, before);
 }
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The reduced picture in which the motion of blocks is measured.
+/// The reduced picture in which the motion of blocks is measured, and what its light does.
 #pragma once
 
 #include "core/picture/padded_image.h"
@@ -26,5 +26,12 @@ double pixels_to_one(FieldScale scale);
 void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& picture);
 
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
+
+/// When the brightness of the whole picture has changed (a flickering lamp, a fade, a shutter),
+/// adapts the picture before to the new brightness, both `coarse_before`, in which it is seen in
+/// comparison with `coarse_now`, and `before`. The change counts only if that makes the two
+/// pictures more alike.
+void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
+                      PaddedImage& before);
 
 }  // namespace spidar

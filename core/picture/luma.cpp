@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/picture/luma_words.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 
@@ -61,11 +62,9 @@ ImageView luma_of_packed(const uint8_t* data, int width, int height, ptrdiff_t s
                          PackedOrder order, std::vector<uint8_t>& buffer) {
   const bool padded = order == PackedOrder::kRgbx || order == PackedOrder::kBgrx;
   buffer.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-  // cv::Mat has no const view; nothing writes through this one.
-  const cv::Mat source(height, width, padded ? CV_8UC4 : CV_8UC3, const_cast<uint8_t*>(data),
-                       static_cast<size_t>(stride_bytes));
+  const int type = padded ? CV_8UC4 : CV_8UC3;
   cv::Mat luma(height, width, CV_8UC1, buffer.data());
-  cv::cvtColor(source, luma, conversion(order));
+  cv::cvtColor(const_mat(data, width, height, type, stride_bytes), luma, conversion(order));
   return {buffer.data(), width, height, width};
 }
 

@@ -11,8 +11,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "core/picture/opencv.h"
 #include "core/picture/reduced_frame.h"
-#include "core/picture/serial_opencv.h"
 #include "core/require.h"
 
 namespace spidar {
@@ -179,15 +179,11 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
     return;
   }
   std::swap(before, now);
-  const ImageView view = reduced.base().view();
-  // cv::Mat has no const view; nothing writes through this one.
-  const cv::Mat image(view.height, view.width, CV_8UC1, const_cast<uint8_t*>(view.data),
-                      static_cast<size_t>(view.stride_bytes));
   constexpr bool kWithDerivatives = true;  // used twice: forwards from this picture, and back
   constexpr bool kReuseInput = false;      // the input lives shorter than the pyramid
-  cv::buildOpticalFlowPyramid(image, now, cv::Size(kWindow_px, kWindow_px), kMaxLevel,
-                              kWithDerivatives, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
-                              kReuseInput);
+  cv::buildOpticalFlowPyramid(const_mat(reduced.base().view()), now,
+                              cv::Size(kWindow_px, kWindow_px), kMaxLevel, kWithDerivatives,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
   result.tracks.clear();
   if (result.picture == PictureKind::kFirst) {
     features.clear();
