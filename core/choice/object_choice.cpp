@@ -116,10 +116,8 @@ const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>&
   for (const MovingObject& object : objects) {
     if (!may_be(object)) continue;
     const double back_s = state_ == State::kLooking ? since_s_ : 0;
-    const Eigen::Vector2d was_px = object.position_px - back_s * object.relative_px_s;
-    const Eigen::Vector2d outside_px =
-        ((position_px_ - was_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
-    const double distance_px = outside_px.norm();
+    const Eigen::AlignedBox2d was_px = object.box_px().translated(-back_s * object.relative_px_s);
+    const double distance_px = was_px.exteriorDistance(position_px_);
     const bool is_better =
         distance_px < nearest_px ||
         (distance_px == nearest_px && (!best || object.area_px2 < best->area_px2));

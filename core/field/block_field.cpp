@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include <Eigen/LU>
+
 #include "core/quantile.h"
 
 namespace spidar {
@@ -208,15 +210,10 @@ void BlockField::refine(size_t index) {
   const float dd = mean(s.squared) - d * d;
 
   // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
-  const float a = S(0, 0) + MotionBlock::kRegularization;
-  const float b = S(1, 1) + MotionBlock::kRegularization;
-  const float determinant = a * b - S(0, 1) * S(0, 1);
-  const Vector2f e = Vector2f(-(b * gd.x() - S(0, 1) * gd.y()) / determinant,
-                              -(a * gd.y() - S(0, 1) * gd.x()) / determinant)
-                         .cwiseMax(-kMostOff_px)
-                         .cwiseMin(kMostOff_px);
-  const float left = dd + 2 * (e.x() * gd.x() + e.y() * gd.y()) + e.x() * e.x() * S(0, 0) +
-                     2 * e.x() * e.y() * S(0, 1) + e.y() * e.y() * S(1, 1);
+  const Eigen::Matrix2f regularized =
+      S + MotionBlock::kRegularization * Eigen::Matrix2f::Identity();
+  const Vector2f e = (-(regularized.inverse() * gd)).cwiseMax(-kMostOff_px).cwiseMin(kMostOff_px);
+  const float left = dd + 2 * e.dot(gd) + e.dot(S * e);
   block.centre_px =
       corner_px.cast<float>() +
       0.5f * (Vector2i::Constant(kBlock_px) - Vector2i(now_.width(), now_.height())).cast<float>();

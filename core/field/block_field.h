@@ -24,6 +24,14 @@ Scalar smaller_eigenvalue(const Eigen::Matrix<Scalar, 2, 2>& S) {
   return (S.trace() - std::sqrt(unequal * unequal + 4 * S(0, 1) * S(0, 1))) / 2;
 }
 
+/// Smaller over larger eigenvalue of a structure tensor: 0 for a single edge, whose motion along
+/// itself is invisible.
+template <typename Scalar>
+Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
+  const Scalar smaller = smaller_eigenvalue(S);
+  return S.trace() > 0 ? smaller / (S.trace() - smaller) : 0;
+}
+
 /// How far a block's motion in whole pixels may be off: it is right to half a pixel, or wrong. What
 /// is further away shows something else, px of the picture in which motion is measured.
 constexpr float kMostOff_px = 1;
@@ -48,8 +56,8 @@ struct MotionBlock {
   static constexpr float kLeastTexture = 5;
   /// Whether the motion is known in one direction at least.
   bool has_texture() const { return structure.trace() > 2 * kLeastTexture; }
-  /// Smaller over larger eigenvalue of a structure tensor: with less, it is that of an edge, and a
-  /// match along the edge would only follow noise.
+  /// With less roundness() it is that of an edge, and a match along the edge would only follow
+  /// noise.
   static constexpr double kLeastRoundness = 0.05;
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "core/picture/luma.h"
 
 namespace spidar {
@@ -77,13 +79,9 @@ bool FineWindows::read(const ImageView& frame, Template& window) {
   for (float& grey : window.grey) grey -= sum / n;
   for (float& slope : window.x_slope) slope -= x / n;
   for (float& slope : window.y_slope) slope -= y / n;
-  window.xx = xx - x * x / n;
-  window.xy = xy - x * y / n;
-  window.yy = yy - y * y / n;
+  window.structure << xx - x * x / n, xy - x * y / n, xy - x * y / n, yy - y * y / n;
   window.variance = squares / n - sum / n * sum / n;
-  const float weakest =
-      (window.xx + window.yy - std::hypot(window.xx - window.yy, 2 * window.xy)) / 2;
-  return weakest > kLeastTexture * n;
+  return smaller_eigenvalue(window.structure) > kLeastTexture * n;
 }
 
 void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
@@ -134,9 +132,7 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
   }
   constexpr auto n = static_cast<float>(kPixels);
   residual = squares / n - sum / n * sum / n;
-  const float determinant = window.xx * window.yy - window.xy * window.xy;
-  step_px =
-      -Eigen::Vector2f(window.yy * x - window.xy * y, window.xx * y - window.xy * x) / determinant;
+  step_px = -(window.structure.inverse() * Eigen::Vector2f(x, y));
   return true;
 }
 

@@ -67,10 +67,8 @@ class FineWindows {
     std::array<float, kPixels> grey;
     std::array<float, kPixels> x_slope;  ///< grey levels a pixel
     std::array<float, kPixels> y_slope;
-    float xx = 0;  ///< Σ of the products of the slopes without their means
-    float xy = 0;
-    float yy = 0;
-    float variance = 0;  ///< of the grey levels
+    Eigen::Matrix2f structure;  ///< Σ g gᵀ of the slopes without their means
+    float variance = 0;         ///< of the grey levels
   };
 
   bool read(const ImageView& frame, Template& window);

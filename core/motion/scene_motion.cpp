@@ -8,10 +8,9 @@ namespace spidar {
 namespace {
 
 double weight_at(const Eigen::Vector2d& pointer_px, const MovingObject& object, int frame_height) {
-  const Eigen::Vector2d outside_px =
-      ((pointer_px - object.position_px).cwiseAbs() - object.size_px / 2).cwiseMax(0.0);
   const double sigma_px = kPointerReach * frame_height;
-  return object.area_px2 * std::exp(-outside_px.squaredNorm() / (2 * sigma_px * sigma_px));
+  return object.area_px2 *
+         std::exp(-object.box_px().squaredExteriorDistance(pointer_px) / (2 * sigma_px * sigma_px));
 }
 
 double area_in_box(const MovingObject& object, const Eigen::AlignedBox2d& box_px) {

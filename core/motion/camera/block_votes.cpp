@@ -57,9 +57,7 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
     votes.sources.push_back(i);
     together += block.structure / block.structure.trace();
   }
-  const auto across = static_cast<double>(smaller_eigenvalue(together));
-  const auto both = static_cast<double>(together.trace());
-  return across > MotionBlock::kLeastRoundness * (both - across);
+  return static_cast<double>(roundness(together)) > MotionBlock::kLeastRoundness;
 }
 
 }  // namespace

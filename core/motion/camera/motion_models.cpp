@@ -51,12 +51,9 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
     const double turn = (cross(1, 0) - cross(0, 1)) / scatter.trace();
     model.linear << grow, -turn, turn, grow;
   } else {
-    const double determinant = scatter.determinant();
     // The points lie almost on one line: a hundred times as long as wide.
-    if (!(determinant > 1e-4 * scatter.trace() * scatter.trace())) return false;
-    Eigen::Matrix2d adjugate;
-    adjugate << scatter(1, 1), -scatter(0, 1), -scatter(1, 0), scatter(0, 0);
-    model.linear = cross * adjugate / determinant;
+    if (!(scatter.determinant() > 1e-4 * scatter.trace() * scatter.trace())) return false;
+    model.linear = cross * scatter.inverse();
   }
   model.shift_px = means.moved_px - model.linear * means.at_px;
   return true;

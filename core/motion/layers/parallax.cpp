@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "core/motion/camera/robust_fit.h"
 #include "core/quantile.h"
 
@@ -46,13 +48,9 @@ void Parallax::measure(const std::vector<Eigen::Vector2f>& moved_px) {
 
 double Parallax::sigma_px(const Eigen::Vector2d& motion) const {
   const Eigen::Matrix2d covariance_px2 = covariance_px2_.cast<double>();
-  const double determinant = covariance_px2.determinant();
-  if (!(determinant > 0) || motion.isZero()) return 0;
-  Eigen::Matrix2d adjugate;
-  adjugate << covariance_px2(1, 1), -covariance_px2(0, 1), -covariance_px2(1, 0),
-      covariance_px2(0, 0);
+  if (!(covariance_px2.determinant() > 0) || motion.isZero()) return 0;
   const Eigen::Vector2d direction = motion.normalized();
-  return std::sqrt(determinant / direction.dot(adjugate * direction));
+  return 1 / std::sqrt(direction.dot(covariance_px2.inverse() * direction));
 }
 
 }  // namespace spidar

@@ -59,9 +59,7 @@ void RegionFinder::describe(const BlockField& field, const std::vector<RelativeB
     tensor += block.structure.cast<double>();
     moved_px_.push_back(relative[i].moved_px);
   }
-  const double trace = tensor(0, 0) + tensor(1, 1);
-  const double root = std::hypot(tensor(0, 0) - tensor(1, 1), 2 * tensor(0, 1));
-  region.roundness = trace > 0 ? (trace - root) / (trace + root) : 0;
+  region.roundness = roundness(tensor);
   region.position_px /= region.blocks;
   region.background_px /= region.blocks;
   region.relative_px = median_of_each(moved_px_).cast<double>();

@@ -29,9 +29,7 @@ struct Region {
   /// Median motion relative to the background.
   Eigen::Vector2d relative_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d background_px = Eigen::Vector2d::Zero();  ///< mean motion of the background there
-  /// Smaller over larger eigenvalue of the structure tensor of the whole region: 0 for a single
-  /// edge, whose motion along itself is invisible.
-  double roundness = 0;
+  double roundness = 0;  ///< of the structure tensor of the whole region
 };
 
 /// Label of blocks that belong to no region.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Pictures for OpenCV, and OpenCV without its worker threads.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "core/picture/image_view.h"
+
+namespace spidar {
+
+/// `width` × `height` elements of an OpenCV type. There is no const view: for functions that do not
+/// write to what they read.
+inline cv::Mat const_mat(const uint8_t* data, int width, int height, int type,
+                         ptrdiff_t stride_bytes) {
+  return {height, width, type, const_cast<uint8_t*>(data), static_cast<size_t>(stride_bytes)};
+}
+/// A picture of 8 bits.
+inline cv::Mat const_mat(const ImageView& view) {
+  return const_mat(view.data, view.width, view.height, CV_8U, view.stride_bytes);
+}
+
+/// Runs `work` so that OpenCV functions in it stay on the calling thread.
+///
+/// The streaming thread shares the machine with a decoder and the 1 kHz loop. With the tracker's
+/// small pictures, a second thread saves less than a millisecond per frame and takes a core away
+/// from them. A library should not call cv::setNumThreads(), which affects the whole process.
+/// OpenCV does not split a parallel_for_ inside another one, so the work runs inside a single
+/// stripe. As the only side effect, parallel loops that other threads start in the meantime are not
+/// split either.
+template <typename Work>
+void run_on_this_thread(Work&& work) {
+  cv::parallel_for_(cv::Range(0, 1), [&work](const cv::Range&) { work(); });
+}
+
+}  // namespace spidar
