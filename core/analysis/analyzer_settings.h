@@ -11,7 +11,7 @@
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
 #include "core/force/motion_rendering.h"
-#include "core/motion/scene_motion.h"
+#include "core/motion/image_motion.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {

@@ -49,7 +49,7 @@ ImageMotion faster(ImageMotion motion, double factor) {
   motion.velocity_px_s *= factor;
   motion.growth_1_s *= factor;
   motion.roll_rad_s *= factor;
-  motion.noise_px_s *= factor;
+  motion.dead_zone_px_s *= factor;
   return motion;
 }
 
@@ -105,7 +105,7 @@ Chosen ForceRenderer::choose(const Frame& frame, const FilmPlace& film) {
 ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,
                                             const Chosen& choice) const {
   if (choice.is_free()) return free_motion(frame);
-  if (choice.object) return motion_of(*choice.object);
+  if (choice.object) return relative_motion(*choice.object);
   if (choice.is_kept || !frame.background) return {};
   if (choice.rule->kind == FeelKind::kRegion) {
     const FeelRule& region = *choice.rule;
@@ -134,7 +134,7 @@ ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
       break;
   }
   const MovingObject* const object = frame.dominant_object();
-  return object ? motion_of(*object) : ImageMotion();
+  return object ? relative_motion(*object) : ImageMotion();
 }
 
 void ForceRenderer::restart() {

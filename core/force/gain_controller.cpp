@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/motion/image_motion.h"
 #include "core/require.h"
 
 namespace spidar {
@@ -42,9 +43,9 @@ std::unique_ptr<GainController> make_controller(const ControllerSettings& settin
 }
 
 Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
-                     double interval_s, double noise_px_s) {
+                     double interval_s, double dead_zone_px_s) {
   const double speed_px_s = velocity_px_s.norm();
-  const double force_N = controller.force_N({speed_px_s, interval_s, noise_px_s});
+  const double force_N = controller.force_N({speed_px_s, interval_s, dead_zone_px_s});
   Wrench wrench;
   if (speed_px_s > 0) {
     const Eigen::Vector2d direction = velocity_px_s / speed_px_s;
@@ -100,7 +101,7 @@ void AdaptiveController::follow(double speed_px_s, double interval_s) {
 
 double AdaptiveController::force_N(const MeasuredSpeed& measured) {
   const double dead_px_s =
-      measured.noise_px_s > 0 ? kNoiseSigmas * measured.noise_px_s : kLeast_px_s;
+      measured.dead_zone_px_s > 0 ? measured.dead_zone_px_s : DeadZone::kLeast_px_s;
   if (alpha_s_px_ == 0 || measured.speed_px_s <= dead_px_s) return 0;
   follow(measured.speed_px_s, measured.interval_s);
   return NonlinearController(max_force_N_, 1 / scale_px_s())

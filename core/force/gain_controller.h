@@ -24,12 +24,12 @@ struct ControllerSettings {
 /// What a controller is told of one frame, in px/s of the reference frame.
 struct MeasuredSpeed {
   // A bare number is a speed of which nothing else is known.
-  MeasuredSpeed(double speed, double interval = 0, double noise = 0)
-      : speed_px_s(speed), interval_s(interval), noise_px_s(noise) {}
+  MeasuredSpeed(double speed, double interval = 0, double dead_zone = 0)
+      : speed_px_s(speed), interval_s(interval), dead_zone_px_s(dead_zone) {}
 
-  double speed_px_s;  ///< ≥ 0
-  double interval_s;  ///< running time since the frame before, ≥ 0; 0: not known
-  double noise_px_s;  ///< standard error of each coordinate of the velocity, ≥ 0; 0: not known
+  double speed_px_s;      ///< ≥ 0
+  double interval_s;      ///< running time since the frame before, ≥ 0; 0: not known
+  double dead_zone_px_s;  ///< as ImageMotion has it, ≥ 0; 0: not known
 };
 
 /// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
@@ -88,18 +88,16 @@ void validate(const ControllerSettings& settings);
 std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
 
 /// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up);
-/// interval and noise as in MeasuredSpeed.
+/// interval and dead zone as in MeasuredSpeed.
 Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
-                     double interval_s = 0, double noise_px_s = 0);
+                     double interval_s = 0, double dead_zone_px_s = 0);
 
 /// F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the speeds seen,
 /// and a dead zone V₀ that the force leaves without a step.
 ///
-/// The dead zone is kNoiseSigmas standard errors of the velocity: for a Gaussian error of two
-/// coordinates P(|e| > 3 σ) = 1.1 %. Where they are not known it is kLeast_px_s, the speed at which
-/// eq. 15 with α = 0.01 and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans.
-/// Haptics 2013, PubMed 24808327). Within the dead zone the force is exactly zero and the scale
-/// stays as it is, so that a pause does not make the controller more sensitive.
+/// The dead zone is that of the motion, or DeadZone::kLeast_px_s where it is not known. Within it
+/// the force is exactly zero and the scale stays as it is, so that a pause does not make the
+/// controller more sensitive.
 ///
 /// The scale follows ln V: d ln S / dt = clamp(ln V − ln S, −1, 1) / T, with T = kAttack_s while
 /// speeds are above the scale and kRelease_s while they are below. It settles where a fraction of
@@ -121,8 +119,6 @@ class AdaptiveController final : public GainController {
   /// S in px/s: the speed that gives half of the maximum force; infinite with α = 0.
   double scale_px_s() const;
 
-  static constexpr double kNoiseSigmas = 3;
-  static constexpr double kLeast_px_s = 2.1;  ///< tan(0.04 π / 6) / 0.01
   static constexpr double kAttack_s = 2;
   static constexpr double kRelease_s = 6;
   static constexpr double kRange = 10;

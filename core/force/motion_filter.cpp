@@ -48,9 +48,9 @@ ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, do
       steady(growth_, kRim_px * motion.growth_1_s, interval_s, settings) / kRim_px;
   steadier.roll_rad_s = steady(roll_, kRim_px * motion.roll_rad_s, interval_s, settings) / kRim_px;
   const double fraction = velocity_.fraction();
-  noise_px_s_ =
-      std::hypot((1 - fraction) * noise_px_s_, fraction * to_reference * motion.noise_px_s);
-  steadier.noise_px_s = noise_px_s_ / to_reference;
+  dead_zone_px_s_ =
+      std::hypot((1 - fraction) * dead_zone_px_s_, fraction * to_reference * motion.dead_zone_px_s);
+  steadier.dead_zone_px_s = dead_zone_px_s_ / to_reference;
   return steadier;
 }
 
@@ -58,14 +58,14 @@ void MotionFilter::stop() {
   velocity_.restart_at(OneEuroFilter<2>::Vector::Zero());
   growth_.restart_at(OneEuroFilter<1>::Vector::Zero());
   roll_.restart_at(OneEuroFilter<1>::Vector::Zero());
-  noise_px_s_ = 0;
+  dead_zone_px_s_ = 0;
 }
 
 void MotionFilter::reset() {
   velocity_.reset();
   growth_.reset();
   roll_.reset();
-  noise_px_s_ = 0;
+  dead_zone_px_s_ = 0;
 }
 
 }  // namespace spidar

@@ -72,7 +72,7 @@ class OneEuroFilter {
 
 /// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is
 /// delayed by 1 / (2π (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) at any
-/// a: 2 px/s with the default β, which cannot be felt (AdaptiveController::kLeast_px_s).
+/// a: 2 px/s with the default β, which cannot be felt (DeadZone::kLeast_px_s).
 /// docs/feeling.md compares other values.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
@@ -85,8 +85,8 @@ void validate(const FilterSettings& settings);
 
 /// One 1 € filter each for velocity, growth and roll. All are filtered in px/s of the reference
 /// frame, growth and roll as the speed at kRim_px, so that one β fits all. When nothing moves and
-/// the filtered motion is slower than kRest_px_s, the result is exactly zero. The noise of the
-/// velocity is reduced as the filter reduces it.
+/// the filtered motion is slower than kRest_px_s, the result is exactly zero. The dead zone shrinks
+/// as the filter reduces the noise of the velocity.
 class MotionFilter {
  public:
   /// Filters the `motion` of a frame of `frame_height` pixels, `interval_s` > 0 after the previous
@@ -106,7 +106,7 @@ class MotionFilter {
   OneEuroFilter<2> velocity_;
   OneEuroFilter<1> growth_;
   OneEuroFilter<1> roll_;
-  double noise_px_s_ = 0;
+  double dead_zone_px_s_ = 0;
 };
 
 }  // namespace spidar

@@ -53,14 +53,14 @@ inline Eigen::Vector4d reference_speeds_px_s(const ImageMotion& motion, const Ax
 inline Wrench render_motion(GainController& controller, const ImageMotion& motion,
                             const AxisGains& gains, int frame_height, double interval_s = 0) {
   const Eigen::Vector4d u = reference_speeds_px_s(motion, gains, frame_height);
-  const double noise_px_s = kReferenceHeight_px / frame_height * motion.noise_px_s;
+  const double dead_zone_px_s = kReferenceHeight_px / frame_height * motion.dead_zone_px_s;
   // Without growth and roll this is the plane controller to the last bit.
   if (u[2] == 0 && u[3] == 0) {
-    return render_motion(controller, u.head<2>(), interval_s, noise_px_s);
+    return render_motion(controller, u.head<2>(), interval_s, dead_zone_px_s);
   }
 
   const double speed_px_s = u.norm();
-  const double force_N = controller.force_N({speed_px_s, interval_s, noise_px_s});
+  const double force_N = controller.force_N({speed_px_s, interval_s, dead_zone_px_s});
   const Eigen::Vector4d direction = u / speed_px_s;
   Wrench wrench;
   wrench.force_N << force_N * direction[0], -force_N * direction[1], force_N * direction[2];

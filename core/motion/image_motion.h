@@ -1,33 +1,86 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motion of the picture, the paper's way to compute it from tracks, and how fast it can be.
+/// The motions of a picture that can be rendered: the mean of the paper, of an object, of the
+/// objects at a pointer or in a box, of the camera; and how fast a motion can be.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include "core/motion/camera/motion_models.h"
+#include "core/motion/objects/moving_object.h"
 #include "core/tracking/tracker.h"
 
 namespace spidar {
+
+enum class MotionKind {
+  kMean,    ///< mean velocity of the points of OpenCvTracker: the paper's eq. 1–10
+  kObject,  ///< motion of the dominant object relative to the background
+  /// All objects relative to the background, weighted by area and nearness to the pointer.
+  kObjects,
+  kCamera,  ///< motion of the camera
+};
+
+/// The dead zone of AdaptiveController: slower than this, a motion may be an error of measurement
+/// that changes from frame to frame.
+struct DeadZone {
+  /// Of a velocity whose standard error in each coordinate is known: for a Gaussian error of two
+  /// coordinates P(|e| > 3 σ) = 1.1 %.
+  static constexpr double kSigmas = 3;
+  /// Of an object, as a fraction of MovingObject::error_px_s, which 95 % of its errors are below.
+  /// Most of such an error lasts for many frames, and the hand does not take it for a tremor; what
+  /// changes has a standard error of 1/25 of the bound, and kSigmas of that are 0.12. On five real
+  /// films the force is then within 1.4 % of that of points, whose noise is known.
+  static constexpr double kOfBound = kSigmas / 25;
+  /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
+  /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed
+  /// 24808327): tan(0.04 π / 6) / 0.01.
+  static constexpr double kLeast_px_s = 2.1;
+};
 
 /// Motion of the picture between two frames.
 struct ImageMotion {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< image frame I: x right, y down
   /// Relative change of lengths per second: 0.5 is half as large again. Positive: it comes nearer.
   double growth_1_s = 0;
-  double roll_rad_s = 0;  ///< rotation from x to y: clockwise as seen on the screen
-  int tracked = 0;        ///< number of points from which it was measured
-  /// Standard error of each coordinate of the velocity, of what changes from frame to frame; 0: not
-  /// known.
-  double noise_px_s = 0;
+  double roll_rad_s = 0;      ///< rotation from x to y: clockwise as seen on the screen
+  int tracked = 0;            ///< number of points from which it was measured
+  double dead_zone_px_s = 0;  ///< see DeadZone; 0: no error is known
 };
 
 /// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt. `interval_ns`
 /// is the difference of the frames' running times and must be positive. Without tracks the velocity
 /// is 0 and `tracked` is 0.
 ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
+
+/// How far from the pointer an object is felt: σ of the Gaussian weight, as a fraction of the
+/// frame's height.
+constexpr double kPointerReach = 0.25;
+
+/// Mean motion of the objects, each weighted by area_px2 · exp(−d² / 2σ²), where d is the distance
+/// of `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 inside
+/// it. An object at the pointer counts with its full area; at a distance of a quarter of the
+/// frame's height the factor is 0.61, at half of it 0.14, at the full height 0.0003. A single
+/// object is felt at full strength wherever it is, because the weights are normalised. Objects at
+/// rest count, objects out of sight do not.
+ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
+                              const Eigen::Vector2d& pointer_px, int frame_height);
+
+/// Mean motion of the objects in sight, each weighted by the area that it has in a box of the
+/// frame, px from the frame's centre: the box around it stands for its outline.
+ImageMotion motion_in_box(const std::vector<MovingObject>& objects,
+                          const Eigen::AlignedBox2d& box_px);
+
+/// Motion of the camera over `interval_s` > 0: it moves to the right when the background moves to
+/// the left, and forwards when the background grows. `votes` is the number of displacements that
+/// the background was found from.
+ImageMotion camera_motion(const Background& background, int votes, double interval_s);
+
+/// The motion of this object alone.
+ImageMotion relative_motion(const MovingObject& object);
 
 /// Two frames count as at least so far apart: half a tick of the haptic loop. Timestamps that
 /// differ by a rounding error are no time to divide a displacement by.

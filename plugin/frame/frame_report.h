@@ -12,7 +12,7 @@
 
 #include "core/analysis/frame.h"
 #include "core/force/gain_controller.h"
-#include "core/motion/scene_motion.h"
+#include "core/motion/image_motion.h"
 #include "core/orientation.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/no_force_reason.h"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/analysis/frame.h"
-#include "core/motion/scene_motion.h"
+#include "core/motion/image_motion.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {

@@ -39,24 +39,24 @@ constexpr int kWidth = 640;
 constexpr double kInterval_s = 0.04;
 constexpr double kFastest_px_s = kWidth / kInterval_s;
 
-ImageMotion motion_of(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
+ImageMotion moving(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
   return {{x_px_s, y_px_s}, growth_1_s, roll_rad_s, 10, 1.5};
 }
 
 TEST(MotionBounds, VisibleMotionIsUnchanged) {
-  const ImageMotion motion = motion_of(-0.6 * kFastest_px_s, 0.79 * kFastest_px_s, -24, 78);
+  const ImageMotion motion = moving(-0.6 * kFastest_px_s, 0.79 * kFastest_px_s, -24, 78);
   const ImageMotion bounded = bound_motion(motion, kWidth, kInterval_s);
   EXPECT_EQ(bounded.velocity_px_s, motion.velocity_px_s);
   EXPECT_EQ(bounded.growth_1_s, -24);
   EXPECT_EQ(bounded.roll_rad_s, 78);
   EXPECT_EQ(bounded.tracked, 10);
-  EXPECT_EQ(bounded.noise_px_s, 1.5);
+  EXPECT_EQ(bounded.dead_zone_px_s, 1.5);
 }
 
 TEST(MotionBounds, NothingIsFasterThanAFramesWidthAFrame) {
   for (const double speed_px_s : {2 * kFastest_px_s, 2e10, 1e300}) {
     const ImageMotion bounded =
-        bound_motion(motion_of(0.6 * speed_px_s, -0.8 * speed_px_s), kWidth, kInterval_s);
+        bound_motion(moving(0.6 * speed_px_s, -0.8 * speed_px_s), kWidth, kInterval_s);
     // A norm, a quotient, a product.
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * kFastest_px_s;
     EXPECT_NEAR(bounded.velocity_px_s.x(), 0.6 * kFastest_px_s, rounding);
@@ -65,7 +65,7 @@ TEST(MotionBounds, NothingIsFasterThanAFramesWidthAFrame) {
 }
 
 TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
-  const ImageMotion bounded = bound_motion(motion_of(0, 0, 1e9, -1e9), kWidth, kInterval_s);
+  const ImageMotion bounded = bound_motion(moving(0, 0, 1e9, -1e9), kWidth, kInterval_s);
   EXPECT_EQ(bounded.growth_1_s, 1 / kInterval_s);
   EXPECT_NEAR(bounded.roll_rad_s, -M_PI / kInterval_s, 1e-12);
 }
@@ -73,11 +73,22 @@ TEST(MotionBounds, NothingGrowsOrTurnsFasterThanCanBeSeen) {
 TEST(MotionBounds, NanIsNoMotion) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    const ImageMotion bounded = bound_motion(motion_of(bad, 1, bad, -bad), kWidth, kInterval_s);
+    const ImageMotion bounded = bound_motion(moving(bad, 1, bad, -bad), kWidth, kInterval_s);
     EXPECT_EQ(bounded.velocity_px_s.norm(), 0);
     EXPECT_EQ(bounded.growth_1_s, 0);
     EXPECT_EQ(bounded.roll_rad_s, 0);
   }
+}
+
+TEST(DeadZone, IsThreeStandardErrorsOrAPartOfTheBound) {
+  MovingObject object;
+  object.error_px_s = 25;
+  EXPECT_NEAR(relative_motion(object).dead_zone_px_s, 3, 1e-14);
+  Background background;
+  background.sigma_px = 0.1;
+  // 100 votes: 0.01 px, in 0.04 s.
+  EXPECT_NEAR(camera_motion(background, 100, 0.04).dead_zone_px_s, 3 * 0.01 / 0.04, 1e-14);
+  EXPECT_EQ(camera_motion(background, 0, 0.04).dead_zone_px_s, 0) << "not known";
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(OneEuroFilter, TheDefaultDelayCannotBeFelt) {
           filter.filter(Scalar(x), kFrame_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
       if (n > 25) worst_px_s = std::max(worst_px_s, std::fabs(x - y));  // the rate is known
     }
-    EXPECT_LT(worst_px_s, AdaptiveController::kLeast_px_s) << slope_px_s2;
+    EXPECT_LT(worst_px_s, DeadZone::kLeast_px_s) << slope_px_s2;
   }
 }
 
@@ -145,19 +145,19 @@ TEST(MotionFilter, ReportsTheNoiseAfterFiltering) {
     for (int n = 0; n < 6; ++n) {
       const double x = 50 + noise(random);
       ImageMotion motion = moving(x, noise(random));
-      motion.noise_px_s = 2;
+      motion.dead_zone_px_s = 2;
       steady = filter.filter(motion, 240, kFrame_s, fixed);
     }
     squares += (steady.velocity_px_s - Eigen::Vector2d(50, 0)).squaredNorm() / 2;
-    stated = steady.noise_px_s;
+    stated = steady.dead_zone_px_s;
   }
   // A standard deviation from 8000 draws is known to 1 / √16000 = 0.8 %; four of that.
   EXPECT_NEAR(std::sqrt(squares / kRuns), stated, 0.032 * stated) << "seed 21";
   EXPECT_LT(stated, 0.6 * 2);
   // Not known stays not known, and what is reset has the noise of the first value.
   MotionFilter filter;
-  EXPECT_EQ(filter.filter(moving(10, 0), kHeight, kFrame_s, {}).noise_px_s, 0);
-  EXPECT_EQ(filter.filter(moving(20, 0), kHeight, kFrame_s, {}).noise_px_s, 0);
+  EXPECT_EQ(filter.filter(moving(10, 0), kHeight, kFrame_s, {}).dead_zone_px_s, 0);
+  EXPECT_EQ(filter.filter(moving(20, 0), kHeight, kFrame_s, {}).dead_zone_px_s, 0);
 }
 
 TEST(MotionFilter, RefusesWhatIsNotASetting) {

@@ -25,7 +25,7 @@ MovingObject object(double x_px, double y_px, double size_px, double speed_px_s)
   made.relative_px_s << speed_px_s, 0;
   made.growth_1_s = speed_px_s / 100;
   made.roll_rad_s = -speed_px_s / 100;
-  made.error_px_s = 1 / kNoiseOfError;
+  made.error_px_s = 1 / DeadZone::kOfBound;
   made.tracks = 10;
   return made;
 }
@@ -40,7 +40,7 @@ TEST(Pointer, IsOnOneOfTwoObjectsAndThatOneIsFelt) {
   EXPECT_NEAR(left.growth_1_s, mean(0.8, -0.4), kRounding);
   EXPECT_NEAR(left.roll_rad_s, mean(-0.8, 0.4), kRounding);
   EXPECT_EQ(left.tracked, 20);
-  EXPECT_NEAR(left.noise_px_s, std::sqrt(1 + other * other) / (1 + other), kRounding);
+  EXPECT_NEAR(left.dead_zone_px_s, std::sqrt(1 + other * other) / (1 + other), kRounding);
   const ImageMotion right = motion_at_pointer(objects, {150, 0}, kHeight);
   EXPECT_NEAR(right.velocity_px_s.x(), mean(-40, 80), kRounding);
   // In the middle between two of one size it is their mean.
