@@ -21,7 +21,7 @@ FieldPosition position_of(const BlockField& field, const ReducedFrame& reduced) 
 }  // namespace
 
 MotionEstimator::MotionEstimator() {
-  votes_.reserve(kMostDisplacements);
+  votes_.cast.reserve(kMostDisplacements);
 }
 
 void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& position) {
@@ -67,7 +67,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   collect_votes(field_, objects_.past(), votes_);
   const Background& background = estimator_.estimate(votes_);
   frame.background = in_pixels_of(background, position.scale);
-  frame.votes = static_cast<int>(votes_.points.size());
+  frame.votes = static_cast<int>(votes_.cast.size());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
   const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);

@@ -37,12 +37,10 @@ inline BackgroundVotes votes(const std::vector<Displacement>& points, int blocks
   votes.all = blocks;
   for (const Displacement& point : points) {
     const Eigen::Vector2d from_middle_px = point.at_px.cwiseAbs();
-    votes.points.push_back(point);
-    votes.sources.push_back(votes.sources.size());
     const bool at_border = from_middle_px.x() > kWidth / 2 - kBorder_px ||
                            from_middle_px.y() > kHeight / 2 - kBorder_px;
-    votes.at_border.push_back(at_border);
-    votes.weights.push_back(at_border ? kBorderVotes : 1);
+    const double weight = at_border ? kBorderVotes : 1;
+    votes.cast.push_back({point, weight, at_border, votes.cast.size()});
   }
   return votes;
 }

@@ -161,8 +161,8 @@ TEST(MotionModels, PointsOnALineDoNotDetermineAnAffineModel) {
 TEST(MotionModels, PointsInOnePlaceDetermineAShiftOnly) {
   // 0.1 and 0.2 have no exact mean.
   for (const Eigen::Vector2d& at_px : {Eigen::Vector2d(10, 10), Eigen::Vector2d(0.1, 0.2)}) {
-    std::vector<Displacement> points(5, {0, at_px, {1, 2}});
-    points.push_back({0, at_px, {1.5, 2}});
+    std::vector<Displacement> points(5, {at_px, {1, 2}});
+    points.push_back({at_px, {1.5, 2}});
     const std::vector<double> weights = {1, 0.7, 0.1, 0.3, 0.9, 0.2};
     const double mean_x_px = 1 + 0.5 * 0.2 / 3.2;
     const MotionModel shift = fit_model(ModelKind::kTranslation, points, weights).value();

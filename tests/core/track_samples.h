@@ -36,7 +36,7 @@ class TrackSource {
   }
 
   Displacement moved(const MotionModel& model, const Eigen::Vector2d& at_px, double sigma_px) {
-    return {next_id_++, at_px, model.displacement_px(at_px) + noise_px(sigma_px)};
+    return {at_px, model.displacement_px(at_px) + noise_px(sigma_px)};
   }
 
   std::vector<Displacement> moved(const MotionModel& model, int count, double sigma_px) {
@@ -49,7 +49,7 @@ class TrackSource {
   Displacement stray() {
     const Eigen::Vector2d at = position_px();
     const double dx = uniform(-30, 30);
-    return {next_id_++, at, {dx, uniform(-30, 30)}};
+    return {at, {dx, uniform(-30, 30)}};
   }
 
  private:
@@ -57,7 +57,6 @@ class TrackSource {
   std::normal_distribution<double> normal_;
   int width_;
   int height_;
-  uint32_t next_id_ = 0;
 };
 
 /// A camera that does a little of everything that `kind` can.

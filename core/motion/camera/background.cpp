@@ -31,31 +31,14 @@ ModelKind next(ModelKind kind, int step) {
 
 }  // namespace
 
-void BackgroundVotes::reserve(size_t votes) {
-  points.reserve(votes);
-  weights.reserve(votes);
-  at_border.reserve(votes);
-  sources.reserve(votes);
-}
-
-void BackgroundVotes::clear() {
-  points.clear();
-  weights.clear();
-  at_border.clear();
-  sources.clear();
-  all = 0;
-  with_edges = false;
-  are_lost = false;
-}
-
-double BackgroundVotes::cast() const {
+double BackgroundVotes::sum() const {
   double votes = 0;
-  for (const uint8_t is_at_border : at_border) votes += is_at_border ? kBorderVotes : 1;
+  for (const BackgroundVote& vote : cast) votes += vote.votes();
   return votes;
 }
 
 bool BackgroundVotes::are_few() const {
-  return points.size() < kLeastVotes || cast() < kMostObject * all;
+  return cast.size() < kLeastVotes || sum() < kMostObject * all;
 }
 
 Background in_pixels_of(const Background& background, double scale) {
@@ -83,18 +66,20 @@ void BackgroundEstimator::reset() {
 /// The weights are scaled so that their sum is the number of equally weighted points that carry the
 /// same information (Kish's effective sample size). The GRIC can then be used unchanged.
 void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
-  evidence_.points = votes.points;
-  evidence_.weights = votes.weights;
+  evidence_.points.clear();
+  evidence_.weights.clear();
   evidence_.sigma_px = std::max(kLeastReach_px, kOutlierSigmas * noise_px_) / 2;
   double sum = 0;
   double squares = 0;
-  for (const double weight : votes.weights) {
-    sum += weight;
-    squares += weight * weight;
+  for (const BackgroundVote& vote : votes.cast) {
+    evidence_.points.push_back(vote.point);
+    evidence_.weights.push_back(vote.weight);
+    sum += vote.weight;
+    squares += vote.weight * vote.weight;
   }
   for (double& weight : evidence_.weights) weight *= sum / squares;
   effective_points_ = sum * sum / squares;
-  voting_ = votes.cast();
+  voting_ = votes.sum();
   is_textured_ = voting_ >= kTexturedFraction * votes.all;
 }
 
@@ -134,10 +119,10 @@ bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& s
 bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   double sum = 0;
   positions_px_.clear();
-  for (size_t i = 0; i < votes.points.size(); ++i) {
-    if (point_cost(scored.model, votes.points[i], evidence_.sigma_px) >= kMostCost) continue;
-    sum += votes.at_border[i] ? kBorderVotes : 1;
-    positions_px_.push_back(votes.points[i].at_px);
+  for (const BackgroundVote& vote : votes.cast) {
+    if (point_cost(scored.model, vote.point, evidence_.sigma_px) >= kMostCost) continue;
+    sum += vote.votes();
+    positions_px_.push_back(vote.point.at_px);
   }
   scored.coverage = votes.all > 0 ? sum / votes.all : 0;
   if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
@@ -151,7 +136,7 @@ bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes&
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
   if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;
   positions_px_.clear();
-  for (const Displacement& point : votes.points) positions_px_.push_back(point.at_px);
+  for (const BackgroundVote& vote : votes.cast) positions_px_.push_back(vote.point.at_px);
   return !is_background(ModelKind::kSimilarity, votes.size_px);
 }
 
@@ -228,7 +213,7 @@ void BackgroundEstimator::learn_noise() {
 
 const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   fitted_ = 0;
-  if (votes.points.size() < kLeastVotes) {
+  if (votes.cast.size() < kLeastVotes) {
     background_.model = MotionModel();
     background_.coverage = 0;
     background_.is_known = !votes.are_lost;

@@ -17,14 +17,20 @@ constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
 
-/// Displacements from which the camera's motion is estimated.
+/// A displacement from which the camera's motion is estimated.
+struct BackgroundVote {
+  Displacement point;
+  double weight = 1;  ///< > 0
+  bool at_border = false;
+  size_t source = 0;  ///< index for learn_noise()
+
+  double votes() const { return at_border ? kBorderVotes : 1; }
+};
+
 struct BackgroundVotes {
-  std::vector<Displacement> points;
-  std::vector<double> weights;     ///< > 0, one for each point
-  std::vector<uint8_t> at_border;  ///< one for each point: 1 at the border of the picture
-  std::vector<size_t> sources;     ///< one for each point: its index for learn_noise()
-  double all = 0;                  ///< votes of the whole picture, including its textureless parts
-  Eigen::Vector2d size_px{1, 1};   ///< of the picture
+  std::vector<BackgroundVote> cast;
+  double all = 0;                 ///< votes of the whole picture, including its textureless parts
+  Eigen::Vector2d size_px{1, 1};  ///< of the picture
   /// Edges vote, too. Those of coding errors agree on no motion, which does not make it unknown.
   bool with_edges = false;
   /// Votes are few because most of the picture is not found in the one before, as when it fades
@@ -32,11 +38,9 @@ struct BackgroundVotes {
   bool are_lost = false;
 
   /// Votes of all points together, without their weights.
-  double cast() const;
+  double sum() const;
   /// Whether a single object could have cast them all, or they are too few for any model.
   bool are_few() const;
-  void clear();
-  void reserve(size_t votes);
 };
 
 /// The same background in smaller pixels: `scale` of them make one of the old.
@@ -69,9 +73,8 @@ class BackgroundEstimator {
   template <typename Moves>
   void learn_noise(const BackgroundVotes& votes, Moves&& moves) {
     residuals_px_.clear();
-    for (size_t i = 0; i < votes.points.size(); ++i) {
-      if (moves(votes.sources[i])) continue;
-      const Displacement& point = votes.points[i];
+    for (const auto& [point, weight, at_border, source] : votes.cast) {
+      if (moves(source)) continue;
       const Eigen::Vector2d expected_px = background_.model.displacement_px(point.at_px);
       residuals_px_.push_back((point.moved_px - expected_px).norm());
     }

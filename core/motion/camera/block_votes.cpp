@@ -24,8 +24,10 @@ enum class Voters { kTextured, kEdgesToo };
 /// edge moves along itself is not known; edges therefore vote only where little else does, as in a
 /// picture out of focus. Returns whether the voters together have edges in more than one direction.
 bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
-  votes.clear();
+  votes.cast.clear();
+  votes.all = 0;
   votes.with_edges = voters == Voters::kEdgesToo;
+  votes.are_lost = false;
   Eigen::Matrix2f together = Eigen::Matrix2f::Zero();
   const BlockGrid& grid = field.grid();
   const int left = past.margin_columns;
@@ -40,7 +42,7 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
     const double texture = static_cast<double>(block.weakest_texture());
     const bool may_vote =
         votes.with_edges ? block.has_texture() && texture > 0 : block.has_corners();
-    if (!may_vote || votes.points.size() >= kMostDisplacements) continue;
+    if (!may_vote || votes.cast.size() >= kMostDisplacements) continue;
     if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
     double weight = texture / (texture + kFullTexture) /
                     (1 + static_cast<double>(block.residual) / kBadResidual);
@@ -51,10 +53,8 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
       weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
     }
     const Eigen::Vector2d moved_px = block.moved_px.cast<double>();
-    votes.points.push_back({0, block.centre_px.cast<double>() - moved_px, moved_px});
-    votes.weights.push_back(weight);
-    votes.at_border.push_back(at_border);
-    votes.sources.push_back(i);
+    const Displacement point{block.centre_px.cast<double>() - moved_px, moved_px};
+    votes.cast.push_back({point, weight, at_border, i});
     together += block.structure / block.structure.trace();
   }
   return static_cast<double>(roundness(together)) > MotionBlock::kLeastRoundness;

@@ -3,7 +3,6 @@
 /// Models of how a plane, or something like a plane, moves from one frame to the next.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -24,7 +23,6 @@ const char* to_string(ModelKind kind);
 
 /// A displacement from one frame to the next, relative to the centre of the frame.
 struct Displacement {
-  uint32_t id = 0;  ///< of the track
   /// Its position in the first frame, from the frame's centre; x right, y down.
   Eigen::Vector2d at_px;
   Eigen::Vector2d moved_px;

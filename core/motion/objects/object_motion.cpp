@@ -28,7 +28,7 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
     if (evidence.owners[i] != key || !relative.shows_motion) continue;
     if (collected_.points.size() >= kMostDisplacements) break;
     const Eigen::Vector2d moved_px = relative.moved_px.cast<double>();
-    collected_.points.push_back({0, blocks[i].centre_px.cast<double>() - moved_px, moved_px});
+    collected_.points.push_back({blocks[i].centre_px.cast<double>() - moved_px, moved_px});
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
   collected_.sigma_px = 2 * evidence.background.sigma_px;
@@ -41,7 +41,7 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
   collected_.points.clear();
   for (const FineMotion& window : evidence.fine) {
     if (evidence.owners[window.block] != key) continue;
-    Displacement relative{0, window.from_px, window.moved_px};
+    Displacement relative{window.from_px, window.moved_px};
     relative.moved_px -= evidence.background.model.displacement_px(relative.at_px);
     const Eigen::Vector2d expected_px = motion.displacement_px(relative.at_px);
     const double apart_px = (relative.moved_px - expected_px).norm();
