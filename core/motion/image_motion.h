@@ -32,8 +32,7 @@ struct DeadZone {
   static constexpr double kSigmas = 3;
   /// Of an object, as a fraction of MovingObject::error_px_s, which 95 % of its errors are below.
   /// Most of such an error lasts for many frames, and the hand does not take it for a tremor; what
-  /// changes has a standard error of 1/25 of the bound, and kSigmas of that are 0.12. On five real
-  /// films the force is then within 1.4 % of that of points, whose noise is known.
+  /// changes has a standard error of 1/25 of the bound.
   static constexpr double kOfBound = kSigmas / 25;
   /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
   /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed

@@ -26,18 +26,17 @@ constexpr double kExactFractionElsewhere = (1 + kExactFraction) / 2;
 constexpr float kInPlace_px = kMostOff_px / 2;
 /// A block that has moved, but in which so many pixels stay in place, shows graphics and the film
 /// behind them together, and its motion is neither: a tenth of the block, more than a line across
-/// it. Chosen on captions over pans.
+/// it.
 constexpr int kMixedPixels = 24;
 /// A dark or still part of a picture has less noise than the rest. The noise around a block is that
 /// of the blocks up to kAround_blocks away that move with the background to kWithBackground_px, px
-/// of the field's picture, if there are kLeastAround of them. Chosen on half-transparent logos over
-/// pans.
+/// of the field's picture, if there are kLeastAround of them.
 constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
 constexpr size_t kLeastAround = 8;
 /// A block that has moved by less than kStill_px, px of the field's picture, is unexplained from
 /// 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
-/// follows an object so exactly. Chosen on half-transparent logos over pans.
+/// follows an object so exactly.
 constexpr float kStill_px = 0.2F;
 constexpr float kStillCost = 1.4F;
 /// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.

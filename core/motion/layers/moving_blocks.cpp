@@ -12,7 +12,7 @@ namespace spidar {
 namespace {
 
 /// Pixels of a block whose errors are independent, of 256: coding and interpolation change
-/// neighbours alike. Chosen on the first row of real films.
+/// neighbours alike.
 constexpr float kIndependentPixels = 16;
 /// Variance of a block's mean difference that remains where its own motion explains every pixel,
 /// grey²: that of rounding and of light that changes a little from position to position.
@@ -25,9 +25,7 @@ constexpr float kLeastDistance2 = 13;
 /// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
 /// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
-/// distribution: much of a scene is further from its model than the middle of it tells. On the
-/// films that chose it, 2 to 4 list the same objects; 2 feels more of what stands still, and 3 is
-/// more often wrong.
+/// distribution: much of a scene is further from its model than the middle of it tells.
 constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster

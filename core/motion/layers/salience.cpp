@@ -17,8 +17,6 @@ constexpr double kBorder = 1.5;
 /// blocks around it is one of the scene's layers: the further the layers are apart, the more each
 /// differs from a single model of them all. The limit rises with the square of
 /// LayerEvidence::ratio() where that is above 1: hardly any object moves so much like a layer.
-/// Chosen on real films: with 7, what stands still is felt in 0.4 % of the frames, and the frames
-/// that are right are hardly more.
 constexpr double kNoiseSigmas = 8;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;

@@ -34,8 +34,7 @@ class LayerEvidence {
   /// square, which an object has even while it turns round. Infinite without any motion.
   double ratio() const;
 
-  /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz; from 0.45 to 0.8 s the
-  /// results on real films are the same.
+  /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz.
   static constexpr double kMean_s = 0.6;
 
  private:

@@ -37,12 +37,9 @@ class DominantObject {
 
   void reset();
 
-  /// On real films, 4 … 8 give nearly the same results. With 3, the object that is felt changes a
-  /// tenth more often.
+  /// docs/tracking.md has what other values do on real films.
   static constexpr double kClearly = 4;
-  /// An eye takes 0.2 s and more to begin to turn to a new target. On real films, the object that
-  /// is felt changes a fifth more often with 0.2 s; with 0.4 s, what replaces a lost one is felt
-  /// too late.
+  /// An eye takes 0.2 s and more to begin to turn to a new target.
   static constexpr double kReason_s = 0.3;
 
  private:
