@@ -17,11 +17,13 @@ constexpr int kHeight = 270;
 constexpr int kFrames = 8;  // light steps and cuts come at the sixth
 constexpr int64_t kFrame_ns = 40'000'000;
 
-/// Runs a film, and reports any motion that is felt.
-void expect_nothing(const std::string& name) {
+/// Runs films of this name, and reports any motion that is felt.
+class HardFrames : public testing::TestWithParam<const char*> {};
+
+TEST_P(HardFrames, ShowNoMotion) {
   for (const uint32_t seed : {1u, 2u}) {
-    SCOPED_TRACE(name + ", picture " + std::to_string(seed));
-    test::Film film = test::motion_case(name).film(kWidth, kHeight, seed);
+    SCOPED_TRACE("picture " + std::to_string(seed));
+    test::Film film = test::motion_case(GetParam()).film(kWidth, kHeight, seed);
     OpenCvTracker tracker;
     MotionEstimator estimator;
     ReducedFrame reduced;
@@ -44,24 +46,9 @@ void expect_nothing(const std::string& name) {
   }
 }
 
-TEST(HardFrames, AStillPictureDoesNotMove) {
-  expect_nothing("still");
-}
-TEST(HardFrames, AFlatPictureDoesNotMove) {
-  expect_nothing("flat");
-}
-TEST(HardFrames, NoiseDoesNotMove) {
-  expect_nothing("noise-only");
-}
-TEST(HardFrames, AnEdgeIsNoPointToFollow) {
-  expect_nothing("single-edge");
-}
-TEST(HardFrames, LightIsNoMotion) {
-  expect_nothing("light-step");
-}
-TEST(HardFrames, ACutIsNoMotion) {
-  expect_nothing("cut");
-}
+INSTANTIATE_TEST_SUITE_P(Films, HardFrames,
+                         testing::Values("still", "flat", "noise-only", "single-edge", "light-step",
+                                         "cut"));
 
 }  // namespace
 }  // namespace spidar::test::hard_frames_test
