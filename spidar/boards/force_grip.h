@@ -80,6 +80,7 @@ class ForceGrip final : public Grip {
   }
   void see(const ForceReading& answer, const GripCommand& command) noexcept {
     reading_.buttons = answer.buttons;
+    reading_.lag_ns = answer.lag_ns;
     const PoseTrouble trouble = judge(answer, command.now_ns);
     if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
       reading_.pose.position_m = answer.position_m;

@@ -201,4 +201,21 @@ size_t EmulatedInverse3::reply(MutableBytes bytes) noexcept {
   return inverse3::encode_state(state, bytes);
 }
 
+void EmulatedSound::receive(ByteView bytes) noexcept {
+  sound::Levels levels;
+  if (bytes.size != sizeof levels) return;
+  std::memcpy(&levels, bytes.data, sizeof levels);
+  std::array<int, kMaxStrings> digits{};
+  for (size_t i = 0; i < sound::kMostChannels; ++i)
+    digits[i] = static_cast<int>(std::lround(1000 * levels.level[i]));
+  motors_->put_out(digits);
+  due_ = true;
+}
+
+size_t EmulatedSound::reply(MutableBytes bytes) noexcept {
+  if (!std::exchange(due_, false) || bytes.size < sizeof state) return 0;
+  std::memcpy(bytes.data, &state, sizeof state);
+  return sizeof state;
+}
+
 }  // namespace spidar

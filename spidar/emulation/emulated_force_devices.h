@@ -15,6 +15,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/protocols/novint_falcon.h"
+#include "spidar/protocols/sound.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {
@@ -166,6 +167,20 @@ class EmulatedInverse3 final : public EmulatedBoard {
   size_t reply(MutableBytes bytes) noexcept override;
 
   inverse3::State state;  ///< what it reports, except for position and buttons
+
+ private:
+  bool due_ = false;
+};
+
+/// Its digits are the levels of the channels in thousandths.
+class EmulatedSound final : public EmulatedBoard {
+ public:
+  using EmulatedBoard::EmulatedBoard;
+
+  void receive(ByteView bytes) noexcept override;
+  size_t reply(MutableBytes bytes) noexcept override;
+
+  sound::State state{30'000'000};  ///< what it reports
 
  private:
   bool due_ = false;

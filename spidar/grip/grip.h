@@ -85,6 +85,7 @@ struct GripReading {
   int faulty_string = -1;      ///< whose length fits no pose that the others allow; −1 if all fit
   double motor_heat = 0;       ///< of the warmest motor, see MotorHeat
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
+  int64_t lag_ns = 0;          ///< from a command to when it is felt, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
 
   bool knows_pose() const noexcept { return trouble == PoseTrouble::kNone; }

@@ -150,7 +150,9 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.playing =
       clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
-  const TimelineResult result = schedule_.find(record.playing, record.running_ns);
+  // What a device feels late is told early.
+  const TimelineResult result =
+      schedule_.find(record.playing, record.running_ns + grip_->reading().lag_ns);
   counters_.refused_wrenches += schedule_.take_refused();
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;

@@ -26,6 +26,8 @@ bool is_simulated(const std::string& spec);
 ///                           (20); flip=x, y or xy if its driver pushes to the other side
 ///   inverse3, inverse3:ID[,port=N]
 ///                           the first one of the maker's service, or this one
+///   sound:CARD[,OPTION]…    this sound card; OPTION: 3=x for the direction that a channel plays,
+///                           carrier=HZ, gain=PERCENT (see sound::Settings)
 /// Opens nothing. Throws DeviceError, which lists the valid names or explains why the board cannot
 /// drive the profile, and std::invalid_argument when a device with strings gets a profile with
 /// fewer than six. "none" is not a device, because it needs no loop.

@@ -12,9 +12,11 @@
 #include "spidar/boards/force_feedback_board.h"
 #include "spidar/boards/inverse3_board.h"
 #include "spidar/boards/mouse_board.h"
+#include "spidar/boards/sound_board.h"
 #include "spidar/boards/uart_board.h"
 #include "spidar/emulation/emulated_boards.h"
 #include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/session/sound_devices.h"
 #include "spidar/transports/evdev_list.h"
 #include "spidar/transports/evdev_transport.h"
 #include "spidar/transports/tty_transport.h"
@@ -296,6 +298,16 @@ const std::vector<DeviceKind>& devices() {
        "reach and scale of the force are inferred",
        emulate<EmulatedFalcon>,
        hand<EmulatedFalcon::kHomed>},
+      {{"sound", "sound card", "", {}, attach<SoundBoard>},
+       "sound",
+       "sound:CARD, sound:CARD,CHANNEL=DIRECTION",
+       kDefaultProfile,
+       Verification::kEmulated,
+       "",
+       emulate<EmulatedSound>,
+       no_motors,
+       make_sound,
+       list_sound},
   };
   return kinds;
 }

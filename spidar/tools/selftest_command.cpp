@@ -7,10 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/selftest/delay_test.h"
+#include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/selftest/wiring_report.h"
@@ -95,6 +97,34 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return right ? kDone : kFailed;
 }
 
+/// A device that does not say where it is: whether these are felt, and where, only a person knows.
+int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
+  constexpr double kRamp_s = 0.05, kPulse_s = 0.5;
+  const GripAbilities can = chosen.grip->abilities();
+  const double push_N = can.largest_force_N / 2;
+  if (!may_move(options.device, options.yes,
+                formatted("Push %s with %.1f N, one direction after the other?",
+                          chosen.name().c_str(), push_N)))
+    return kFailed;
+  catch_signals();
+  ForceHold hold(*chosen.grip, every_millisecond());
+  bool whole = hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s);
+  for (size_t axis = 0; axis < kSides.size() && whole; ++axis) {
+    if (!can.force[axis]) continue;
+    std::cout << kSides[axis] << "  a pulse of 0.5 s" << std::endl;
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    whole = hold.go(push_N * along, kRamp_s) && hold.stay(kPulse_s) &&
+            hold.go(Eigen::Vector3d::Zero(), kRamp_s) && hold.stay(kPulse_s);
+  }
+  if (!whole) {
+    std::cerr << "interrupted; the force is zero\n";
+    return kInterrupted;
+  }
+  std::cout << chosen.grip->description()
+            << "\nThe device has taken them; only you know what was felt.\n";
+  return kDone;
+}
+
 /// Whether it takes a force and says where it is.
 bool answers_pushes(const ChosenDevice& chosen) {
   return chosen.grip && chosen.grip->abilities().position[0];
@@ -134,6 +164,7 @@ int interrupted_test() {
 int selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
   if (answers_pushes(chosen)) return test_push_command(options, chosen);
+  if (chosen.grip) return pulse_command(options, chosen);
   require_strings(chosen.board, "selftest");
   options.output.check();
   if (!is_confirmed(options, chosen.name())) return kFailed;
@@ -199,7 +230,8 @@ void add_selftest(Program& program) {
       "Of a device without strings, determines whether it moves in the direction of the force:\n"
       "pushes it to each side for 0.2 s, four times. Hold its grip loosely at the centre. Of a\n"
       "joystick or wheel (ff), likewise, with half of the force that its gain allows. Take the\n"
-      "hand away.\n\n"
+      "hand away. A device without a position, such as a sound card, gets a pulse in each\n"
+      "direction, which only you can feel.\n\n"
       "Exit status: 0 the wiring is as in the profile, 1 it is not, or drive_lag_s is too small "
       "or\n"
       "was not found, or not confirmed, or no device, 2 wrong usage, 130 interrupted.");

@@ -161,9 +161,10 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
     EXPECT_EQ(make_grip(spec, profile)->traits().has_strings, kind.has_strings()) << spec;
   }
-  for (const std::string spec : {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1",
-                                 "mouse", "ff", "ff:/dev/input/event3", "inverse3", "inverse3:049D",
-                                 "inverse3:049D,port=8500", "falcon", "falcon:1-2"}) {
+  for (const std::string spec :
+       {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "ff",
+        "ff:/dev/input/event3", "inverse3", "inverse3:049D", "inverse3:049D,port=8500", "falcon",
+        "falcon:1-2", "sound:A", "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
   }
   for (const std::string spec : {"mouse", "sim:mouse", "sim:ff", "sim:inverse3", "ff",
@@ -173,7 +174,7 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   }
   EXPECT_THROW(make_grip("sim:x", profile), DeviceError);
   for (const char* spec : {"inverse3:,port=1", "inverse3:A,port=0", "inverse3:A,port=65536",
-                           "inverse3:A,x=1", "inverse3:"})
+                           "inverse3:A,x=1", "inverse3:", "sound", "sound:", "sound:A,5=x"})
     EXPECT_THROW(make_grip(spec, profile), DeviceError) << spec;
   EXPECT_THROW(make_device("uart:/dev/a,", profile), DeviceError);
 }

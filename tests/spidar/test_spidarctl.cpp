@@ -181,6 +181,10 @@ TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
     for (const char* side : {"right  ", "up     ", "forward"})
       expect_contains(outcome.text, side + std::string("  moves with the force\n"));
   }
+  const CommandResult felt = run_spidarctl("selftest sim:sound");
+  EXPECT_EQ(felt.status, 0);
+  expect_contains(felt.text, "right    a pulse of 0.5 s\nup       a pulse of 0.5 s\n");
+  expect_contains(felt.text, "heard after 30 ms\n");
   const CommandResult held = run_spidarctl("selftest sim:ff");
   EXPECT_EQ(held.status, 1);
   expect_contains(held.text, "right    does not move\n");

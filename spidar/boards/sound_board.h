@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What vibrates behind a sound card: up to four directions of force, no position.
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spidar/boards/board.h"
+#include "spidar/boards/board_parts.h"
+#include "spidar/protocols/sound.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// Needs no guardian: the card stops by itself. The kernel stops it when this process ends, and
+/// what is written ends within the buffer of the card when it is stopped (SoundTransport).
+class SoundBoard final : public ForceBoard {
+ public:
+  SoundBoard(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})
+      : name_(std::move(name)), settings_(std::move(settings)), transport_(std::move(transport)) {
+    abilities_.torque = false;
+    abilities_.position = {};
+    abilities_.largest_force_N = sound::kFullForce_N;
+    abilities_.rate_Hz = 1000 / sound::kRamp_ms;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      abilities_.force[axis] = false;
+      for (const Eigen::Vector3d& direction : settings_.direction)
+        if (direction[static_cast<Eigen::Index>(axis)] != 0) abilities_.force[axis] = true;
+    }
+  }
+
+  void open() override {
+    transport_->open();
+    const LinkFault fault =
+        open_exchange([&](int64_t deadline_ns) { return play({}, deadline_ns); }, *transport_);
+    if (fault == LinkFault::kNone) return;
+    transport_->close();
+    throw no_answer(name_, fault);
+  }
+  LinkFault cycle(const ForceOutput& output, ForceReading& reading,
+                  int64_t deadline_ns) noexcept override {
+    const LinkFault fault = play(sound::levels_of(settings_, output.force_N), deadline_ns);
+    if (fault != LinkFault::kNone) return fault;
+    reading.position_m.setZero();
+    reading.lag_ns = lag_ns_;
+    return LinkFault::kNone;
+  }
+  void recover() noexcept override { transport_->recover(); }
+  void close() noexcept override {
+    play({}, soon_ns());
+    transport_->close();
+  }
+  std::vector<LastWill> last_wills() const override { return {}; }
+  std::string description() const override {
+    char text[120];
+    const int length = std::snprintf(
+        text, sizeof text, "%d channel%s of a sound card, %d Hz at %.0f %% of full volume",
+        settings_.channels, settings_.channels > 1 ? "s" : "", settings_.carrier_Hz,
+        100 * settings_.gain);
+    const int64_t lag_ns = lag_ns_;
+    if (lag_ns > 0)  // known once it plays
+      std::snprintf(text + length, sizeof text - static_cast<size_t>(length),
+                    ", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
+    return text;
+  }
+  GripAbilities abilities() const noexcept override { return abilities_; }
+  const std::string& name() const noexcept override { return name_; }
+
+ private:
+  LinkFault play(const sound::Levels& levels, int64_t deadline_ns) noexcept {
+    sound::State state;
+    const Transfer transfer = transport_->exchange(
+        {sound::view_of(levels)}, {reinterpret_cast<uint8_t*>(&state), sizeof state}, deadline_ns);
+    if (transfer.fault == LinkFault::kNone) lag_ns_ = state.lag_ns;
+    return transfer.fault;
+  }
+
+  const std::string name_;
+  const sound::Settings settings_;
+  const std::unique_ptr<Transport> transport_;
+  GripAbilities abilities_;
+  std::atomic<int64_t> lag_ns_{0};
+};
+
+}  // namespace spidar

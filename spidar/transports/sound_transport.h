@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Plays levels on a sound card of ALSA.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "spidar/protocols/sound.h"
+#include "spidar/realtime/seqlock.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+struct SoundCard {
+  std::string id;  ///< of the card, "Controller", or of a device that the ALSA configuration names
+  std::string name;  ///< for people
+};
+
+/// What could be played on: cards, and devices of the ALSA configuration that are no way to other
+/// ones. Opens no device.
+std::vector<SoundCard> list_sound_cards();
+
+/// A packet is sound::Levels, its answer sound::State. Exchanges do not wait; a thread writes the
+/// sound. It plays silence when no packet has come for sound::kSilence_ms. The card has at most
+/// kBuffer_ms, and stops when it has played them: also when this process is stopped or killed.
+///
+/// Only the card itself is opened, never a server that may choose other speakers.
+class SoundTransport final : public Transport {
+ public:
+  static constexpr int kBuffer_ms = 3 * sound::kRamp_ms;
+  /// Without room in the buffer for this time the card is taken to stand still.
+  static constexpr int kPatience_ms = 100;
+
+  SoundTransport(std::string name, sound::Settings settings);
+  ~SoundTransport() override;
+
+  void open() override;
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  void recover() noexcept override {}
+  std::optional<LastWill> last_will() const override { return std::nullopt; }
+  void close() noexcept override;
+
+ private:
+  struct Pcm;
+  struct Fed {
+    sound::Levels levels;
+    int64_t at_ns = 0;
+  };
+
+  void play() noexcept;
+  void set_lag(int64_t lag_ns) noexcept;
+
+  const std::string name_;
+  const sound::Settings settings_;
+  std::unique_ptr<Pcm> pcm_;
+  std::thread thread_;
+  std::atomic<bool> stop_{false};
+  std::atomic<LinkFault> fault_{LinkFault::kGone};
+  std::atomic<int64_t> lag_ns_{0};
+  Seqlock<Fed> fed_;
+};
+
+}  // namespace spidar
