@@ -127,7 +127,7 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
     GST_ELEMENT_WARNING(
         element_, RESOURCE, READ,
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
-         to_string(loop.pose_trouble)),
+         to_string(loop.last.trouble)),
         ("%s", session.grip().traits().has_strings
                    ? "The strings have their minimum tension. Possible causes: slack strings, dead "
                      "encoders, or a grip that was not at the centre when the device was opened: "
@@ -135,13 +135,13 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
                      "calibrate)."
                    : "spidarctl info shows what the device says of itself."));
   }
-  if (loop.held_back && loop.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
+  if (loop.last.held_back && loop.last.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
     held_back_ = true;
     GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
                         ("A motor of the haptic device is warm: the force is reduced."),
                         ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
                          "the profile). The full force returns when the motor has cooled.",
-                         loop.motor_heat));
+                         loop.last.motor_heat));
   }
   if (loop.last.contact.stiffness_fraction < 1 && !shaken_) {
     shaken_ = true;

@@ -221,13 +221,13 @@ void Device::clear_surface() {
 
 std::optional<Pose> Device::pose() const {
   const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
-  if (snapshot.pose_trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  if (snapshot.last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
   return to_api(snapshot.last.pose);
 }
 
 std::optional<Vector3> Device::velocity() const {
   const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
-  if (snapshot.pose_trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  if (snapshot.last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
   const Eigen::Vector3d& velocity_m_s = snapshot.last.velocity.linear_m_s;
   return Vector3{velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z()};
 }

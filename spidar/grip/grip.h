@@ -69,21 +69,25 @@ struct GripCommand {
   int64_t now_ns = 0;
 };
 
-/// What is known of a grip. All but `pose` and what follows it is of the last command.
-struct GripReading {
+/// What is known of a grip after a tick. All but `pose` and what follows it is of the last command.
+struct GripReport {
   /// The wrench that the hand gets. Computed for `pose`, even if that is not known any more.
   Wrench delivered;
-  Wrench at_rest;  ///< what of it the strings exert without a command
   StringVector tension_N = StringVector::Zero();  ///< told; zero for a grip without strings
   bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
 
   Pose pose;             ///< from the newest good reading
-  GripMotion motion;     ///< of these poses; at rest while the pose is not known
   uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
   PoseTrouble trouble = PoseTrouble::kNotYet;
   double pose_residual_m = 0;
-  int faulty_string = -1;      ///< whose length fits no pose that the others allow; −1 if all fit
-  double motor_heat = 0;       ///< of the warmest motor, see MotorHeat
+  int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
+  double motor_heat = 0;   ///< of the warmest motor, see MotorHeat
+};
+
+/// The same, with what the loop alone needs.
+struct GripReading : GripReport {
+  Wrench at_rest;              ///< what the strings exert of `delivered` without a command
+  GripMotion motion;           ///< of the poses; at rest while the pose is not known
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
   int64_t lag_ns = 0;          ///< from a command to when it is felt, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did

@@ -85,7 +85,7 @@ void HapticLoop::close() noexcept {
   grip_->close();
   state_ = DeviceState::kClosed;
   LoopSnapshot closed{{}, counters_, limits_};
-  closed.motor_heat = grip_->reading().motor_heat;
+  closed.last.motor_heat = grip_->reading().motor_heat;
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
   snapshot_.store(closed);
@@ -114,13 +114,14 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   follow_limits(dt_s);
   find_wanted(record);
   grip_->pass(1e-9 * static_cast<double>(passed_ns));
-  if (state_ != DeviceState::kLost && state_ != DeviceState::kClosed) {
+  const bool is_open = state_ != DeviceState::kLost && state_ != DeviceState::kClosed;
+  if (is_open) {
     grip_->check_age(now_ns);
     touch(record, passed_ns);
     ask_callback(record, dt_s);
     command(record, dt_s);
     exchange(record, dt_s);
-    vibration_.pass(record.delivered, dt_s, now_ns);
+    vibration_.pass(grip_->reading().delivered, dt_s, now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
@@ -128,12 +129,12 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   record.max_torque_Nm = limits_.max_torque_Nm;
   record.device = state_;
   record.held = brake_.held();
-  const GripReading& grip = grip_->reading();
-  record.pose = grip.pose;
-  record.pose_residual_m = grip.pose_residual_m;
-  record.velocity = grip.motion.velocity();
-  record.buttons = grip.buttons;
-  record.faulty_string = grip.faulty_string;
+  static_cast<GripReport&>(record) = grip_->reading();
+  record.velocity = grip_->reading().motion.velocity();
+  if (!is_open) {
+    record.delivered = {};
+    record.tension_N.setZero();
+  }
   publish(record);
 }
 
@@ -234,8 +235,6 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
   const uint64_t pose_errors = grip.pose_errors, string_faults = grip.string_faults;
   const LinkFault fault = grip_->exchange(command);
-  record.delivered = grip.delivered;
-  record.tension_N = grip.tension_N;
   if (grip.held_back) ++counters_.held_back_ticks;
   counters_.pose_errors += grip.pose_errors - pose_errors;
   counters_.string_faults += grip.string_faults - string_faults;
@@ -274,12 +273,8 @@ void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
   forces_.push({record.monotonic_ns, record.wanted.force_N, record.delivered.force_N});
   LoopSnapshot snapshot{record, counters_, limits_};
-  const GripReading& grip = grip_->reading();
-  snapshot.pose_trouble = grip.trouble;
   snapshot.untrusted_ns = untrusted_ns_;
   snapshot.unfelt_ns = unfelt_ns_;
-  snapshot.motor_heat = grip.motor_heat;
-  snapshot.held_back = grip.held_back;
   snapshot.vibration = vibration_.state();
   snapshot_.store(snapshot);
 }

@@ -61,8 +61,9 @@ constexpr const char* to_string(Found found) noexcept {
   return "unknown";
 }
 
-/// One tick. Also the row of the haptic trace.
-struct TickRecord {
+/// One tick. Also the row of the haptic trace. Of a tick in which the device was lost, the report
+/// of the grip has its last pose, and neither wrench nor tensions.
+struct TickRecord : GripReport {
   uint64_t tick = 0;             ///< 1 for the first after open()
   int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at which it began
   int64_t lateness_ns = 0;       ///< behind the deadline
@@ -74,17 +75,9 @@ struct TickRecord {
   /// After finite, limit, slew and stale. If not acknowledged, the one of the last acknowledged
   /// tick, limited.
   Wrench commanded;
-  /// W · tension, the part of it that the strings deliver. W is that of `pose`, even if the pose is
-  /// not trusted.
-  Wrench delivered;
-  StringVector tension_N = StringVector::Zero();  ///< as `commanded`
-  bool acknowledged = true;                       ///< the device has answered
-  Pose pose;                                      ///< from the newest good reading
-  double pose_residual_m = 0;
-  GripVelocity velocity;   ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
-  uint32_t buttons = 0;    ///< as GripReading::buttons
-  bool held = true;        ///< false: nobody holds the grip, and the wrench is at rest or returning
-  int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
+  bool acknowledged = true;  ///< the device has answered
+  GripVelocity velocity;     ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
+  bool held = true;  ///< false: nobody holds the grip, and the wrench is at rest or returning
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
   bool called_back = false;  ///< the application's callback was asked
@@ -111,19 +104,15 @@ struct LoopCounters {
   uint64_t rejected_wrenches = 0;  ///< not finite
   uint64_t refused_wrenches = 0;   ///< their time is not later than that of the previous one
   uint64_t times_lost = 0;
-  uint64_t held_back_ticks = 0;  ///< in which the strings got less than was wanted, see held_back
+  uint64_t held_back_ticks = 0;  ///< in which the strings got less than was wanted, see GripReport
 };
 
 struct LoopSnapshot {
   TickRecord last;
   LoopCounters counters;
-  SafetyLimits limits;  ///< in effect in the last tick
-  PoseTrouble pose_trouble = PoseTrouble::kNotYet;
+  SafetyLimits limits;       ///< in effect in the last tick
   int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
   int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
-  double motor_heat = 0;  ///< of the warmest motor, see MotorHeat
-  /// There is less force than wanted, because a string is left out or a motor is warm.
-  bool held_back = false;
   VibrationState vibration{};
 };
 

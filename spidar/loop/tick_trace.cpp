@@ -2,16 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/loop/tick_trace.h"
 
-#include <array>
-#include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <cstring>
 #include <initializer_list>
-#include <string_view>
-#include <unistd.h>
 
-#include "spidar/realtime/standard_descriptors.h"
+#include "spidar/realtime/csv_row.h"
 #include "spidar/realtime/thread_setup.h"
 
 namespace spidar {
@@ -19,35 +13,11 @@ namespace {
 
 constexpr size_t kMaxRow_bytes = 2048;  // 49 fields of at most 32 characters
 
-/// Appends fields and the commas between them.
-class TickRow {
- public:
-  explicit TickRow(std::string& csv) : csv_(csv), begin_(csv.size()) {}
-
-  template <typename Number>
-  TickRow& number(Number value) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return field({text.data(), static_cast<size_t>(end - text.data())});
-  }
-  TickRow& field(std::string_view text) {
-    if (csv_.size() > begin_) csv_ += ',';
-    csv_ += text;
-    return *this;
-  }
-  TickRow& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
-  TickRow& wrench(const Wrench& w) { return vector(w.force_N).vector(w.torque_Nm); }
-
- private:
-  std::string& csv_;
-  size_t begin_;
-};
-
 }  // namespace
 
 std::string trace_header() {
   std::string header;
-  TickRow row(header);
+  CsvRow row(header);
   for (const char* name : {"tick", "monotonic_ns", "lateness_ns", "running_ns", "frame_ns", "found",
                            "playing", "device"}) {
     row.field(name);
@@ -69,7 +39,7 @@ std::string trace_header() {
 }
 
 void append_row(const TickRecord& record, std::string& csv) {
-  TickRow row(csv);
+  CsvRow row(csv);
   row.number(record.tick).number(record.monotonic_ns).number(record.lateness_ns);
   row.number(record.running_ns).number(record.frame_ns == INT64_MIN ? -1 : record.frame_ns);
   row.field(to_string(record.found)).number(record.playing ? 1 : 0).field(to_string(record.device));

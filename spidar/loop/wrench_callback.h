@@ -20,7 +20,7 @@ struct CallbackInput {
   Pose pose;
   GripVelocity velocity;  ///< GripMotion::kLag_s behind the pose
   double dt_s = 0;        ///< since the last tick
-  uint32_t buttons = 0;   ///< as GripReading::buttons
+  uint32_t buttons = 0;   ///< as GripReport::buttons
 };
 
 struct CallbackSettings {

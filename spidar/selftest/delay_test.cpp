@@ -92,10 +92,10 @@ class DelayRun {
     for (;;) {
       if (!tick()) return false;
       const LoopSnapshot now = loop_->snapshot();
-      if (record_.device == DeviceState::kRunning && now.pose_trouble == PoseTrouble::kNone) break;
+      if (record_.device == DeviceState::kRunning && now.last.trouble == PoseTrouble::kNone) break;
       if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s)
         return fault(std::string("the pose of the grip is not known: ") +
-                     to_string(now.pose_trouble));
+                     to_string(now.last.trouble));
     }
     start_m_ = record_.pose.position_m;
     begin_ns_ = record_.monotonic_ns;
@@ -153,7 +153,7 @@ class DelayRun {
   /// After a pause of the machine the loop has lost the pose. It then ramps the force to rest until
   /// the pose is known again. This is not a fault of the device.
   bool recovers() const {
-    const PoseTrouble trouble = loop_->snapshot().pose_trouble;
+    const PoseTrouble trouble = loop_->snapshot().last.trouble;
     return record_.acknowledged &&
            (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet);
   }
@@ -162,12 +162,12 @@ class DelayRun {
   /// too far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
-    if (now.pose_trouble == PoseTrouble::kFrozen)
+    if (now.last.trouble == PoseTrouble::kFrozen)
       return fail(
           "no encoder counted although the force changed: the grip is held too firmly, or clamped; "
           "hold it loosely, so that it can move");
-    if (now.pose_trouble != PoseTrouble::kNone)
-      return fault(std::string("the pose of the grip was lost: ") + to_string(now.pose_trouble));
+    if (now.last.trouble != PoseTrouble::kNone)
+      return fault(std::string("the pose of the grip was lost: ") + to_string(now.last.trouble));
     if (record_.faulty_string >= 0)
       return fault("the length of string " + std::to_string(record_.faulty_string) +
                    " does not fit the others: it is slack or broken, or its encoder is dead");

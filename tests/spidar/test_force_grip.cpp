@@ -140,7 +140,7 @@ TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {
   EXPECT_EQ(now.last.device, DeviceState::kRunning);
   EXPECT_EQ(now.last.commanded.force_N, Eigen::Vector3d(1, 0.5, 0));
   EXPECT_EQ(now.last.delivered.force_N, Eigen::Vector3d(1, 0.5, 0));
-  EXPECT_EQ(now.pose_trouble, PoseTrouble::kNone);
+  EXPECT_EQ(now.last.trouble, PoseTrouble::kNone);
   EXPECT_NEAR(motors.digit[0] / 2, motors.digit[1], rounding());
   EXPECT_GT(motors.digit[1], 0);
 }

@@ -76,11 +76,11 @@ TEST(MotorHeat, TheLoopReducesTheForceInsteadOfOverheating) {
   };
   const double cold_N = run(500).last.delivered.force_N.x();
   EXPECT_GT(cold_N, 4.9);
-  EXPECT_FALSE(driver.loop->snapshot().held_back);
+  EXPECT_FALSE(driver.loop->snapshot().last.held_back);
   const LoopSnapshot warm = run(120'000);
-  EXPECT_TRUE(warm.held_back);
+  EXPECT_TRUE(warm.last.held_back);
   EXPECT_GT(warm.counters.held_back_ticks, 60'000u);
-  EXPECT_LE(warm.motor_heat, 1);
+  EXPECT_LE(warm.last.motor_heat, 1);
   EXPECT_LT(warm.last.delivered.force_N.x(), 0.9 * cold_N);
   EXPECT_GT(warm.last.delivered.force_N.x(), 0.3 * cold_N);
   // What is left goes where it is wanted.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A row of a trace.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+
+#include "core/wrench.h"
+
+namespace spidar {
+
+/// Appends fields, and the commas between them, to what `csv` has. Numbers are written without
+/// regard to the locale, as short as possible to be read back exactly.
+class CsvRow {
+ public:
+  explicit CsvRow(std::string& csv) : csv_(csv), begin_(csv.size()) {}
+
+  template <typename Number>
+  CsvRow& number(Number value) {
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return field({text.data(), static_cast<size_t>(end - text.data())});
+  }
+  CsvRow& field(std::string_view text) {
+    if (csv_.size() > begin_) csv_ += ',';
+    csv_ += text;
+    return *this;
+  }
+  CsvRow& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
+  CsvRow& wrench(const Wrench& w) { return vector(w.force_N).vector(w.torque_Nm); }
+
+ private:
+  std::string& csv_;
+  size_t begin_;
+};
+
+}  // namespace spidar
