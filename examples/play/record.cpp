@@ -46,15 +46,15 @@ void Record::add_frame(const GstStructure* message) {
   }
   row.force_N = force_of(message);
   row.torque_Nm = number_of(message, "torque-z");
-  row.begins_scene = frames_.empty() || text_of(message, "limit") == "nothing-to-compare";
+  row.begins_scene = frames_.empty() || text_of(message, "no-force-reason") == "nothing-to-compare";
   // The film's own reason comes first: a device cannot give a force that no frame asks for.
-  for (const std::string name : {"limit", "device-limit"}) {
-    const std::string word = text_of(message, name.c_str());
+  for (const std::string of : {"", "device-"}) {
+    const std::string word = text_of(message, (of + "no-force-reason").c_str());
     // The first frames are analysed before the pipeline plays and the device runs.
     if (word == "not-playing" || word == "device-starting") continue;
     if (word.empty() || word == kFelt || row.reason != kFelt) continue;
     row.reason = word;
-    sentences_[word] = text_of(message, (name + "-reason").c_str());
+    sentences_[word] = text_of(message, (of + "no-force-text").c_str());
   }
   reasons_.emplace_back(row.time_s, row.reason);
   gboolean repeated = FALSE;

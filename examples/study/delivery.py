@@ -35,7 +35,7 @@ class Ticks:
 def commonest_limit(frame_trace):
     """Why nothing of a frame was felt in the device or the playback, or nothing."""
     with open(frame_trace, encoding="utf-8", newline="") as file:
-        limits = Counter(row["device_limit"] for row in csv.DictReader(file))
+        limits = Counter(row["device_no_force_reason"] for row in csv.DictReader(file))
     limits.pop("none", None)
     return limits.most_common(1)[0][0] if limits else ""
 

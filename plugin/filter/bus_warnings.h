@@ -5,8 +5,9 @@
 
 #include <gst/gst.h>
 
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/frame/frame_report.h"
 #include "plugin/output/device_warnings.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {
@@ -21,8 +22,7 @@ class BusWarnings {
   /// Another stream: what is wrong with its frames may be.
   void begin_stream() {
     frame_problems_ = 0;
-    touch_problems_ = 0;
-    pointer_ = false;
+    touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
   }
 
   /// Looks at the bins around the element, which may have a running time of their own.
@@ -30,18 +30,18 @@ class BusWarnings {
   void check_frame(const FrameReport& report);
   /// Once: the trace cannot be written any more, errno or 0.
   void check_trace(int error);
-  void check_touch(const MotionEngine& engine, const FrameReport& report,
+  void check_touch(const HapticOutput& output, const FrameReport& report,
                    const TouchProperties& wanted);
   /// The grip is to point: does the device know where it is?
-  void check_pointer(const MotionEngine& engine);
+  void check_pointer(const HapticSession* session);
   DeviceWarnings& device() { return device_; }
 
  private:
   GstElement* const element_;
   guint frame_problems_ = 0;  // bit i: FrameProblem i was said
-  guint touch_problems_ = 0;  // bit i: TouchProblem i was said
-  bool pointer_ = false;      // said
-  bool trace_ = false;        // said
+  // Said:
+  bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
+  bool trace_ = false;
   DeviceWarnings device_;
 };
 

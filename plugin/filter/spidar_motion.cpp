@@ -29,18 +29,8 @@
  * For the two that are read, `auto` is the file beside the film that has its name with this ending.
  *
  * The element posts a `spidar-motion` element message for each frame when
- * #spidarmotion:post-messages is set, with these fields: `timestamp`, `stream-time`,
- * `running-time`, `duration` (#GstClockTime), `features`, `tracked` (uint), `velocity-x`,
- * `velocity-y` (pixels of the frame per second of running time; x right, y down), `velocity-error`
- * (the same unit: how far from them the true ones are at most, in 95 % of the frames; 0 when it is
- * not that of one object), `force-x`, `force-y`, `force-z` (newtons; x right, y up, z towards the
- * viewer), `torque-x`, `torque-y`, `torque-z` (newton metres), `repeated` (boolean: the frame shows
- * the picture before again), `object` (uint: the one object that is felt, by its id, 0 when it is
- * none or not one alone), `track` (string: the file of the haptic track whose force this is, empty
- * when the frame was analysed), `limit` (string: why nothing of this frame is to be felt, "none"
- * when something is), `device-limit` (string: the same of the device and the playback) and
- * `limit-reason` and `device-limit-reason` (strings: the same as a sentence, empty for "none").
- * `stats` has them for the picture on the screen.
+ * #spidarmotion:post-messages is set; `stats` has the same for the picture on the screen. The page
+ * docs/elements/spidarmotion.md describes their fields.
  *
  * ## Example launch lines
  * |[
@@ -59,7 +49,7 @@
 #include <filesystem>
 #include <string>
 
-#include "plugin/filter/reports/message_and_meta.h"
+#include "plugin/filter/reports/motion_meta.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/properties/property_table.h"
 #include "spidar/install_folder.h"
@@ -68,9 +58,8 @@ GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
-using spidar::MotionDisplay;
-using spidar::MotionEngine;
 using spidar::MotionProperties;
+using spidar::MotionState;
 
 #define CAPS \
   GST_VIDEO_CAPS_MAKE(SPIDAR_VIDEO_FORMATS) "; " GST_VIDEO_CAPS_MAKE(SPIDAR_UNPACKED_FORMATS)
@@ -88,12 +77,8 @@ G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTE
                                                     "motion of a video to a SPIDAR"))
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
 
-spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self) {
-  return *self->display;
-}
-
-MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
-  return *self->engine;
+MotionState& gst_spidar_motion_state(GstSpidarMotion* self) {
+  return *self->state;
 }
 
 // --- debug window ------------------------------------------------------------------------------
@@ -102,30 +87,31 @@ MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self) {
 /// change these at the same time, one of them does the work for all. The others must not be waited
 /// for, because one of them may be the window's own thread.
 static void follow_debug_window(GstSpidarMotion* self) {
-  if (g_atomic_int_add(&self->window_changes, 1) > 0) return;
+  MotionState& state = *self->state;
+  if (g_atomic_int_add(&state.window_changes, 1) > 0) return;
   gint seen;
   do {
-    seen = g_atomic_int_get(&self->window_changes);
+    seen = g_atomic_int_get(&state.window_changes);
     GST_OBJECT_LOCK(self);
-    const bool wanted = self->opened && self->properties->display.debug_window;
+    const bool wanted = state.opened && state.settings.display.debug_window;
     GST_OBJECT_UNLOCK(self);
     if (wanted) {
-      self->display->open_window();
+      state.display.open_window();
     } else {
-      self->display->close_window();
+      state.display.close_window();
     }
-  } while (!g_atomic_int_compare_and_exchange(&self->window_changes, seen, 0));
+  } while (!g_atomic_int_compare_and_exchange(&state.window_changes, seen, 0));
 }
 
 static void set_opened(GstSpidarMotion* self, bool opened) {
   GST_OBJECT_LOCK(self);
-  self->opened = opened;
+  self->state->opened = opened;
   GST_OBJECT_UNLOCK(self);
   follow_debug_window(self);
 }
 
 static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
-  const std::string problem = path ? self->display->save_window(path) : "no file is named";
+  const std::string problem = path ? self->state->display.save_window(path) : "no file is named";
   if (problem.empty()) return TRUE;
   GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, problem.c_str());
   return FALSE;
@@ -133,42 +119,26 @@ static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char*
 
 // --- states ------------------------------------------------------------------------------------
 
-/// False when the stream is not to begin without the device.
-static bool open_device(GstSpidarMotion* self, const MotionProperties& properties) {
-  MotionEngine& engine = *self->engine;
-  try {
-    const std::string trace_problem = engine.open(properties);
-    GST_INFO_OBJECT(self, "opened device '%s' with profile '%s'", properties.device.c_str(),
-                    engine.output().profile().name.c_str());
-    if (!trace_problem.empty()) {
-      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
-                          ("The video and the force continue without it."));
-    }
-    self->warnings->device().check_opened(engine.output().session(), engine.output().chosen());
-    return true;
-  } catch (const std::exception& refusal) {
-    return self->warnings->device().check_refused(properties.device, refusal,
-                                                  properties.on_device_error);
-  }
-}
-
 static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
                                                            GstStateChange transition) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(element);
-  MotionEngine& engine = *self->engine;
+  MotionState& state = *self->state;
   if (transition == GST_STATE_CHANGE_NULL_TO_READY) {
     GST_OBJECT_LOCK(self);
-    const MotionProperties properties = *self->properties;
+    const MotionProperties properties = state.settings;
     GST_OBJECT_UNLOCK(self);
-    if (!open_device(self, properties)) return GST_STATE_CHANGE_FAILURE;
+    const bool may_begin =
+        state.warnings.device().open(state.output, properties.device, properties.on_device_error,
+                                     [&] { return state.open(properties); });
+    if (!may_begin) return GST_STATE_CHANGE_FAILURE;
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    self->steps->begin();
+    state.steps.begin();
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
-    engine.output().set_playing(false);
+    state.output.follower().set_playing(false);
   } else if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
-    self->loader->interrupt();
+    state.loader.interrupt();
   }
 
   const GstStateChangeReturn result =
@@ -176,17 +146,17 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 
   switch (transition) {
     case GST_STATE_CHANGE_READY_TO_PAUSED:
-      if (result == GST_STATE_CHANGE_FAILURE) self->steps->end();
+      if (result == GST_STATE_CHANGE_FAILURE) state.steps.end();
       break;
     case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
-      if (result != GST_STATE_CHANGE_FAILURE) engine.output().set_playing(true);
+      if (result != GST_STATE_CHANGE_FAILURE) state.output.follower().set_playing(true);
       GST_DEBUG_OBJECT(self, "playing: force may begin");
       break;
     case GST_STATE_CHANGE_PAUSED_TO_READY:
-      self->steps->end();
+      state.steps.end();
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
-      engine.close();
+      state.close();
       GST_INFO_OBJECT(self, "closed the device");
       set_opened(self, false);
       break;
@@ -201,23 +171,23 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 /// What does not read the properties with each frame.
 static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
     {"ts-offset",
-     [](auto* self, auto* value) { self->engine->output().set_offset(g_value_get_int64(value)); }},
-    {"mute", [](auto* self, auto* value) { self->engine->set_muted(g_value_get_boolean(value)); }},
-    {"feel", [](auto* self, auto*) { self->choice->rules_changed(); }},
+     [](auto* self, auto* value) {
+       self->state->output.follower().set_offset(g_value_get_int64(value));
+     }},
+    {"mute", [](auto* self, auto* value) { self->state->set_muted(g_value_get_boolean(value)); }},
+    {"feel", [](auto* self, auto*) { self->state->choice.rules_changed(); }},
     {"pointer",
      [](auto* self, auto*) {
-       self->choice->mouse().reset();
-       self->display->hand().let_go();
+       self->state->choice.mouse().reset();
+       self->state->display.hand().let_go();
      }},
     {"touch",
      [](auto* self, auto* value) {
        const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
-       if (off) self->engine->stop_touching();
+       if (off) self->state->reliefs.forget();
      }},
     {"max-force",
-     [](auto* self, auto* value) {
-       self->engine->output().set_max_force(g_value_get_double(value));
-     }},
+     [](auto* self, auto* value) { self->state->output.set_max_force(g_value_get_double(value)); }},
     {"overlay",
      [](auto* self, auto* value) {
        const bool draws = g_value_get_enum(value) != static_cast<int>(spidar::OverlayKind::kNone);
@@ -237,8 +207,8 @@ static thread_local const GstSpidarMotion* loading_preset = nullptr;
 static double most_force_N(GstSpidarMotion* self, double wanted) {
   GST_OBJECT_LOCK(self);
   const bool is_of_preset = loading_preset == self;
-  if (!is_of_preset) self->largest_set_N = wanted;
-  const double most_N = std::min(wanted, self->largest_set_N);
+  if (!is_of_preset) self->state->largest_set_N = wanted;
+  const double most_N = std::min(wanted, self->state->largest_set_N);
   GST_OBJECT_UNLOCK(self);
   return most_N;
 }
@@ -280,37 +250,18 @@ static void find_presets() {
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
                                            GParamSpec* spec) {
-  const auto stats = [](GstSpidarMotion* self) { return self->engine->stats(); };
+  const auto stats = [](GstSpidarMotion* self) { return self->state->describe(); };
   spidar::get_property<MotionProperties, GstSpidarMotion>(
       spidar::motion_properties(), GST_SPIDAR_MOTION(object), stats, id, value, spec);
 }
 
 static void gst_spidar_motion_finalize(GObject* object) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  delete self->choice;
-  delete self->warnings;
-  delete self->steps;
-  delete self->display;
-  delete self->loader;
-  delete self->felt;
-  delete self->engine;
-  delete self->properties;
-  g_mutex_clear(&self->setting);
+  delete GST_SPIDAR_MOTION(object)->state;
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
 }
 
 static void gst_spidar_motion_init(GstSpidarMotion* self) {
-  g_mutex_init(&self->setting);
-  self->properties = new MotionProperties;
-  self->largest_set_N = G_MAXDOUBLE;
-  self->engine = new MotionEngine(GST_ELEMENT(self));
-  self->loader = new spidar::TrackLoader;
-  self->felt = new spidar::FeltTrack(GST_ELEMENT(self));
-  self->steps = new spidar::StepWatch(
-      GST_ELEMENT(self), [self](GstClockTime skipped) { self->engine->skip(skipped); });
-  self->warnings = new spidar::BusWarnings(GST_ELEMENT(self));
-  self->choice = new spidar::MotionChoice(GST_ELEMENT(self));
-  self->display = new MotionDisplay(GST_ELEMENT(self), *self->engine, *self->choice);
+  self->state = new MotionState(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);

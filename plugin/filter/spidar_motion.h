@@ -16,10 +16,8 @@ GST_ELEMENT_REGISTER_DECLARE(spidarmotion)
 G_END_DECLS
 
 namespace spidar {
-class MotionDisplay;
-class MotionEngine;
+struct MotionState;
 }  // namespace spidar
 
 /// For tests that step the element by hand.
-spidar::MotionDisplay& gst_spidar_motion_display(GstSpidarMotion* self);
-spidar::MotionEngine& gst_spidar_motion_engine(GstSpidarMotion* self);
+spidar::MotionState& gst_spidar_motion_state(GstSpidarMotion* self);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// the result of processing one frame of video.
+/// The result of processing one frame of video.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,6 @@ enum class FrameProblem {
   kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
   kWrongSize,         ///< more or less than FrameLuma takes
   kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
-};
-
-/// Why a frame cannot be touched as the properties say.
-enum class TouchProblem {
-  kNone,
-  kNoDevice,     ///< none is open
-  kNoDepthAxis,  ///< the device has none, see GripAbilities::can_touch()
-  kTrack,        ///< a haptic track is played, and no frame is looked at
-  kTooStiff,     ///< for the drives of this device: it is touched with less
-  kLagUnknown,   ///< of the drives: it is touched with less
 };
 
 /// Where a frame is in its film.
@@ -81,13 +71,11 @@ struct FrameReport {
   /// In pixels of the frame as it is stored, with its times at the element, and its wrench turned.
   /// While a haptic track is played, only times and wrench.
   Frame frame;
-  Orientation turn;                                   ///< of the frame before it is shown
-  VisiblePart visible;                                ///< of the frame, that was analysed
-  int64_t took_ns = 0;                                ///< the analysis
-  NoForceReason limit = NoForceReason::kNone;         ///< the frame's own reason, in the film
-  NoForceReason device_limit = NoForceReason::kNone;  ///< of device and playback, at this moment
-  TouchProblem touch_problem = TouchProblem::kNone;
-  double stiffness_N_m = 0;  ///< that is rendered, with TouchProblem::kTooStiff and kLagUnknown
+  Orientation turn;                                      ///< of the frame before it is shown
+  VisiblePart visible;                                   ///< of the frame, that was analysed
+  int64_t took_ns = 0;                                   ///< the analysis
+  NoForceReason no_force = NoForceReason::kNone;         ///< of this frame, in the film
+  NoForceReason device_no_force = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchScene touch;
   std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
   int trace_error = 0;                  ///< errno of the write that ended the trace, or 0

@@ -33,10 +33,10 @@ void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
   }
 }
 
-void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure) {
-  gst_structure_set(structure, "limit", G_TYPE_STRING, nick(film), "limit-reason", G_TYPE_STRING,
-                    sentence(film), "device-limit", G_TYPE_STRING, nick(device),
-                    "device-limit-reason", G_TYPE_STRING, sentence(device), nullptr);
+void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure) {
+  gst_structure_set(structure, "no-force-reason", G_TYPE_STRING, nick(film), "no-force-text",
+                    G_TYPE_STRING, sentence(film), "device-no-force-reason", G_TYPE_STRING,
+                    nick(device), "device-no-force-text", G_TYPE_STRING, sentence(device), nullptr);
 }
 
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
@@ -57,7 +57,7 @@ void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTi
                         nullptr);
   set_motion(s, frame.motion.velocity_px_s, frame.wrench);
   gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
-  describe_limits(report.limit, report.device_limit, s);
+  describe_no_force(report.no_force, report.device_no_force, s);
   GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
   g_atomic_int_inc(unread);
   // The message holds the element until then.

@@ -16,9 +16,9 @@ namespace spidar {
 void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
                 const Wrench& wrench);
 
-/// Adds limit and device-limit (strings, see nick()), and limit-reason and device-limit-reason
-/// (strings: a sentence, empty for "none").
-void describe_limits(NoForceReason film, NoForceReason device, GstStructure* structure);
+/// Adds no-force-reason and device-no-force-reason (strings, see nick()), and no-force-text and
+/// device-no-force-text (strings: a sentence, empty for "none").
+void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure);
 
 /// While so many messages of an element wait on its bus, it posts no more of them: nobody reads
 /// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Explains why no force is felt.
+/// Why no force is felt, and the words for it.
 #pragma once
 
 #include <cstddef>
 #include <optional>
-
-#include "core/analysis/frame.h"
-#include "core/motion/image_motion.h"
-#include "spidar/loop/tick_record.h"
+#include <string_view>
 
 namespace spidar {
 
@@ -46,20 +43,10 @@ enum class NoForceReason {
 constexpr size_t kNoForceReasons = static_cast<size_t>(NoForceReason::kNoDevice) + 1;
 
 /// For programs: "none", "camera-only", …
-const char* nick(NoForceReason limit) noexcept;
+const char* nick(NoForceReason reason) noexcept;
 /// For people: a whole sentence. Empty for kNone.
-const char* sentence(NoForceReason limit) noexcept;
-
-/// The reason in the video, for one frame that was analysed for `motion`.
-NoForceReason limit_of(const Frame& frame, MotionKind motion);
-
-/// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
-/// device is open.
-NoForceReason limit_of_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
-
-/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
-/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
-/// back with the force.
-NoForceReason limit_of_device(const LoopSnapshot& loop, bool muted);
+const char* sentence(NoForceReason reason) noexcept;
+/// The inverse of nick(); nothing for what is none.
+std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept;
 
 }  // namespace spidar

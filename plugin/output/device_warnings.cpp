@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/output/device_warnings.h"
 
+#include <utility>
+
 #include "plugin/gobject/category.h"
 #include "plugin/gobject/exceptions.h"
 #include "spidar/grip/tension_command.h"
@@ -39,6 +41,23 @@ void DeviceWarnings::post(const char* state, const std::string& device,
       gst_structure_new("spidar-device", "state", G_TYPE_STRING, state, "device", G_TYPE_STRING,
                         device.c_str(), "reason", G_TYPE_STRING, why.c_str(), nullptr);
   gst_element_post_message(element_, gst_message_new_element(GST_OBJECT(element_), what));
+}
+
+bool DeviceWarnings::open(HapticOutput& output, const std::string& device, OnDeviceError policy,
+                          const std::function<std::string()>& opens) const {
+  try {
+    const std::string trace_problem = opens();
+    GST_INFO_OBJECT(element_, "opened device '%s' with profile '%s'", device.c_str(),
+                    output.profile().name.c_str());
+    if (!trace_problem.empty()) {
+      GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+                          ("%s and the force continue without it.", what_.c_str()));
+    }
+    check_opened(output.session(), output.chosen());
+    return true;
+  } catch (const std::exception& refusal) {
+    return check_refused(device, refusal, policy);
+  }
 }
 
 bool DeviceWarnings::check_refused(const std::string& device, const std::exception& refusal,
@@ -87,8 +106,7 @@ void DeviceWarnings::start() {
 
 void DeviceWarnings::check_haptic_trace(const HapticSession* session) {
   const int error = session ? session->trace_status().error : 0;
-  if (error == 0 || haptic_trace_) return;
-  haptic_trace_ = true;
+  if (error == 0 || std::exchange(haptic_trace_, true)) return;
   GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
                       ("The haptic trace can no longer be written: %s.", g_strerror(error)),
                       ("%s and the force continue without it.", what_.c_str()));
@@ -103,8 +121,8 @@ void DeviceWarnings::end_haptic_trace(HapticSession* session) {
     warn_of_missing_rows(element_, "The haptic trace", status.lost_rows + status.waiting_rows);
 }
 
-void DeviceWarnings::check_strings(const HapticSession& session) {
-  const int string = session.loop().snapshot().last.faulty_string;
+void DeviceWarnings::check_strings(const LoopSnapshot& loop) {
+  const int string = loop.last.faulty_string;
   if (string < 0 || (strings_ & 1u << string) != 0) return;
   strings_ |= 1u << string;
   GST_ELEMENT_WARNING(
@@ -116,43 +134,41 @@ void DeviceWarnings::check_strings(const HapticSession& session) {
        "the device (spidarctl calibrate)."));
 }
 
-void DeviceWarnings::check_pose(const HapticSession& session) {
-  const LoopSnapshot loop = session.loop().snapshot();
-  if (loop.untrusted_ns == 0 && pose_lost_) {
+void DeviceWarnings::check_pose(const LoopSnapshot& loop, bool has_strings) {
+  if (loop.untrusted_ns == 0 && std::exchange(pose_lost_, false)) {
     GST_INFO_OBJECT(element_, "the pose of the grip is known again");
-    pose_lost_ = false;
   }
-  if (loop.untrusted_ns > kPoseLost_ns && !pose_lost_) {
-    pose_lost_ = true;
+  if (loop.untrusted_ns > kPoseLost_ns && !std::exchange(pose_lost_, true)) {
     GST_ELEMENT_WARNING(
         element_, RESOURCE, READ,
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
          to_string(loop.last.trouble)),
-        ("%s", session.grip().traits().has_strings
+        ("%s", has_strings
                    ? "The strings have their minimum tension. Possible causes: slack strings, dead "
                      "encoders, or a grip that was not at the centre when the device was opened: "
                      "start again with the grip there, or calibrate the device (spidarctl "
                      "calibrate)."
                    : "spidarctl info shows what the device says of itself."));
   }
-  if (loop.last.held_back && loop.last.motor_heat > MotorHeat::kLimitFrom && !held_back_) {
-    held_back_ = true;
+}
+
+void DeviceWarnings::check_force(const LoopSnapshot& loop) {
+  const bool is_warm = loop.last.held_back && loop.last.motor_heat > MotorHeat::kLimitFrom;
+  if (is_warm && !std::exchange(held_back_, true)) {
     GST_ELEMENT_WARNING(element_, RESOURCE, WRITE,
                         ("A motor of the haptic device is warm: the force is reduced."),
                         ("The motor is at %.2f of its continuous rating (continuous_tension_N of "
                          "the profile). The full force returns when the motor has cooled.",
                          loop.last.motor_heat));
   }
-  if (loop.last.contact.stiffness_fraction < 1 && !shaken_) {
-    shaken_ = true;
+  if (loop.last.contact.stiffness_fraction < 1 && !std::exchange(shaken_, true)) {
     GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                         ("The touched surface shook the grip: its stiffness is lowered."),
                         ("The drives lag more than the profile says. Measure them with spidarctl "
                          "selftest --lag, write drive_lag_s into the profile, or set a lower "
                          "touch-stiffness."));
   }
-  if (loop.vibration.lowered() && !vibrated_) {
-    vibrated_ = true;
+  if (loop.vibration.lowered() && !std::exchange(vibrated_, true)) {
     GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                         ("The force is lowered because it has shaken the hand for long."),
                         ("What is left for this day comes back with time (docs/safety.md). Calm "
@@ -162,13 +178,14 @@ void DeviceWarnings::check_pose(const HapticSession& session) {
 }
 
 bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
+  const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
   if (session) {
-    check_strings(*session);
-    check_pose(*session);
+    check_strings(loop);
+    check_pose(loop, session->grip().traits().has_strings);
+    check_force(loop);
     check_haptic_trace(session);
   }
-  const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
-  const DeviceState state = session ? loop.last.device : DeviceState::kClosed;
+  const DeviceState state = loop.last.device;
   const DeviceState before = state_;
   // A device may be lost and back between two frames.
   const bool lost_since = before != DeviceState::kClosed && loop.counters.times_lost > times_lost_;

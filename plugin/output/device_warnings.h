@@ -4,11 +4,12 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <string>
 
 #include <gst/gst.h>
 
-#include "spidar/session/haptic_session.h"
+#include "plugin/output/haptic_output.h"
 
 namespace spidar {
 
@@ -22,12 +23,10 @@ class DeviceWarnings {
   DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
-  /// `device` cannot be opened. False when the stream is not to begin.
-  bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
-                     SourceLocation location = SourceLocation::here()) const;
-  /// A device was just opened, `chosen` for "auto". Posts an information message, too, if it was
-  /// chosen, or renders only a part of what is to be seen in the picture.
-  void check_opened(const HapticSession* session, const std::string& chosen) const;
+  /// Opens a device by `opens`, which returns why the haptic trace cannot be written, or nothing,
+  /// and says what came of it. False when the stream is not to begin without `device`.
+  bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
+            const std::function<std::string()>& opens) const;
   /// The element begins: everything may be said again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.
@@ -38,10 +37,16 @@ class DeviceWarnings {
   void end_haptic_trace(HapticSession* session);
 
  private:
+  bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
+                     SourceLocation location = SourceLocation::here()) const;
+  /// `chosen` for "auto". Posts an information message, too, if it was chosen, or renders only a
+  /// part of what is to be seen in the picture.
+  void check_opened(const HapticSession* session, const std::string& chosen) const;
   /// Posts the message `spidar-device`: `state` is opened, refused, lost or back.
   void post(const char* state, const std::string& device, const std::string& why) const;
-  void check_strings(const HapticSession& session);
-  void check_pose(const HapticSession& session);
+  void check_strings(const LoopSnapshot& loop);
+  void check_pose(const LoopSnapshot& loop, bool has_strings);
+  void check_force(const LoopSnapshot& loop);
 
   GstElement* const element_;
   const std::string what_;

@@ -27,20 +27,7 @@ guint64 not_negative(int64_t ns) {
   return static_cast<guint64>(std::max<int64_t>(ns, 0));
 }
 
-/// Adds device, device-state, scheduling (string), real-time (boolean), ticks, overruns,
-/// exchange-errors, pose-errors, times-lost (uint64), pose-trouble (string: why the pose is not
-/// known, 'none' while it is), motor-heat (double: of the warmest motor, 1 is what it may have for
-/// ever), held-back (boolean: less force than wanted because a motor is warm or a string is out),
-/// held-back-ticks (uint64), faulty-string (int, −1 when none),
-/// grip-held (boolean: false when the force rests because nobody holds the grip), grip-speed
-/// (double, m/s), vibration-fraction (double: of the force that is wanted, 1 unless it has shaken
-/// the hand for long), vibration-left (double: of the store of VibrationBudget, 0 … 1), touching
-/// (boolean), touch-depth-mm, touch-force (double, N), touch-stiffness-fraction (double: what is
-/// left of the stiffness, 1 unless the surface has shaken the grip), wakeup-median, wakeup-p999,
-/// skew-median, skew-p99 (uint64, ns; skew: force at the device after its frame was due on the
-/// screen), link-fault (string: the last one, see LinkFault), link-timeouts, link-errors (all other
-/// faults), link-late-replies (uint64), round-trip-median, round-trip-p99 (uint64, ns; zero for a
-/// device without a link).
+/// Adds the fields of the device; docs/fields.toml says what they mean.
 void describe_session(const HapticSession& session, GstStructure* structure) {
   const HapticLoop& loop = session.loop();
   const LoopSnapshot snapshot = loop.snapshot();
@@ -166,8 +153,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     session = make_session();
   }
   HapticLoop& loop = session->loop();
-  auto follower = std::make_unique<PlaybackFollower>(
-      element_,
+  follower_.begin(
       [this, &loop](const PlaybackClock& clock) {
         loop.set_playback_clock(clock);
         refreshed_();
@@ -181,43 +167,22 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     most_force_of_ = grip.traits().has_strings ? profile.name : device;
     said_too_much_ = false;
     max_force_N = limits_.max_force_N;
-    follower->set_latency(latency_);
-    follower->set_offset(offset_ns_);
     profile_ = profile;
     profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
     session_ = std::move(session);
     simulated_ = simulated;
-    follower_ = std::move(follower);
   }
   set_max_force(max_force_N);
   return trace_problem;
 }
 
 void HapticOutput::close() {
+  follower_.end();
+  // Destroyed after the lock is released, because the ramp to rest takes 60 ms.
   std::unique_ptr<HapticSession> session;
-  std::unique_ptr<PlaybackFollower> follower;  // destroyed before the loop to which it publishes
-  // Both are destroyed after the lock is released, because the ramp to rest takes 60 ms.
   const std::lock_guard<std::mutex> lock(mutex_);
   session = std::move(session_);
   simulated_ = nullptr;
-  follower = std::move(follower_);
-}
-
-void HapticOutput::set_playing(bool playing) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (follower_) follower_->set_playing(playing);
-}
-
-void HapticOutput::set_latency(GstClockTime latency) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  latency_ = latency;
-  if (follower_) follower_->set_latency(latency);
-}
-
-void HapticOutput::set_offset(GstClockTimeDiff offset_ns) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  offset_ns_ = offset_ns;
-  if (follower_) follower_->set_offset(offset_ns);
 }
 
 void HapticOutput::set_max_force(double max_force_N) {
@@ -240,26 +205,6 @@ void HapticOutput::set_max_force(double max_force_N) {
                        "the force is limited to these.",
                        max_force_N, most_N, too_much_for.c_str()),
                       ("Set max-force to %.1f at most.", most_N));
-}
-
-void HapticOutput::set_skipped(int64_t skipped_ns) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (follower_) follower_->set_skipped(skipped_ns);
-}
-
-void HapticOutput::look_for_sink() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (follower_) follower_->look_for_sink();
-}
-
-void HapticOutput::expect_base_time() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (follower_) follower_->expect_base_time();
-}
-
-void HapticOutput::refresh_clock() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (follower_) follower_->refresh();
 }
 
 std::optional<LoopSnapshot> HapticOutput::snapshot() const {

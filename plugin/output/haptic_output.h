@@ -26,7 +26,7 @@ class HapticOutput {
   /// `refreshed` is called each time after the haptic loop was told where playback is: a hundred
   /// times a second while playing.
   HapticOutput(GstElement* element, std::function<void()> refreshed)
-      : element_(element), refreshed_(std::move(refreshed)) {}
+      : element_(element), refreshed_(std::move(refreshed)), follower_(element) {}
 
   /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC, the loop waits to be ticked, and
   /// each tick is a millisecond for the device "sim".
@@ -43,20 +43,11 @@ class HapticOutput {
   /// Motors to rest, device closed.
   void close();
 
-  void set_playing(bool playing);
-  void set_latency(GstClockTime latency);
-  void set_offset(GstClockTimeDiff offset_ns);
+  /// Where playback is.
+  PlaybackFollower& follower() { return follower_; }
   /// Holds with the next tick of the haptic loop. No more than the device can give in every
   /// direction, which is said once for each device that is opened.
   void set_max_force(double max_force_N);
-  /// By the sink, of running time: what follows is shown as much earlier.
-  void set_skipped(int64_t skipped_ns);
-  /// Something behind the element was linked anew.
-  void look_for_sink();
-  /// See PlaybackSync::expect_base_time().
-  void expect_base_time();
-  /// Looks at the pipeline's clock now; a thread does that by itself.
-  void refresh_clock();
 
   /// Null while closed. Opened and closed by state changes only.
   HapticSession* session() const { return session_.get(); }
@@ -87,13 +78,11 @@ class HapticOutput {
   SimulatedDevice* simulated_ = nullptr;  // of the session, if it is one
   Profile profile_;
   std::string chosen_;
-  std::unique_ptr<PlaybackFollower> follower_;
-  GstClockTime latency_ = 0;
-  GstClockTimeDiff offset_ns_ = 0;
   SafetyLimits limits_;        // as they were set
   double most_force_N_ = 0;    // that the device can give
   std::string most_force_of_;  // the profile that this is of, or the device
   bool said_too_much_ = false;
+  PlaybackFollower follower_;  // ends before the loop to which it publishes
 };
 
 }  // namespace spidar

@@ -55,22 +55,28 @@ class PropertyTable;
 
 enum class PointerKind { kFixed, kGrip, kMouse };
 
-struct MotionProperties {
-  std::string device = "sim";
-  std::string profile;        ///< empty: that of the device's board
-  AnalyzerSettings analyzer;  ///< its pointer is the fixed one
-  bool alpha_is_set = false;  ///< else that of the analyzer follows its motion
+/// What is read anew for each frame.
+struct FrameSettings {
+  /// Of the element, its pointer is the fixed one. Of a frame, it is a position of the frame before
+  /// it is turned, and rules, boxes and the object of a click are there, too.
+  AnalyzerSettings analyzer;
   PointerKind pointer = PointerKind::kFixed;
-  GstClockTimeDiff ts_offset_ns = 0;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   bool post_messages = true;
+  DisplayProperties display;
+  TouchProperties touch;
+};
+
+struct MotionProperties : FrameSettings {
+  std::string device = "sim";
+  std::string profile;        ///< empty: that of the device's board
+  bool alpha_is_set = false;  ///< else that of the analyzer follows its motion
+  GstClockTimeDiff ts_offset_ns = 0;
   std::string trace;
   std::string haptic_trace;
   std::string track;  ///< path, "auto", or empty
   std::string feel;   ///< the same, or rules
   bool mute = false;
-  DisplayProperties display;
-  TouchProperties touch;
 };
 
 /// All of spidarmotion, `stats` included.

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <initializer_list>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -211,24 +212,24 @@ inline void warn_of_late(GstElement* element, const GParamSpec* spec) {
                       ("The element has read it already."));
 }
 
-/// GObjectClass::set_property of an element with `properties`, under its object lock, and the mutex
-/// `setting`, so that the effects of settings come in the order in which they were made. A setting
-/// that would have no effect any more is not taken, with a warning.
+/// GObjectClass::set_property of an element whose `state` has `settings`, under its object lock,
+/// and the mutex `setting`, so that the effects of settings come in the order in which they were
+/// made. A setting that would have no effect any more is not taken, with a warning.
 template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
                   GParamSpec* spec) {
-  g_mutex_lock(&element->setting);
   GValue before = G_VALUE_INIT;
   g_value_init(&before, G_PARAM_SPEC_VALUE_TYPE(spec));
+  std::unique_lock<std::mutex> in_order(element->state->setting);
   GST_OBJECT_LOCK(element);
   const bool late = is_too_late(GST_ELEMENT(element), spec);
-  const bool known = late ? table.get(*element->properties, id, &before)
-                          : table.set(*element->properties, id, value);
+  const bool known = late ? table.get(element->state->settings, id, &before)
+                          : table.set(element->state->settings, id, value);
   GST_OBJECT_UNLOCK(element);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
   if (!late) follow_property(effects, element, spec, value);
-  g_mutex_unlock(&element->setting);
+  in_order.unlock();
   if (late && g_param_values_cmp(spec, &before, value) != 0)
     warn_of_late(GST_ELEMENT(element), spec);
   g_value_unset(&before);
@@ -243,7 +244,7 @@ void get_property(const PropertyTable<Settings>& table, Element* element,
     return;
   }
   GST_OBJECT_LOCK(element);
-  const bool known = table.get(*element->properties, id, value);
+  const bool known = table.get(element->state->settings, id, value);
   GST_OBJECT_UNLOCK(element);
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
 }

@@ -93,16 +93,21 @@ GstClockTimeDiff PresentationDelay::value_ns() const {
   return shown_ns.value_or(pads_ns + told_ns_);
 }
 
-PlaybackFollower::PlaybackFollower(GstElement* element, Publish publish, PlaybackSync::Now now,
-                                   void* now_user, bool threaded)
-    : element_(element), publish_(std::move(publish)), sync_(now, now_user) {
+void PlaybackFollower::begin(Publish publish, PlaybackSync::Now now, void* now_user,
+                             bool threaded) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (threaded) thread_ = start_thread("spidar-clock", [this] { run(); });
+  publish_ = std::move(publish);
+  sync_ = PlaybackSync(now, now_user);
+  refresh_locked();
 }
 
-PlaybackFollower::~PlaybackFollower() {
+void PlaybackFollower::end() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    stop_ = true;
+    publish_ = nullptr;
+    playing_ = false;
+    delay_.forget();
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -148,6 +153,7 @@ void PlaybackFollower::set_skipped(int64_t skipped_ns) {
 
 void PlaybackFollower::expect_base_time() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (!publish_) return;
   sync_.expect_base_time(element_);
   refresh_locked();
 }
@@ -158,6 +164,7 @@ void PlaybackFollower::refresh() {
 }
 
 void PlaybackFollower::refresh_locked() {
+  if (!publish_) return;
   if (playing_ && sink_outdated_) {
     sink_outdated_ = false;
     delay_.follow(element_);
@@ -169,7 +176,7 @@ void PlaybackFollower::refresh_locked() {
 void PlaybackFollower::run() {
   constexpr std::chrono::milliseconds kPeriod(10);
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!stop_) {
+  while (publish_) {
     if (playing_) {
       refresh_locked();
       changed_.wait_for(lock, kPeriod);

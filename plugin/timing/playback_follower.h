@@ -58,19 +58,25 @@ class PlaybackFollower {
  public:
   using Publish = std::function<void(const PlaybackClock&)>;
 
-  /// `now` as in PlaybackSync. Without a thread the owner calls refresh().
-  PlaybackFollower(GstElement* element, Publish publish, PlaybackSync::Now now, void* now_user,
-                   bool threaded);
-  ~PlaybackFollower();
+  explicit PlaybackFollower(GstElement* element) : element_(element) {}
+  ~PlaybackFollower() { end(); }
+
+  /// A device begins to follow playback, which is not playing yet. `now` as in PlaybackSync.
+  /// Without a thread the owner calls refresh().
+  void begin(Publish publish, PlaybackSync::Now now, void* now_user, bool threaded);
+  /// Publishes nothing any more.
+  void end();
 
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
+  /// By the sink, of running time: what follows is shown as much earlier.
   void set_skipped(int64_t skipped_ns);
   /// Something behind the element was linked anew.
   void look_for_sink();
   /// See PlaybackSync::expect_base_time().
   void expect_base_time();
+  /// Looks at the pipeline's clock now; the thread does that by itself.
   void refresh();
 
  private:
@@ -78,15 +84,14 @@ class PlaybackFollower {
   void refresh_locked();
 
   GstElement* const element_;  // owns the owner of this
-  const Publish publish_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  PlaybackSync sync_;
+  Publish publish_;  // null: there is no device
+  PlaybackSync sync_{nullptr, nullptr};
   PresentationDelay delay_;
   bool sink_outdated_ = false;
   GstClockTimeDiff offset_ns_ = 0;
   bool playing_ = false;
-  bool stop_ = false;
   std::thread thread_;
 };
 

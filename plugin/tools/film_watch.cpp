@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
@@ -43,8 +44,10 @@ GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
   const std::lock_guard<std::mutex> lock(self.lock_);
   const GstStructure* const about = gst_message_get_structure(message);
   if (about && gst_structure_has_name(about, "spidar-motion")) {
-    const char* const reason = gst_structure_get_string(about, "limit-reason");
-    ++self.reasons_[reason ? reason : ""];
+    const char* const nick = gst_structure_get_string(about, "no-force-reason");
+    if (const auto reason = no_force_reason(nick ? nick : "")) {
+      ++self.frames_by_reason_[static_cast<size_t>(*reason)];
+    }
     gst_message_unref(message);
     return GST_BUS_DROP;
   }
@@ -149,21 +152,16 @@ std::string FilmWatch::problem(const std::string& error) const {
 
 std::string FilmWatch::felt() const {
   const std::lock_guard<std::mutex> lock(lock_);
-  int frames = 0, felt = 0, most = 0;
-  std::string reason;
-  for (const auto& [sentence, count] : reasons_) {
-    frames += count;
-    if (sentence.empty()) felt = count;
-    if (sentence.empty() || count <= most) continue;
-    most = count;
-    reason = sentence;
-  }
+  const int frames = std::accumulate(frames_by_reason_.begin(), frames_by_reason_.end(), 0);
   if (frames == 0) return {};
+  const auto felt = frames_by_reason_.begin();  // kNone
+  const auto most = std::max_element(felt + 1, frames_by_reason_.end());
+  const auto reason = static_cast<NoForceReason>(most - felt);
   const auto percent = [frames](int count) {
     return std::to_string(std::lround(100.0 * count / frames)) + " %";
   };
-  return percent(felt) + " of its frames are felt" +
-         (reason.empty() ? "" : "; " + percent(most) + ": " + reason);
+  return percent(*felt) + " of its frames are felt" +
+         (*most == 0 ? "" : "; " + percent(*most) + ": " + sentence(reason));
 }
 
 }  // namespace spidar

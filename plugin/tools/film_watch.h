@@ -3,13 +3,15 @@
 /// Chooses the video of a film that is decoded, and notices when the film is damaged.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <set>
 #include <string>
 
 #include <gst/gst.h>
+
+#include "plugin/frame/no_force_reason.h"
 
 namespace spidar {
 
@@ -52,7 +54,7 @@ class FilmWatch {
   bool has_video_ = true;           // unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
-  std::map<std::string, int> reasons_;  // of measured frames, by sentence; empty: felt
+  std::array<int, kNoForceReasons> frames_by_reason_{};  // that were measured
 };
 
 }  // namespace spidar

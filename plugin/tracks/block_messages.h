@@ -12,6 +12,7 @@
 #include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
 #include "plugin/frame/motion_message.h"
+#include "plugin/frame/no_force_watch.h"
 #include "plugin/tracks/sidecar.h"
 
 namespace spidar {
@@ -42,8 +43,8 @@ class BlockMessages {
       const Wrench wrench = to_wrench(block.samples[i]);
       if (size_N(wrench) > size_N(report.frame.wrench)) report.frame.wrench = wrench;
     }
-    report.limit = limit_of_track(report.frame.wrench, loop);
-    report.device_limit = loop ? limit_of_device(*loop, muted) : NoForceReason::kNoDevice;
+    report.no_force = reason_in_track(report.frame.wrench, loop);
+    report.device_no_force = loop ? reason_in_device(*loop, muted) : NoForceReason::kNoDevice;
     post_motion_message(element_, pts, static_cast<GstClockTime>(block.duration_ns), report,
                         &unread_);
   }

@@ -27,6 +27,7 @@
  *
  * Since: 0.1
  */
+#include <mutex>
 #include <string>
 
 #include "plugin/output/device_warnings.h"
@@ -52,22 +53,35 @@ using spidar::SinkProperties;
 /// Samples are handed to the haptic loop this long before they are felt.
 static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
 
+namespace {
+
+struct SinkState {
+  explicit SinkState(GstElement* element)
+      : output(element, [this] { queue.forward_waiting(); }),
+        warnings(element, "The haptic track"),
+        track_warnings(element),
+        messages(element) {}
+
+  std::mutex setting;          // settings reach the output in the order in which they were made
+  SinkProperties settings;     // object lock
+  spidar::TrackFaults faults;  // object lock; of the stream so far
+  guint64 samples = 0;         // object lock
+  gint wants_no_sync = 0;      // atomic: sync=false was set, which has no effect
+  BlockQueue queue;
+  HapticOutput output;
+  // Streaming thread.
+  spidar::TrackInput input;
+  bool is_marked = false;  // the stream, as a haptic track
+  spidar::DeviceWarnings warnings;
+  spidar::TrackWarnings track_warnings;
+  spidar::BlockMessages messages;
+};
+
+}  // namespace
+
 struct _GstSpidarSink {
   GstBaseSink parent;
-
-  GMutex setting;              // settings reach the output in the order in which they were made
-  SinkProperties* properties;  // object lock
-  spidar::TrackFaults faults;  // object lock; of the stream so far
-  guint64 samples;             // object lock
-  gint wants_no_sync;          // atomic: sync=false was set, which has no effect
-  BlockQueue* queue;
-  HapticOutput* output;
-  // Streaming thread.
-  spidar::TrackInput* input;
-  bool is_marked;  // the stream, as a haptic track
-  spidar::DeviceWarnings* warnings;
-  spidar::TrackWarnings* track_warnings;
-  spidar::BlockMessages* messages;
+  SinkState* state;
 };
 
 static GstStaticPadTemplate haptic_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -84,14 +98,14 @@ G_DEFINE_TYPE_WITH_CODE(GstSpidarSink, gst_spidar_sink, GST_TYPE_BASE_SINK,
 GST_ELEMENT_REGISTER_DEFINE(spidarsink, "spidarsink", GST_RANK_NONE, GST_TYPE_SPIDAR_SINK)
 
 HapticOutput& gst_spidar_sink_output(GstSpidarSink* self) {
-  return *self->output;
+  return self->state->output;
 }
 
 // --- streaming thread --------------------------------------------------------------------------
 
 static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  const std::string problem = self->input->set_caps(caps);
+  const std::string problem = self->state->input.set_caps(caps);
   if (problem.empty()) return TRUE;
   GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", problem.c_str()),
                     ("caps %" GST_PTR_FORMAT, static_cast<void*>(caps)));
@@ -116,32 +130,34 @@ static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* st
 static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   GST_OBJECT_LOCK(self);
-  const SinkProperties properties = *self->properties;
+  const SinkProperties properties = self->state->settings;
   GST_OBJECT_UNLOCK(self);
-  const bool is_felt = self->is_marked || properties.accept_unmarked;
-  const guint64 samples_before = self->input->samples();
-  const GstFlowReturn flow = self->input->read(
+  const bool is_felt = self->state->is_marked || properties.accept_unmarked;
+  const guint64 samples_before = self->state->input.samples();
+  const GstFlowReturn flow = self->state->input.read(
       buffer, sink->segment, properties.gain, [&](const spidar::TrackBlock& block) {
         const GstFlowReturn waited =
             spidar::wait_until(sink, GST_MINI_OBJECT_CAST(buffer), block.begin_ns, kAhead_ns);
         if (waited != GST_FLOW_OK || !is_felt) return waited;
-        self->queue->add(block);
+        self->state->queue.add(block);
         if (!properties.post_messages) return waited;
-        self->messages->post(block, sink->segment, self->output->snapshot(), properties.mute);
+        self->state->messages.post(block, sink->segment, self->state->output.snapshot(),
+                                   properties.mute);
         return waited;
       });
   const bool has_time =
-      flow != GST_FLOW_OK || self->input->samples() > samples_before ||
+      flow != GST_FLOW_OK || self->state->input.samples() > samples_before ||
       (sink->segment.format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(buffer));
   GST_OBJECT_LOCK(self);
-  self->faults = self->input->faults();
-  self->samples = self->input->samples();
+  self->state->faults = self->state->input.faults();
+  self->state->samples = self->state->input.samples();
   GST_OBJECT_UNLOCK(self);
-  if (g_atomic_int_exchange(&self->wants_no_sync, FALSE)) self->track_warnings->tell_of_sync();
-  if (is_felt) self->track_warnings->check(self->input->faults(), has_time);
-  if (!is_felt) self->track_warnings->tell_of_mark();
+  if (g_atomic_int_exchange(&self->state->wants_no_sync, FALSE))
+    self->state->track_warnings.tell_of_sync();
+  if (is_felt) self->state->track_warnings.check(self->state->input.faults(), has_time);
+  if (!is_felt) self->state->track_warnings.tell_of_mark();
   const spidar::OnDeviceError policy = properties.on_device_error;
-  if (!self->warnings->check(self->output->session(), policy)) return GST_FLOW_ERROR;
+  if (!self->state->warnings.check(self->state->output.session(), policy)) return GST_FLOW_ERROR;
   return flow;
 }
 
@@ -149,33 +165,33 @@ static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* eve
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   const GstFlowReturn flow = gst_base_sink_do_preroll(sink, GST_MINI_OBJECT_CAST(event));
   const bool is_end = GST_EVENT_TYPE(event) == GST_EVENT_EOS;
-  const GstClockTime end = self->input->end();
+  const GstClockTime end = self->state->input.end();
   if (flow != GST_FLOW_OK || !is_end || !spidar::is_time(end)) return flow;
   return spidar::wait_until(sink, GST_MINI_OBJECT_CAST(event), static_cast<gint64>(end), 0);
 }
 
 static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  spidar::follow_mark(event, self->is_marked);
+  spidar::follow_mark(event, self->state->is_marked);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
-      self->queue->forget();
+      self->state->queue.forget();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       // Flushes again, because a buffer may have been in progress when the flush began.
-      self->queue->forget();
-      self->input->restart();
-      if (reset_time) self->output->expect_base_time();
+      self->state->queue.forget();
+      self->state->input.restart();
+      if (reset_time) self->state->output.follower().expect_base_time();
       break;
     }
     case GST_EVENT_STREAM_START:
-      self->track_warnings->start();
-      self->messages->begin_stream(GST_BASE_SINK_PAD(sink));
+      self->state->track_warnings.start();
+      self->state->messages.begin_stream(GST_BASE_SINK_PAD(sink));
       break;
     case GST_EVENT_SEGMENT:
-      self->input->restart();
+      self->state->input.restart();
       break;
     default:
       break;
@@ -187,22 +203,22 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
 static void keep_sync(GstSpidarSink* self) {
   if (gst_base_sink_get_sync(GST_BASE_SINK(self))) return;
   gst_base_sink_set_sync(GST_BASE_SINK(self), TRUE);
-  g_atomic_int_set(&self->wants_no_sync, TRUE);
+  g_atomic_int_set(&self->state->wants_no_sync, TRUE);
 }
 
 static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->warnings->start();
-  *self->input = spidar::TrackInput();
-  self->queue->forget();
+  self->state->warnings.start();
+  self->state->input = spidar::TrackInput();
+  self->state->queue.forget();
   return TRUE;
 }
 
 static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->queue->forget();
+  self->state->queue.forget();
   // Reported here, because messages during the change to NULL are discarded.
-  self->warnings->end_haptic_trace(self->output->session());
+  self->state->warnings.end_haptic_trace(self->state->output.session());
   return TRUE;
 }
 
@@ -213,28 +229,23 @@ static gboolean gst_spidar_sink_send_event(GstElement* element, GstEvent* event)
   if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) {
     GstClockTime latency;
     gst_event_parse_latency(event, &latency);
-    self->output->set_latency(latency);
+    self->state->output.follower().set_latency(latency);
   }
   return GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->send_event(element, event);
 }
 
 static bool open_device(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
-  const SinkProperties properties = *self->properties;
+  const SinkProperties properties = self->state->settings;
   GST_OBJECT_UNLOCK(self);
-  try {
-    const std::string trace_problem =
-        self->output->open(properties.device, properties.profile, properties.haptic_trace);
-    if (!trace_problem.empty()) {
-      GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
-                          ("The force continues without it."));
-    }
-    self->warnings->check_opened(self->output->session(), self->output->chosen());
-    self->queue->connect(&self->output->session()->loop());
-    return true;
-  } catch (const std::exception& refusal) {
-    return self->warnings->check_refused(properties.device, refusal, properties.on_device_error);
-  }
+  SinkState& state = *self->state;
+  return state.warnings.open(
+      state.output, properties.device, properties.on_device_error, [&state, &properties] {
+        const std::string trace_problem =
+            state.output.open(properties.device, properties.profile, properties.haptic_trace);
+        state.queue.connect(&state.output.session()->loop());
+        return trace_problem;
+      });
 }
 
 static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
@@ -242,17 +253,18 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
   GstSpidarSink* self = GST_SPIDAR_SINK(element);
   if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self))
     return GST_STATE_CHANGE_FAILURE;
-  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) self->output->set_playing(false);
+  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED)
+    self->state->output.follower().set_playing(false);
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->change_state(element, transition);
   if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE)
-    self->output->set_playing(true);
+    self->state->output.follower().set_playing(true);
   const bool closes =
       transition == GST_STATE_CHANGE_READY_TO_NULL ||
       (transition == GST_STATE_CHANGE_NULL_TO_READY && result == GST_STATE_CHANGE_FAILURE);
   if (closes) {
-    self->queue->connect(nullptr);
-    self->output->close();
+    self->state->queue.connect(nullptr);
+    self->state->output.close();
   }
   return result;
 }
@@ -260,8 +272,9 @@ static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
 // --- object ------------------------------------------------------------------------------------
 
 static constexpr spidar::PropertyEffect<GstSpidarSink> kSinkEffects[] = {
-    {"mute", [](auto* self, auto* v) { self->queue->set_muted(g_value_get_boolean(v)); }},
-    {"max-force", [](auto* self, auto* v) { self->output->set_max_force(g_value_get_double(v)); }},
+    {"mute", [](auto* self, auto* v) { self->state->queue.set_muted(g_value_get_boolean(v)); }},
+    {"max-force",
+     [](auto* self, auto* v) { self->state->output.set_max_force(g_value_get_double(v)); }},
 };
 
 static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue* value,
@@ -272,14 +285,14 @@ static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue
 
 static GstStructure* stats(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
-  const spidar::TrackFaults faults = self->faults;
-  const guint64 samples = self->samples;
+  const spidar::TrackFaults faults = self->state->faults;
+  const guint64 samples = self->state->samples;
   GST_OBJECT_UNLOCK(self);
   GstStructure* structure = gst_structure_new(
       "spidar-sink-stats", "samples", G_TYPE_UINT64, samples, "samples-not-finite", G_TYPE_UINT64,
       faults.not_finite, "samples-beyond-full-scale", G_TYPE_UINT64, faults.beyond_full,
-      "samples-refused", G_TYPE_UINT64, self->queue->refused(), nullptr);
-  self->output->describe(structure);
+      "samples-refused", G_TYPE_UINT64, self->state->queue.refused(), nullptr);
+  self->state->output.describe(structure);
   return structure;
 }
 
@@ -289,31 +302,16 @@ static void gst_spidar_sink_get_property(GObject* object, guint id, GValue* valu
 }
 
 static void follow_ts_offset(GstSpidarSink* self) {
-  self->output->set_offset(gst_base_sink_get_ts_offset(GST_BASE_SINK(self)));
+  self->state->output.follower().set_offset(gst_base_sink_get_ts_offset(GST_BASE_SINK(self)));
 }
 
 static void gst_spidar_sink_finalize(GObject* object) {
-  GstSpidarSink* self = GST_SPIDAR_SINK(object);
-  delete self->messages;
-  delete self->track_warnings;
-  delete self->warnings;
-  delete self->input;
-  delete self->output;
-  delete self->queue;
-  delete self->properties;
-  g_mutex_clear(&self->setting);
+  delete GST_SPIDAR_SINK(object)->state;
   G_OBJECT_CLASS(gst_spidar_sink_parent_class)->finalize(object);
 }
 
 static void gst_spidar_sink_init(GstSpidarSink* self) {
-  g_mutex_init(&self->setting);
-  self->properties = new SinkProperties;
-  self->queue = new BlockQueue;
-  self->output = new HapticOutput(GST_ELEMENT(self), [self] { self->queue->forward_waiting(); });
-  self->input = new spidar::TrackInput;
-  self->warnings = new spidar::DeviceWarnings(GST_ELEMENT(self), "The haptic track");
-  self->track_warnings = new spidar::TrackWarnings(GST_ELEMENT(self));
-  self->messages = new spidar::BlockMessages(GST_ELEMENT(self));
+  self->state = new SinkState(GST_ELEMENT(self));
   g_signal_connect(self, "notify::sync", G_CALLBACK(keep_sync), nullptr);
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
-#include "plugin/filter/reports/message_and_meta.h"
+#include "plugin/filter/reports/motion_meta.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_stream.h"
 

@@ -37,8 +37,8 @@ class ForceLimitTest : public testing::Test {
     h->set_caps(make_caps("GRAY8", kWidth, kHeight));
   }
 
-  HapticLoop& loop() { return h->engine().output().session()->loop(); }
-  SimulatedDevice& device() { return *h->engine().output().simulated(); }
+  HapticLoop& loop() { return h->state().output.session()->loop(); }
+  SimulatedDevice& device() { return *h->state().output.simulated(); }
 
   void tick(int count) {
     for (int i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ class ForceLimitTest : public testing::Test {
   void show(int count, const std::function<GstBuffer*(int)>& frame, int interval_ms = kFrame_ms) {
     for (int i = 0; i < count; ++i, ++frames) {
       h->push(frame(frames), static_cast<GstClockTime>(frames * interval_ms) * GST_MSECOND);
-      if (frames >= 2 && h->engine().output().session()) tick(interval_ms);
+      if (frames >= 2 && h->state().output.session()) tick(interval_ms);
     }
   }
   void show_moved(int count, double px_a_frame) {
@@ -100,22 +100,22 @@ class ForceLimitTest : public testing::Test {
     gst_structure_free(stats);
     return result;
   }
-  std::string message_limit() { return h->motions().back().limit; }
+  std::string message_reason() { return h->motions().back().no_force; }
 
   /// The film's reason, and nothing of the device.
   void expect_everywhere(const std::string& limit) {
-    EXPECT_EQ(stats_field("limit"), limit);
-    EXPECT_EQ(message_limit(), limit);
-    EXPECT_FALSE(stats_field("limit-reason").empty());
-    EXPECT_EQ(h->motions().back().limit_reason, stats_field("limit-reason"));
-    EXPECT_EQ(stats_field("device-limit"), "none");
-    EXPECT_EQ(h->motions().back().device_limit, "none");
+    EXPECT_EQ(stats_field("no-force-reason"), limit);
+    EXPECT_EQ(message_reason(), limit);
+    EXPECT_FALSE(stats_field("no-force-text").empty());
+    EXPECT_EQ(h->motions().back().no_force_text, stats_field("no-force-text"));
+    EXPECT_EQ(stats_field("device-no-force-reason"), "none");
+    EXPECT_EQ(h->motions().back().device_no_force, "none");
   }
   /// Whatever the film shows.
   void expect_of_device(const std::string& limit) {
-    EXPECT_EQ(stats_field("device-limit"), limit);
-    EXPECT_EQ(h->motions().back().device_limit, limit);
-    EXPECT_FALSE(stats_field("device-limit-reason").empty());
+    EXPECT_EQ(stats_field("device-no-force-reason"), limit);
+    EXPECT_EQ(h->motions().back().device_no_force, limit);
+    EXPECT_FALSE(stats_field("device-no-force-text").empty());
   }
 
   int64_t time_ns = 1'000'000'000;

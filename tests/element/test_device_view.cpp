@@ -22,7 +22,7 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   int64_t time_ns = 1'000'000'000;
   ElementHarness h("device=sim motion=mean", read_time, &time_ns);
   h.set_caps(make_caps("GRAY8", 320, 240));
-  HapticOutput& output = h.engine().output();
+  HapticOutput& output = h.state().output;
   HapticLoop& loop = output.session()->loop();
   const auto tick = [&](int count) {
     for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);

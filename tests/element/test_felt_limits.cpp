@@ -54,7 +54,7 @@ TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
   show(kFrames, [&](int) { return level_frame(h->info(), 20); });
   expect_of_device("not-touching");
   show(kFrames, [&](int) { return level_frame(h->info(), 235); });
-  EXPECT_EQ(stats_field("device-limit"), "none") << "a picture that never moves is felt";
+  EXPECT_EQ(stats_field("device-no-force-reason"), "none") << "a picture that never moves is felt";
   g_object_set(h->element(), "max-force", kFeltForce_N / 2, nullptr);
   show(kFrames, [&](int) { return level_frame(h->info(), 235); });
   expect_of_device("light-touch");
@@ -63,12 +63,12 @@ TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
   hand.position_m.z() = 0.02;
   device().set_hand(hand);
   show(15, [&](int) { return level_frame(h->info(), 235); });
-  EXPECT_EQ(stats_field("device-limit"), "none") << "felt until 0.6 s ago at most";
+  EXPECT_EQ(stats_field("device-no-force-reason"), "none") << "felt until 0.6 s ago at most";
   show(kFrames, [&](int) { return level_frame(h->info(), 235); });
   expect_of_device("not-touching");
   gst_harness_push_event(h->harness(), gst_event_new_eos());
   tick(100);
-  EXPECT_EQ(stats_field("device-limit"), "ended");
+  EXPECT_EQ(stats_field("device-no-force-reason"), "ended");
 }
 
 TEST_F(ForceLimitTest, ADeviceThatCannotTouchIsNamed) {

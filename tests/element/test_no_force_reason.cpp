@@ -15,10 +15,10 @@ TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
-  EXPECT_EQ(stats_field("limit"), "none");
-  EXPECT_EQ(message_limit(), "none");
-  EXPECT_EQ(stats_field("limit-reason"), "");
-  EXPECT_EQ(h->motions().back().limit_reason, "");
+  EXPECT_EQ(stats_field("no-force-reason"), "none");
+  EXPECT_EQ(message_reason(), "none");
+  EXPECT_EQ(stats_field("no-force-text"), "");
+  EXPECT_EQ(h->motions().back().no_force_text, "");
 }
 
 TEST_F(ForceLimitTest, EachOfTheFilm) {
@@ -61,20 +61,20 @@ TEST_F(ForceLimitTest, FramesWithoutAPictureRepeatTheOneBefore) {
     GST_BUFFER_FLAG_SET(frame, GST_BUFFER_FLAG_GAP);
     return frame;
   });
-  EXPECT_EQ(stats_field("limit"), "repeated-frames");
+  EXPECT_EQ(stats_field("no-force-reason"), "repeated-frames");
 }
 
 TEST_F(ForceLimitTest, Muted) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
-  EXPECT_EQ(stats_field("limit"), "none");
+  EXPECT_EQ(stats_field("no-force-reason"), "none");
   g_object_set(h->element(), "mute", TRUE, nullptr);
   show_moved(1, 2);
   expect_of_device("muted");
   g_object_set(h->element(), "mute", FALSE, nullptr);
   show_moved(4, 2);
-  EXPECT_EQ(stats_field("limit"), "none");
+  EXPECT_EQ(stats_field("no-force-reason"), "none");
 }
 
 TEST_F(ForceLimitTest, NotPlaying) {
@@ -89,12 +89,14 @@ TEST_F(ForceLimitTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
   play();
   show_moved(kFrames, 2);
   gst_harness_push_event(h->harness(), gst_event_new_eos());
-  EXPECT_EQ(stats_field("device-limit"), "none") << "two frames are on their way to the screen";
+  EXPECT_EQ(stats_field("device-no-force-reason"), "none")
+      << "two frames are on their way to the screen";
   tick(2 * kFrame_ms);
-  EXPECT_EQ(stats_field("device-limit"), "ended");
-  EXPECT_EQ(h->engine().no_force_reason(), NoForceReason::kEnded);
+  EXPECT_EQ(stats_field("device-no-force-reason"), "ended");
+  EXPECT_EQ(h->state().no_force.first(h->state().output.snapshot()), NoForceReason::kEnded);
   tick(2000);
-  EXPECT_EQ(h->engine().no_force_reason(), NoForceReason::kEnded) << "and not late";
+  EXPECT_EQ(h->state().no_force.first(h->state().output.snapshot()), NoForceReason::kEnded)
+      << "and not late";
 }
 
 TEST_F(ForceLimitTest, TheDeviceIsNotRunningYet) {
@@ -129,9 +131,9 @@ TEST_F(ForceLimitTest, TheVideoHasEnded) {
   open("device=sim motion=object");
   play();
   show_moved(kFrames, 2);
-  EXPECT_EQ(stats_field("limit"), "camera-only");
+  EXPECT_EQ(stats_field("no-force-reason"), "camera-only");
   tick(1200);
-  EXPECT_EQ(stats_field("limit"), "no-frames");
+  EXPECT_EQ(stats_field("no-force-reason"), "no-frames");
 }
 
 TEST_F(ForceLimitTest, TheFirstFrameHasNothingToBeComparedWith) {
@@ -160,22 +162,22 @@ TEST_F(ForceLimitTest, WithoutADeviceTheFilmHasItsOwnReasons) {
   open("device=none motion=object");
   frames = 0;
   show_moved(kFrames, 2);
-  EXPECT_EQ(message_limit(), "camera-only");
-  EXPECT_EQ(stats_field("limit"), "camera-only");
-  EXPECT_EQ(h->motions().back().device_limit, "no-device");
+  EXPECT_EQ(message_reason(), "camera-only");
+  EXPECT_EQ(stats_field("no-force-reason"), "camera-only");
+  EXPECT_EQ(h->motions().back().device_no_force, "no-device");
 }
 
 TEST_F(ForceLimitTest, OfAFrameItIsItsOwnAndNotThatOfASecond) {
   open("device=sim motion=camera filter-min-cutoff=0");
   play();
   show_moved(5, 0);
-  EXPECT_EQ(message_limit(), "repeated-frames");
+  EXPECT_EQ(message_reason(), "repeated-frames");
   show(1, [&](int) { return make_frame(h->info(), 4, 0); });
-  EXPECT_EQ(message_limit(), "none");
+  EXPECT_EQ(message_reason(), "none");
   // A picture that is repeated goes on for a while; a cut does not.
   show(1, [&](int) { return make_frame(h->info(), 4000, 4000); });
-  EXPECT_EQ(message_limit(), "nothing-to-compare");
-  EXPECT_EQ(stats_field("limit"), "none") << "something was felt in the last second";
+  EXPECT_EQ(message_reason(), "nothing-to-compare");
+  EXPECT_EQ(stats_field("no-force-reason"), "none") << "something was felt in the last second";
 }
 
 }  // namespace

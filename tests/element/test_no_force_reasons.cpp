@@ -10,7 +10,7 @@
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/camera/background.h"
-#include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/frame/no_force_watch.h"
 
 namespace spidar::test::no_force_reason_test {
 namespace {
@@ -51,11 +51,12 @@ TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
   rule.kind = FeelKind::kNothing;
   Frame frame = unfelt();
   frame.choice.rule = rule;
-  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNotChosen);
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNotChosen);
   frame.choice.rule->kind = FeelKind::kObjectAt;
-  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNotChosen) << "it is lost";
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNotChosen) << "it is lost";
   frame.felt_object = 1;
-  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kNothingMoves) << "it rests";
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNothingMoves)
+      << "it rests";
 }
 
 TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
@@ -63,8 +64,8 @@ TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
   background.coverage = 0;
   Frame frame = unfelt();
   frame.background = background;
-  EXPECT_EQ(limit_of(frame, MotionKind::kObject), NoForceReason::kCameraUnknown);
-  EXPECT_EQ(limit_of(frame, MotionKind::kCamera), NoForceReason::kNothingMoves)
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kCameraUnknown);
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kCamera), NoForceReason::kNothingMoves)
       << "nothing is left out";
 }
 
@@ -75,7 +76,7 @@ class Second {
     for (int i = 0; i < count; ++i) history.add(kFrame_ns * frames_++, force_N, limit);
     return *this;
   }
-  NoForceReason limit() const { return history.limit(kFrame_ns * (frames_ - 1)); }
+  NoForceReason reason() const { return history.reason(kFrame_ns * (frames_ - 1)); }
 
   NoForceHistory history;
 
@@ -84,59 +85,59 @@ class Second {
 };
 
 TEST(NoForceHistory, KnowsNothingWithoutFrames) {
-  EXPECT_EQ(NoForceHistory().limit(0), NoForceReason::kNoFrames);
+  EXPECT_EQ(NoForceHistory().reason(0), NoForceReason::kNoFrames);
 }
 
 TEST(NoForceHistory, TakesTheReasonThatMostPicturesHave) {
   Second second;
   second.show(4, NoForceReason::kNothingMoves).show(3, NoForceReason::kCameraOnly);
-  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.reason(), NoForceReason::kNothingMoves);
   second.show(2, NoForceReason::kCameraOnly);
-  EXPECT_EQ(second.limit(), NoForceReason::kCameraOnly);
+  EXPECT_EQ(second.reason(), NoForceReason::kCameraOnly);
 }
 
 TEST(NoForceHistory, RepeatedFramesCountOnlyWhereThereIsNothingElse) {
   Second second;
   second.show(20, NoForceReason::kRepeatedFrames);
-  EXPECT_EQ(second.limit(), NoForceReason::kRepeatedFrames);
+  EXPECT_EQ(second.reason(), NoForceReason::kRepeatedFrames);
   second.show(1, NoForceReason::kCameraOnly);
-  EXPECT_EQ(second.limit(), NoForceReason::kCameraOnly) << "as a film with repeated frames has it";
+  EXPECT_EQ(second.reason(), NoForceReason::kCameraOnly) << "as a film with repeated frames has it";
 }
 
 TEST(NoForceHistory, ACutCountsOnlyIfNoOtherFrameHasAReason) {
   Second second;
   second.show(3, NoForceReason::kNothingToCompare);
-  EXPECT_EQ(second.limit(), NoForceReason::kNothingToCompare);
+  EXPECT_EQ(second.reason(), NoForceReason::kNothingToCompare);
   second.show(1, NoForceReason::kTooWeak, kFeltForce_N / 2);
-  EXPECT_EQ(second.limit(), NoForceReason::kTooWeak);
+  EXPECT_EQ(second.reason(), NoForceReason::kTooWeak);
 }
 
 TEST(NoForceHistory, LooksBackForASecond) {
   Second second;
   second.show(1, NoForceReason::kNone, kFeltForce_N).show(24, NoForceReason::kNothingMoves);
-  EXPECT_EQ(second.limit(), NoForceReason::kNone) << "0.96 s ago";
+  EXPECT_EQ(second.reason(), NoForceReason::kNone) << "0.96 s ago";
   second.show(1, NoForceReason::kNothingMoves);
-  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves) << "a second ago";
+  EXPECT_EQ(second.reason(), NoForceReason::kNothingMoves) << "a second ago";
 }
 
 TEST(NoForceHistory, CountsShownFramesAndNotWaitingOnes) {
   Second second;
   second.show(5, NoForceReason::kNothingMoves).show(5, NoForceReason::kNone, 1);
-  EXPECT_EQ(second.history.limit(4 * kFrame_ns), NoForceReason::kNothingMoves);
-  EXPECT_EQ(second.history.limit(5 * kFrame_ns), NoForceReason::kNone);
+  EXPECT_EQ(second.history.reason(4 * kFrame_ns), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.history.reason(5 * kFrame_ns), NoForceReason::kNone);
 }
 
 TEST(NoForceHistory, ForgetsEarlierFramesWhenTheTimeFalls) {
   Second second;
   second.show(20, NoForceReason::kNone, 1);
   second.history.add(0, 0, NoForceReason::kNothingMoves);
-  EXPECT_EQ(second.history.limit(kFrame_ns), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.history.reason(kFrame_ns), NoForceReason::kNothingMoves);
 }
 
 TEST(NoForceHistory, KeepsTheLatestFramesWhenThereAreTooMany) {
   Second second;
   second.show(2 * static_cast<int>(NoForceHistory::kFrames), NoForceReason::kNothingMoves);
-  EXPECT_EQ(second.limit(), NoForceReason::kNothingMoves);
+  EXPECT_EQ(second.reason(), NoForceReason::kNothingMoves);
 }
 
 }  // namespace

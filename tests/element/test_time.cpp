@@ -296,7 +296,7 @@ TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
       h.push_moved(0, 0, kFrame);
       for (const double multiplier : {1e-9, 0.5, 1.0, 1e9}) {
         for (const auto& [shown, upstream] : {std::pair{base, GstClockTime{0}}, {0, base}}) {
-          h.engine().change_rate(multiplier, shown, upstream);
+          h.state().change_rate(multiplier, shown, upstream);
           h.push_moved(0, 0, first + kFrame);
           h.push_moved(2, 0, 2 * kFrame);
           h.tick(now_ns += kTick_ns);

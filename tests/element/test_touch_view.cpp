@@ -32,12 +32,12 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   PlaybackClock clock;
   clock.playing = true;
   clock.monotonic_ns = time_ns;
-  h.engine().output().session()->loop().set_playback_clock(clock);
+  h.state().output.session()->loop().set_playback_clock(clock);
   GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
   gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
   ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
   const std::shared_ptr<WindowSource> source =
-      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
   ElementState state;
   const auto look = [&] {
     tick(1500);
@@ -69,11 +69,11 @@ TEST(TouchView, OtherDevicesHaveNoHandToLead) {
   for (const char* properties : {"device=sim:sh4", "device=none"}) {
     ElementHarness h(properties);
     const std::shared_ptr<WindowSource> source =
-        gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+        gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
     ElementState state;
     source->read(state);
     EXPECT_FALSE(state.device && state.device->has_hand) << properties;
-    EXPECT_FALSE(h.engine().output().lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
+    EXPECT_FALSE(h.state().output.lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
     source->lead_hand(Eigen::Vector3d(0.01, 0, 0));
   }
 }

@@ -48,7 +48,7 @@ TEST_F(TrackShown, EachFrameHasAMessageWithTheForceAndTheTrack) {
   for (const MotionMessage& message : h.motions()) {
     EXPECT_EQ(message.track, path);
     EXPECT_NEAR(message.wrench.force_N.x(), 10 * kFraction, kTolerance_N);
-    EXPECT_EQ(message.limit, "none");
+    EXPECT_EQ(message.no_force, "none");
   }
   EXPECT_EQ(h.motions()[2].running_time, 2 * kFrame);
 }

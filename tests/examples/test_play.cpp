@@ -37,7 +37,7 @@ void add_frame(Record& record, int number, const std::string& limit = "none",
                              std::to_string(100'000'000LL * number) +
                              ", velocity-x=(double)30, velocity-y=(double)-20, "
                              "force-x=(double)1, force-y=(double)0, force-z=(double)0, "
-                             "torque-z=(double)0, limit=(string)" +
+                             "torque-z=(double)0, no-force-reason=(string)" +
                              limit + more)
                        .get());
 }
@@ -67,12 +67,14 @@ std::vector<std::vector<double>> block(const std::string& script, const std::str
 TEST(PlayRecord, TheFilmsOwnReasonComesFirst) {
   Record record;
   add_frame(record, 0, "nothing-to-compare");
-  add_frame(record, 1, "camera-only",
-            ", limit-reason=(string)\"Only the camera moves.\", device-limit=(string)muted");
-  add_frame(record, 2, "none",
-            ", device-limit=(string)muted, device-limit-reason=(string)\"It is muted.\"");
+  add_frame(
+      record, 1, "camera-only",
+      ", no-force-text=(string)\"Only the camera moves.\", device-no-force-reason=(string)muted");
+  add_frame(
+      record, 2, "none",
+      ", device-no-force-reason=(string)muted, device-no-force-text=(string)\"It is muted.\"");
   // The device will be ready when the frame is shown.
-  add_frame(record, 3, "none", ", device-limit=(string)device-starting");
+  add_frame(record, 3, "none", ", device-no-force-reason=(string)device-starting");
   ASSERT_EQ(record.frames().size(), 4u);
   EXPECT_TRUE(record.frames()[0].begins_scene);
   EXPECT_FALSE(record.frames()[1].begins_scene);
@@ -133,7 +135,7 @@ TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
               muted   ? "muted"
               : still ? "nothing-moves"
                       : "none",
-              still ? ", limit-reason=(string)\"Nothing moves in the picture.\"" : "");
+              still ? ", no-force-text=(string)\"Nothing moves in the picture.\"" : "");
   }
   add_frame(record, 1000, "late");  // too few for a line
   const std::string text = report_text(record, structure(device_stats()).get(), 1001);
@@ -146,7 +148,7 @@ TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
   EXPECT_EQ(text.find("late"), std::string::npos) << text;
 
   Record still;
-  add_frame(still, 0, "nothing-moves", ", limit-reason=(string)\"Nothing moves.\"");
+  add_frame(still, 0, "nothing-moves", ", no-force-text=(string)\"Nothing moves.\"");
   const std::string one = report_text(still, structure("stats").get(), 1);
   EXPECT_NE(one.find("Nothing was felt: Nothing moves.\n"), std::string::npos) << one;
 }
@@ -270,7 +272,8 @@ TEST(PlayPicture, IsDrawnOfAnyPlayback) {
     return 98 + 262 * curves + (reasons > 0 ? 66 + 24 * reasons : 0);
   };
   Record silent;
-  silent.add_frame(structure("m, running-time=(guint64)0, limit=(string)nothing-moves").get());
+  silent.add_frame(
+      structure("m, running-time=(guint64)0, no-force-reason=(string)nothing-moves").get());
   EXPECT_EQ(height(silent, 0), expected(0, 1))
       << "only the reasons: nothing moves, nothing is felt";
   Record of_track;

@@ -187,7 +187,7 @@ class Delivery(InFolder):
         rows = [[1, device(n), found, wanted, 0, 0, delivered(n, wanted), 0, 0]
                 for n, wanted in enumerate(self.WANTED[:count])]
         rows.append([0, "closing", "nothing", 9, 9, 9, 0, 0, 0])  # the clip has ended
-        for name, lines in ("ticks", [header, *rows]), ("frames", [["device_limit"], [limit], ["none"]]):
+        for name, lines in ("ticks", [header, *rows]), ("frames", [["device_no_force_reason"], [limit], ["none"]]):
             self.path.with_name(name).write_text("".join(",".join(map(str, line)) + "\n" for line in lines))
         return delivery.judge(self.path.with_name("ticks"), self.path.with_name("frames"), expected_N)
 

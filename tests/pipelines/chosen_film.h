@@ -96,7 +96,7 @@ class ChosenFilm {
   WindowSource& window() {
     if (!window_) {
       GstElement* const motion = gst_bin_get_by_name(GST_BIN(harness_->element), "motion");
-      window_ = gst_spidar_motion_display(GST_SPIDAR_MOTION(motion)).source();
+      window_ = gst_spidar_motion_state(GST_SPIDAR_MOTION(motion)).display.source();
       gst_object_unref(motion);
     }
     return *window_;

@@ -27,8 +27,8 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   element_ = gst_bin_get_by_name(GST_BIN(pipeline_), "motion");
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
   inbox_ = std::make_unique<MessageInbox>(pipeline_);
-  engine_ = &gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
-  engine_->output().set_manual(monotonic_ns, this);
+  state_ = &gst_spidar_motion_state(GST_SPIDAR_MOTION(element_));
+  state_->output.set_manual(monotonic_ns, this);
   GstPad* pad = gst_element_get_static_pad(sink_, "sink");
   const auto take = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
     GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
@@ -73,7 +73,7 @@ void SteppedPipeline::wait_for_state() {
     }
     g_error("the pipeline does not change state: %s", error ? error->message : "no message");
   }
-  engine_->output().refresh_clock();
+  state_->output.follower().refresh();
 }
 
 void SteppedPipeline::set_state(GstState state) {
@@ -135,7 +135,7 @@ void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts)
 }
 
 HapticLoop& SteppedPipeline::loop() {
-  return engine_->output().session()->loop();
+  return state_->output.session()->loop();
 }
 
 TickRecord SteppedPipeline::tick() {
@@ -154,7 +154,7 @@ GstClockTime SteppedPipeline::await(guint waiters) {
 TickRecord SteppedPipeline::step(guint waiters) {
   const GstClockTime next = await(waiters);
   if (next > now()) gst_test_clock_set_time(clock_, next);
-  engine_->output().refresh_clock();
+  state_->output.follower().refresh();
   shown_ = taken_;
   const TickRecord record = tick();
   gst_clock_id_unref(gst_test_clock_process_next_clock_id(clock_));
@@ -165,7 +165,7 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
   TickRecord record;
   for (const GstClockTime end = now() + duration; now() + GST_MSECOND <= end;) {
     gst_test_clock_advance_time(clock_, GST_MSECOND);
-    engine_->output().refresh_clock();
+    state_->output.follower().refresh();
     record = tick();
   }
   return record;
@@ -175,7 +175,7 @@ TickRecord SteppedPipeline::stand_still(GstClockTime duration) {
   TickRecord record;
   for (GstClockTime since = 0; since < duration; since += GST_MSECOND) {
     monotonic_less_clock_ns_ += GST_MSECOND;
-    if (since % (10 * GST_MSECOND) == 0) engine_->output().refresh_clock();  // as its thread does
+    if (since % (10 * GST_MSECOND) == 0) state_->output.follower().refresh();  // as its thread does
     record = tick();
   }
   return record;

@@ -13,7 +13,7 @@
 #include <gst/check/gsttestclock.h>
 #include <gst/gst.h>
 
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/filter/motion_state.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/message_inbox.h"
 
@@ -95,7 +95,7 @@ class SteppedPipeline {
   GstElement* element_;
   GstElement* sink_;
   std::unique_ptr<MessageInbox> inbox_;
-  MotionEngine* engine_;
+  MotionState* state_;
   TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
   unsigned messages_ = 0;                                 // types seen

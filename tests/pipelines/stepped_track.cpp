@@ -98,7 +98,7 @@ void SteppedTrack::set_state(GstState state) {
   if (result == GST_STATE_CHANGE_ASYNC) {
     gst_element_get_state(pipeline_, nullptr, nullptr, 10 * GST_SECOND);
   }
-  output_->refresh_clock();
+  output_->follower().refresh();
 }
 
 void SteppedTrack::continue_with(GstClockTime start, GstClockTime base) {
@@ -169,7 +169,7 @@ TickRecord SteppedTrack::tick() {
   let_through();
   gst_test_clock_advance_time(clock_, GST_MSECOND);
   let_through();
-  output_->refresh_clock();
+  output_->follower().refresh();
   return watch_.tick(output_->session()->loop(), now_of(clock_));
 }
 

@@ -22,20 +22,20 @@ class OtherElement {
     const auto now = [](void* user) {
       return static_cast<int64_t>(static_cast<SteppedPipeline*>(user)->now());
     };
-    engine().output().set_manual(now, &pipeline);
+    state().output.set_manual(now, &pipeline);
   }
   ~OtherElement() { gst_object_unref(element_); }
   OtherElement(const OtherElement&) = delete;
   OtherElement& operator=(const OtherElement&) = delete;
 
   TickRecord tick() {
-    engine().output().refresh_clock();
-    return watch_.tick(engine().output().session()->loop(), static_cast<int64_t>(pipeline_.now()));
+    state().output.follower().refresh();
+    return watch_.tick(state().output.session()->loop(), static_cast<int64_t>(pipeline_.now()));
   }
-  const std::string& device() { return engine().output().session()->grip().name(); }
+  const std::string& device() { return state().output.session()->grip().name(); }
 
  private:
-  MotionEngine& engine() { return gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_)); }
+  MotionState& state() { return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_)); }
 
   SteppedPipeline& pipeline_;
   GstElement* element_;

@@ -9,7 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/filter/spidar_motion_private.h"
+#include "plugin/filter/motion_state.h"
+#include "plugin/filter/spidar_motion.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wav_track.h"
@@ -54,7 +55,7 @@ void set_tracks(GstElement* element, std::vector<std::string>& tracks) {
     if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_STREAM_START) {
       GstElement* const motion = GST_PAD_PARENT(sink_pad);
       GST_OBJECT_LOCK(motion);
-      GST_SPIDAR_MOTION(motion)->properties->track = left.at(0);
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(motion)).settings.track = left.at(0);
       GST_OBJECT_UNLOCK(motion);
       left.erase(left.begin());
     }

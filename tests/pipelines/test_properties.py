@@ -104,7 +104,7 @@ class Properties(ElementCase):
             warnings = self.warnings()
             self.assertEqual(len(warnings), 1, warnings)
             self.assertIn(said, warnings[0])
-            self.assertEqual(self.stats("device-limit"), ["no-device"])
+            self.assertEqual(self.stats("device-no-force-reason"), ["no-device"])
 
     def test_alpha_is_that_of_the_paper_with_its_motion_until_it_is_set(self):
         for properties, expected in (("motion=mean", .01), ("motion=mean motion=camera", .0025), ("motion=objects", .0025),
@@ -225,9 +225,9 @@ class Traces(ElementCase):
         self.element.get_parent().set_state(Gst.State.NULL)
         names, *rows = csv.reader(self.path("trace.csv").read_text().splitlines())
         self.assertEqual(",".join(names), "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
-                         "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,limit,device_limit")
+                         "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,no_force_reason,device_no_force_reason")
         said = [[message.get_value(name) for name in ("running-time", "stream-time", "features", "tracked", "velocity-x",
-                                                      "velocity-y", "force-x", "force-y", "limit")]
+                                                      "velocity-y", "force-x", "force-y", "no-force-reason")]
                 for message in said]
         # Written with the digits that reading back needs: equal, not near.
         self.assertEqual([[*map(float, row[:8]), row[12]] for row in rows], said)

@@ -101,7 +101,7 @@ TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
       EXPECT_EQ(messages[i].running_time, i * 40 * GST_MSECOND);
       EXPECT_EQ(messages[i].stream_time, i * 40 * GST_MSECOND);
       EXPECT_EQ(messages[i].track, "hand") << "there is no file";
-      EXPECT_EQ(messages[i].limit, "none");
+      EXPECT_EQ(messages[i].no_force, "none");
       double largest_N = 0;
       for (size_t k = 0; k < 40; ++k) {
         largest_N = std::max(largest_N, size_N(to_wrench(samples[40 * i + k])));

@@ -47,7 +47,7 @@ class TrackReplay : public testing::Test {
   }
   double number(const char* name) const { return stat_of<double>(gst_structure_get_double, name); }
   uint64_t stat(const char* name) const { return stat_of<guint64>(gst_structure_get_uint64, name); }
-  std::string limit(const char* field = "limit") const {
+  std::string reason(const char* field = "no-force-reason") const {
     const auto copy = [](const GstStructure* stats, const char* name, std::string* text) {
       *text = gst_structure_get_string(stats, name);
       return true;
@@ -119,7 +119,7 @@ TEST_F(TrackReplay, FramesWithoutAPicturePlayTheTrackToo) {
   gst_object_unref(pad);
   pipeline->set_state(GST_STATE_PLAYING);
   expect_track(20);
-  EXPECT_EQ(limit(), "none");
+  EXPECT_EQ(reason(), "none");
   pipeline.reset();  // before `count`
 }
 
@@ -136,7 +136,7 @@ TEST_F(TrackReplay, AtAnotherRateTheAmplitudeStaysAndNothingLimitsIt) {
     } else {
       play(20);
     }
-    EXPECT_EQ(limit(), "none");
+    EXPECT_EQ(reason(), "none");
   }
 }
 
@@ -154,14 +154,14 @@ TEST_F(TrackReplay, WhereATrackIsSilentTheReasonSaysSo) {
     play(frames);
   };
   play(20);
-  EXPECT_EQ(limit(), "none") << "felt 0.4 s ago";
+  EXPECT_EQ(reason(), "none") << "felt 0.4 s ago";
   play(20);
-  EXPECT_EQ(limit(), "silent-track");
+  EXPECT_EQ(reason(), "silent-track");
   play_again(20);
-  EXPECT_EQ(limit(), "none") << "after a seek";
+  EXPECT_EQ(reason(), "none") << "after a seek";
   g_object_set(pipeline->element(), "max-force", 0.0, nullptr);
   play_again(8);
-  EXPECT_EQ(limit(), "too-weak");
+  EXPECT_EQ(reason(), "too-weak");
   pipeline->set_state(GST_STATE_NULL);
   std::ifstream trace(folder.path / "trace.csv");
   std::string header, row;
@@ -213,7 +213,7 @@ TEST_F(TrackReplay, ATrackThatShakesIsLoweredAndSaysSo) {
   play(30);
   const double left = number("vibration-left"), fraction = number("vibration-fraction");
   EXPECT_LT(fraction, 0.1);
-  EXPECT_EQ(limit("device-limit"), "vibration");
+  EXPECT_EQ(reason("device-no-force-reason"), "vibration");
   pipeline->await_message(GST_MESSAGE_WARNING);
   // Neither a seek nor a pause gives anything back, except what comes back with time.
   pipeline->set_state(GST_STATE_PAUSED);

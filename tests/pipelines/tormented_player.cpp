@@ -60,12 +60,12 @@ TormentedPlayer::~TormentedPlayer() {
   gst_object_unref(pipeline_);
 }
 
-MotionEngine& TormentedPlayer::engine() const {
-  return gst_spidar_motion_engine(GST_SPIDAR_MOTION(element_));
+MotionState& TormentedPlayer::state() const {
+  return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_));
 }
 
 SimulatedDevice* TormentedPlayer::device() const {
-  return engine().output().simulated();
+  return state().output.simulated();
 }
 
 GstPadProbeReturn TormentedPlayer::pass(GstPad* from, GstPadProbeInfo* info) {
@@ -153,7 +153,7 @@ void TormentedPlayer::drain_bus() {
 
 void TormentedPlayer::stop() {
   set_state(GST_STATE_NULL);
-  EXPECT_EQ(engine().output().session(), nullptr);
+  EXPECT_EQ(state().output.session(), nullptr);
   const std::filesystem::path trace = folder_.path / "haptic.csv";
   if (!std::filesystem::exists(trace)) return;
   watch_.see_trace(trace);

@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/filter/motion_state.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tick_watch.h"
@@ -39,7 +39,7 @@ class TormentedPlayer {
   /// "source", "size" or "sink"; the caller must unref it.
   GstElement* part(const char* name) const { return gst_bin_get_by_name(GST_BIN(pipeline_), name); }
   GstElement* element() const { return element_; }
-  MotionEngine& engine() const;
+  MotionState& state() const;
   /// Null while there is none. Not while another thread changes the state.
   SimulatedDevice* device() const;
 

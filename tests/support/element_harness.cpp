@@ -31,18 +31,18 @@ MotionMessage parse_motion_message(GstMessage* message) {
       "torque-x", G_TYPE_DOUBLE, &t.x(), "torque-y", G_TYPE_DOUBLE, &t.y(), "torque-z",
       G_TYPE_DOUBLE, &t.z(), nullptr);
   gboolean repeated = FALSE;
-  const char* const limit = gst_structure_get_string(s, "limit");
-  const bool says_more = limit && gst_structure_get_boolean(s, "repeated", &repeated);
+  const char* const no_force = gst_structure_get_string(s, "no-force-reason");
+  const bool says_more = no_force && gst_structure_get_boolean(s, "repeated", &repeated);
   if (!complete || !says_more)
     g_error("incomplete spidar-motion message: %s", gst_structure_to_string(s));
   m.repeated = repeated != FALSE;
-  m.limit = limit;
-  if (const char* const of_device = gst_structure_get_string(s, "device-limit")) {
-    m.device_limit = of_device;
+  m.no_force = no_force;
+  if (const char* const of_device = gst_structure_get_string(s, "device-no-force-reason")) {
+    m.device_no_force = of_device;
   }
   if (const char* const track = gst_structure_get_string(s, "track")) m.track = track;
-  if (const char* const reason = gst_structure_get_string(s, "limit-reason")) {
-    m.limit_reason = reason;
+  if (const char* const text = gst_structure_get_string(s, "no-force-text")) {
+    m.no_force_text = text;
   }
   return m;
 }
@@ -58,7 +58,7 @@ ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now 
   GError* error = nullptr;
   GstElement* element = gst_parse_launch((kPaper + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
-  gst_spidar_motion_engine(GST_SPIDAR_MOTION(element)).output().set_manual(now, user);
+  gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).output.set_manual(now, user);
   bus_ = gst_bus_new();
   gst_element_set_bus(element, bus_);
   harness_ = gst_harness_new_with_element(element, "sink", "src");
@@ -135,8 +135,8 @@ const std::vector<gint>& ElementHarness::qualities() {
   return qualities_;
 }
 
-MotionEngine& ElementHarness::engine() {
-  return gst_spidar_motion_engine(GST_SPIDAR_MOTION(harness_->element));
+MotionState& ElementHarness::state() {
+  return gst_spidar_motion_state(GST_SPIDAR_MOTION(harness_->element));
 }
 
 }  // namespace spidar::test

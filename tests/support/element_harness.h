@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/filter/motion_state.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test {
@@ -25,8 +25,8 @@ struct MotionMessage {
   double velocity_x = 0, velocity_y = 0;
   Wrench wrench;
   bool repeated = false;
-  std::string limit, limit_reason;  ///< the latter may be missing
-  std::string device_limit;
+  std::string no_force, no_force_text;  ///< the latter may be missing
+  std::string device_no_force;
   std::string track;
 };
 MotionMessage parse_motion_message(GstMessage* message);
@@ -56,11 +56,9 @@ class ElementHarness {
   GstElement* element() const { return harness_->element; }
   GstHarness* harness() const { return harness_; }
   const GstVideoInfo& info() const { return info_; }
-  MotionEngine& engine();
+  MotionState& state();
   /// Ticks the haptic loop of an element that waits for it, and checks the tick.
-  TickRecord tick(int64_t now_ns) {
-    return watch_.tick(engine().output().session()->loop(), now_ns);
-  }
+  TickRecord tick(int64_t now_ns) { return watch_.tick(state().output.session()->loop(), now_ns); }
 
  private:
   void drain();

@@ -38,7 +38,7 @@ class WindowElement : public WindowTest {
   }
 
   std::shared_ptr<Window> window() {
-    return gst_spidar_motion_display(GST_SPIDAR_MOTION(h->element())).window();
+    return gst_spidar_motion_state(GST_SPIDAR_MOTION(h->element())).display.window();
   }
 
   void push_next() {
@@ -163,16 +163,16 @@ TEST_F(WindowElement, AWindowSystemThatHangsHoldsUpNothing) {
   PlaybackClock clock;
   clock.playing = true;
   clock.monotonic_ns = time_ns;
-  h->engine().output().session()->loop().set_playback_clock(clock);
+  h->state().output.session()->loop().set_playback_clock(clock);
   for (int n = 0; n < 20; ++n) {
     push_next();
     tick(40);
   }
   EXPECT_EQ(h->motions().size(), 20u);
-  EXPECT_GT(h->engine().output().session()->loop().snapshot().last.commanded.force_N.norm(), 0.5)
+  EXPECT_GT(h->state().output.session()->loop().snapshot().last.commanded.force_N.norm(), 0.5)
       << "50 px/s by eq. 15: 0.89 N";
   EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
-  EXPECT_EQ(h->engine().output().session(), nullptr);
+  EXPECT_EQ(h->state().output.session(), nullptr);
   display->thaw();
   EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
   look(*window());  // and all is well again

@@ -121,7 +121,7 @@ TEST(Settings, AreThoseThatCanBeChangedWhilePlaying) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
   const std::shared_ptr<WindowSource> source =
-      gst_spidar_motion_display(GST_SPIDAR_MOTION(element)).source();
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).display.source();
   ElementState state;
   source->read(state);
   EXPECT_EQ(state.no_force, sentence(NoForceReason::kNotPlaying));
@@ -142,7 +142,7 @@ TEST(Settings, HavePresets) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
   const std::shared_ptr<WindowSource> source =
-      gst_spidar_motion_display(GST_SPIDAR_MOTION(element)).source();
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).display.source();
   ElementState state;
   source->read(state);
   ASSERT_NE(std::find(state.presets.begin(), state.presets.end(), "gentle"), state.presets.end());
@@ -163,7 +163,7 @@ TEST(Layout, OfATrackTheForceHasThePlaceOfTheSpeed) {
 TEST(Play, IsAskedOfTheApplication) {
   ElementHarness h("device=none");
   const std::shared_ptr<WindowSource> source =
-      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
   GstBus* const bus = gst_bus_new();
   gst_element_set_bus(h.element(), bus);
   source->play(false);
@@ -179,7 +179,7 @@ TEST(Play, IsAskedOfTheApplication) {
 TEST(Seek, GoesUpstreamAsTimeInTheFilm) {
   ElementHarness h("device=none");
   const std::shared_ptr<WindowSource> source =
-      gst_spidar_motion_display(GST_SPIDAR_MOTION(h.element())).source();
+      gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
   constexpr gint64 kTo_ns = 2'500'000'000;
   source->seek(kTo_ns);
   gint64 start_ns = -1;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/frame/object_metas.h"
 #include "plugin/gobject/category.h"
 
 #undef GST_CAT_DEFAULT
@@ -77,11 +78,19 @@ void MotionChoice::warn_of_mean(MotionKind motion) {
                       ("motion=object, objects and camera know them."));
 }
 
-void MotionChoice::apply(bool with_mouse, const Orientation& turn, AnalyzerSettings& settings) {
-  settings.feel = named_.rules;
-  if (with_mouse) settings.pointer = mouse_.position().value_or(settings.pointer);
-  settings.kept = mouse_.kept(turn);
-  if (settings.feel || settings.kept.click != 0) warn_of_mean(settings.motion);
+void MotionChoice::complete(const GstVideoFrame& frame, const Orientation& turn,
+                            FrameSettings& settings) {
+  AnalyzerSettings& analyzer = settings.analyzer;
+  analyzer.pointer = turn.stored_position(analyzer.pointer);
+  // The sink's mouse is at such a position already.
+  if (settings.pointer == PointerKind::kMouse)
+    analyzer.pointer = mouse_.position().value_or(analyzer.pointer);
+  analyzer.kept = mouse_.kept();
+  analyzer.kept.position = turn.displayed_position(analyzer.kept.position);
+  analyzer.feel = named_.rules;
+  if (analyzer.feel && analyzer.feel->has_boxes())
+    analyzer.boxes = boxes_of(frame, settings.touch.packed(), turn);
+  if (analyzer.feel || analyzer.kept.click != 0) warn_of_mean(analyzer.motion);
 }
 
 std::string MotionChoice::seen_text() const {

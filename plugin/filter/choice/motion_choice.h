@@ -10,13 +10,13 @@
 #include <string>
 #include <utility>
 
-#include <gst/gst.h>
+#include <gst/video/video.h>
 
-#include "core/analysis/analyzer_settings.h"
 #include "core/choice/chosen.h"
 #include "core/orientation.h"
 #include "plugin/filter/choice/feel_file.h"
 #include "plugin/filter/choice/sink_mouse.h"
+#include "plugin/properties/motion_properties.h"
 
 namespace spidar {
 
@@ -44,11 +44,10 @@ class MotionChoice {
   /// duration of the film.
   void read(const std::string& feel, GstPad* sink);
 
-  /// Whether a rule means boxes that come with frames.
-  bool wants_boxes() const { return named_.rules && named_.rules->has_boxes(); }
-
-  /// Completes the settings of the next frame: by the rules and, when `with_mouse`, the mouse.
-  void apply(bool with_mouse, const Orientation& turn, AnalyzerSettings& settings);
+  /// Completes the settings of `frame` by what rules, mouse and boxes choose. `turn` turns the
+  /// frame before it is shown; the pointer of `settings` is a position of it as it is shown, and
+  /// becomes one before.
+  void complete(const GstVideoFrame& frame, const Orientation& turn, FrameSettings& settings);
 
   /// Says the result of processing it, once for each rule and click.
   void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);

@@ -95,9 +95,9 @@ std::optional<Eigen::Vector2d> MousePointer::position() const {
   return position_;
 }
 
-KeptObject MousePointer::kept(const Orientation& turn) const {
+KeptObject MousePointer::kept() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {kept_.click, turn.displayed_position(kept_.position)};
+  return kept_;
 }
 
 void MousePointer::let_go(uint32_t click) {

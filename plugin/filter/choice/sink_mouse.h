@@ -10,7 +10,6 @@
 #include <gst/gst.h>
 
 #include "core/choice/chosen.h"
-#include "core/orientation.h"
 
 namespace spidar {
 
@@ -37,8 +36,8 @@ class MousePointer {
   /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
   /// seen.
   std::optional<Eigen::Vector2d> position() const;
-  /// What a click keeps until the next one.
-  KeptObject kept(const Orientation& turn) const;
+  /// What a click keeps until the next one, at such a position.
+  KeptObject kept() const;
 
   /// Keeps what is at this position, or nothing, without a mouse in the window of a sink.
   void keep(const std::optional<Eigen::Vector2d>& position);

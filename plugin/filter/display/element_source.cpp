@@ -79,8 +79,9 @@ double get_value(GObject* object, const Setting& setting) {
 
 class ElementSource final : public WindowSource {
  public:
-  ElementSource(GstElement* element, MotionEngine& engine, MotionChoice& choice)
-      : engine_(engine), choice_(choice) {
+  ElementSource(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
+                MotionChoice& choice)
+      : output_(output), no_force_(no_force), choice_(choice) {
     g_weak_ref_init(&element_, element);
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
@@ -102,12 +103,12 @@ class ElementSource final : public WindowSource {
     }
     state.rules = choice_.rules();
     // In a pause there was no frame in the last second, whatever the film has.
-    const NoForceReason reason = engine_.no_force_reason();
+    const NoForceReason reason = no_force_.first(output_.snapshot());
     state.has_ended = reason == NoForceReason::kEnded;
     state.no_force =
         sentence(state.is_playing || state.has_ended ? reason : NoForceReason::kNotPlaying);
     DeviceView device;
-    if (engine_.output().look_at_device(device)) state.device = std::move(device);
+    if (output_.look_at_device(device)) state.device = std::move(device);
   }
 
   void set(const std::string& name, double wanted) override {
@@ -141,7 +142,7 @@ class ElementSource final : public WindowSource {
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
     const Ref<GstElement> held = hold(element_);
     if (!held) return;
-    engine_.output().lead_hand(to_m);
+    output_.lead_hand(to_m);
   }
 
   void choose(const std::optional<Eigen::Vector2d>& position) override {
@@ -224,7 +225,8 @@ class ElementSource final : public WindowSource {
 
   GWeakRef element_;
   // Only while the element is held.
-  MotionEngine& engine_;
+  HapticOutput& output_;
+  const NoForceWatch& no_force_;
   MotionChoice& choice_;
   std::vector<Setting> settings_;  ///< without their values
   std::vector<std::string> presets_;
@@ -232,9 +234,10 @@ class ElementSource final : public WindowSource {
 
 }  // namespace
 
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, HapticOutput& output,
+                                                  const NoForceWatch& no_force,
                                                   MotionChoice& choice) {
-  return std::make_shared<ElementSource>(element, engine, choice);
+  return std::make_shared<ElementSource>(element, output, no_force, choice);
 }
 
 }  // namespace spidar

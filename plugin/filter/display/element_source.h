@@ -8,14 +8,16 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/choice/motion_choice.h"
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/frame/no_force_watch.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/window/window.h"
 
 namespace spidar {
 
-/// Keeps no reference: the element may go while the window is open. `engine` and `choice`
-/// are those of `element`, and live as long.
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, MotionEngine& engine,
+/// Keeps no reference: the element may go while the window is open. The others are those of
+/// `element`, and live as long.
+std::shared_ptr<WindowSource> make_element_source(GstElement* element, HapticOutput& output,
+                                                  const NoForceWatch& no_force,
                                                   MotionChoice& choice);
 
 }  // namespace spidar

@@ -10,14 +10,14 @@
 
 #include "core/force/motion_rendering.h"
 #include "plugin/filter/display/element_source.h"
-#include "plugin/filter/reports/message_and_meta.h"
+#include "plugin/filter/reports/motion_meta.h"
 #include "plugin/frame/object_metas.h"
 #include "plugin/overlay/video_overlay.h"
 
 namespace spidar {
 
-void MotionDisplay::show(FrameReport& report, const DisplayProperties& properties,
-                         const AxisGains& gains, GstVideoFrame& frame) {
+void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame) {
+  const DisplayProperties& properties = settings.display;
   const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
   hand_.see(report, width, height);
   const std::shared_ptr<Window> shown_in = window();
@@ -33,7 +33,8 @@ void MotionDisplay::show(FrameReport& report, const DisplayProperties& propertie
     follow_film(report);
     report.film = film_;
     report.speed_px_s =
-        reference_speeds_px_s(report.frame.motion, gains, report.visible.height).norm();
+        reference_speeds_px_s(report.frame.motion, settings.analyzer.axes, report.visible.height)
+            .norm();
   }
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (shown_in && shown_in->wants_frame()) shown_in->give(frame, report);
@@ -81,7 +82,7 @@ std::shared_ptr<Window> MotionDisplay::window() const {
 }
 
 std::shared_ptr<WindowSource> MotionDisplay::source() const {
-  return make_element_source(element_, engine_, choice_);
+  return make_element_source(element_, output_, no_force_, choice_);
 }
 
 void MotionDisplay::open_window() {

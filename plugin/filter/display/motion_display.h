@@ -12,8 +12,9 @@
 
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
-#include "plugin/filter/engine/motion_engine.h"
+#include "plugin/frame/no_force_watch.h"
 #include "plugin/frame/track_owners.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/overlay/force_curve.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
@@ -23,16 +24,16 @@ namespace spidar {
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
-  /// `engine` and `choice` are those of `element` and live as long.
-  MotionDisplay(GstElement* element, MotionEngine& engine, MotionChoice& choice)
-      : element_(element), engine_(engine), choice_(choice), hand_(engine.output()) {}
+  /// The others are those of `element` and live as long.
+  MotionDisplay(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
+                MotionChoice& choice)
+      : element_(element), output_(output), no_force_(no_force), choice_(choice), hand_(output) {}
 
   // --- streaming thread
 
-  /// `report` as process() just gave it of `frame`, which is mapped for writing when the overlay is
+  /// `report` as it was just found of `frame`, which is mapped for writing when the overlay is
   /// on, and whose buffer is writable when metas are attached. Fills in what is only shown.
-  void show(FrameReport& report, const DisplayProperties& properties, const AxisGains& gains,
-            GstVideoFrame& frame);
+  void show(FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
 
   /// Instead, of a frame that nobody looked at.
   void skip() { owners_.reset(); }
@@ -58,7 +59,8 @@ class MotionDisplay {
   void follow_film(const FrameReport& report);
 
   GstElement* const element_;
-  MotionEngine& engine_;
+  HapticOutput& output_;
+  const NoForceWatch& no_force_;
   MotionChoice& choice_;
   SinkHand hand_;
   // Streaming thread.

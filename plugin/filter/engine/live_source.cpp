@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/force/wrench_timeline.h"
+#include "plugin/filter/engine/frame_touch.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {
@@ -61,28 +62,28 @@ void LiveSource::end_gap(int64_t running_ns) {
 void LiveSource::end_of_stream() {
   if (!pacer_.has_frame()) return;
   run_out(static_cast<GstClockTime>(pacer_.next_ns()));
-  touch_.end(schedule_.at_sink_ns(pacer_.next_ns()));
+  reliefs_.end(schedule_.at_sink_ns(pacer_.next_ns()));
 }
 
-void LiveSource::pass_gap(GstBuffer*, const GstSegment&, int64_t running_ns) {
+void LiveSource::pass_gap(int64_t running_ns, const Orientation& turn) {
   const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
   if (frame) {
     schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   turn_.to_displayed(scaled(frame->wrench, motion_fraction_)), frame->goes_on()});
+                   turn.to_displayed(scaled(frame->wrench, motion_fraction_)), frame->goes_on()});
   } else {
     run_out(static_cast<GstClockTime>(running_ns));
   }
-  limits_.add(schedule_.at_sink_ns(running_ns), frame ? frame->wrench : Wrench(),
-              NoForceReason::kRepeatedFrames);
+  no_force_.add(schedule_.at_sink_ns(running_ns), frame ? frame->wrench : Wrench(),
+                NoForceReason::kRepeatedFrames);
   pacer_.pass(time);
 }
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
-bool LiveSource::follows(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
-  end_gap(running_ns);
-  const FramePacer::Order order = pacer_.order(running_ns, frame.video, frame.segment);
+bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
+  end_gap(frame.running_ns);
+  const FramePacer::Order order = pacer_.order(frame.running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
     report.problem = FrameProblem::kSameTimestamp;
     return false;
@@ -95,7 +96,7 @@ bool LiveSource::follows(const PassingFrame& frame, int64_t running_ns, FrameRep
 /// Finds the picture of a frame and analyses it. False when it has none.
 bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                          FrameReport& report) {
-  const std::optional<DepthLayout> packed = frame.touch.packed();
+  const std::optional<DepthLayout> packed = frame.settings.touch.packed();
   const ImageView picture = packed ? picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
     restart();
@@ -103,12 +104,11 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
     return false;
   }
   const int64_t begin_ns = monotonic_now_ns();
-  analyzer_.configure(frame.settings);
+  analyzer_.configure(frame.settings.analyzer);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
-                                   {stream_ns_of(frame.video.buffer, frame.segment), turn_});
-  report.limit = limit_of(report.frame, frame.settings.motion);
+                                   {stream_ns_of(frame.video.buffer, frame.segment), report.turn});
+  report.no_force = reason_in_frame(report.frame, report.motion);
   to_stored_pixels(report.frame, picture.width);
-  set_shown(frame, turn_, report);
   // The picture is the left or the upper half.
   report.visible.width = picture.width;
   report.visible.height = picture.height;
@@ -116,34 +116,35 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   return true;
 }
 
-bool LiveSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
-  if (!follows(frame, running_ns, report)) return false;
+void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
+  if (!follows(frame, report)) return;
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
     restart();
     report.problem = has_size ? FrameProblem::kTooSmall : FrameProblem::kWrongSize;
-    return false;
+    return;
   }
-  const int64_t shown_ns = schedule_.at_sink_ns(running_ns);
-  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  const int64_t shown_ns = schedule_.at_sink_ns(frame.running_ns);
+  const FrameTime time = pacer_.at(frame.running_ns, schedule_.rate_multiplier());
   const ImageView luma = luma_.view(frame.video);
   report.analyzed = analyze(frame, luma, time.paced_ns, report);
-  if (!report.analyzed) return false;
+  if (!report.analyzed) return;
+  report.click = frame.settings.analyzer.kept.click;
 
   const bool moved = report.frame.interval_ns > 0 || report.frame.goes_on();
   pacer_.take(time, moved);
-  limits_.add(shown_ns, report.frame.wrench, report.limit);
-  limits_.set_touching(frame.touch.kind != TouchKind::kOff);
+  const TouchProperties& touch = frame.settings.touch;
+  no_force_.add(shown_ns, report.frame.wrench, report.no_force);
+  no_force_.set_touching(touch.kind != TouchKind::kOff);
   const bool goes_on = report.frame.goes_on();
   // This fraction of the film's motion is felt, reported and shown in addition to touch.
-  motion_fraction_ = frame.touch.kind == TouchKind::kOff ? 1 : frame.touch.motion_fraction;
-  report.frame.wrench = turn_.to_displayed(scaled(report.frame.wrench, motion_fraction_));
+  motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
+  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {
-    touch_.add(frame.video, luma, frame.touch, shown_ns, report);
-    schedule_.add({running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
+    touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
+    schedule_.add({frame.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.frame.wrench, goes_on});
   }
-  return true;
 }
 
 }  // namespace spidar

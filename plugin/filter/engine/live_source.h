@@ -8,29 +8,34 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/analysis/square_pixel_resampler.h"
-#include "plugin/filter/engine/frame_touch.h"
-#include "plugin/filter/engine/wrench_source.h"
-#include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/filter/engine/passing_frame.h"
+#include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_luma.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/no_force_watch.h"
+#include "plugin/output/haptic_output.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/wrench_backlog.h"
 
 namespace spidar {
 
-class LiveSource : public WrenchSource {
+/// Streaming thread.
+class LiveSource {
  public:
-  /// All are the engine's, and outlive this. `schedule` takes the wrenches; `turn` is how frames
-  /// are turned before they are shown.
-  LiveSource(WrenchBacklog& schedule, NoForceWatch& limits, FrameTouch& touch,
-             const Orientation& turn)
-      : schedule_(schedule), limits_(limits), touch_(touch), turn_(turn) {}
+  /// All outlive this. `schedule` takes the wrenches.
+  LiveSource(WrenchBacklog& schedule, NoForceWatch& no_force, ReliefStream& reliefs,
+             const HapticOutput& output)
+      : schedule_(schedule), no_force_(no_force), reliefs_(reliefs), output_(output) {}
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
   /// The next frame has nothing to do with the one before.
   void restart() { analyzer_.restart(); }
-  bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
-  void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
+  /// Gives what is felt while the frame is shown, and fills in the report, but for the times of its
+  /// frame, or why it cannot be analysed.
+  void take(const PassingFrame& frame, FrameReport& report);
+  /// In place of a frame that has no picture, and that is turned by `turn` before it is shown.
+  void pass_gap(int64_t running_ns, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.
@@ -42,16 +47,16 @@ class LiveSource : public WrenchSource {
   void end_of_stream();
 
  private:
-  bool follows(const PassingFrame& frame, int64_t running_ns, FrameReport& report);
+  bool follows(const PassingFrame& frame, FrameReport& report);
   bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                FrameReport& report);
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
 
   WrenchBacklog& schedule_;
-  NoForceWatch& limits_;
-  FrameTouch& touch_;
-  const Orientation& turn_;
+  NoForceWatch& no_force_;
+  ReliefStream& reliefs_;
+  const HapticOutput& output_;
   FrameLuma luma_;
   SquarePixelResampler square_;
   MotionAnalyzer analyzer_;

@@ -220,7 +220,7 @@ std::string TrackSource::path() const {
 
 void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const GstSegment& segment,
                        int64_t running_ns, FrameReport& report) {
-  limits_.set_touching(false);
+  no_force_.set_touching(false);
   const int64_t shown_ns = times_.at_sink_ns(running_ns);
   const auto position =
       position_of(buffer, default_duration, segment, shown_ns, times_.rate_multiplier());
@@ -229,19 +229,16 @@ void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const G
   replay_.play(*position, [this](const TrackBlock& block) { samples_.add(block); });
   report.frame.wrench = replay_.largest(*position);
   report.frame.interval_ns = position->length_ns;  // so long it is there
-  report.limit = limit_of_track(report.frame.wrench, output_.snapshot());
-  const bool is_weak = report.limit == NoForceReason::kTooWeak;
-  limits_.add(shown_ns, is_weak ? Wrench() : report.frame.wrench, report.limit);
+  report.no_force = reason_in_track(report.frame.wrench, output_.snapshot());
+  const bool is_weak = report.no_force == NoForceReason::kTooWeak;
+  no_force_.add(shown_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
 }
 
-bool TrackSource::take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) {
+void TrackSource::take(const PassingFrame& frame, FrameReport& report) {
   report.track = path_;
-  set_shown(frame, turn_, report);
-  report.click = 0;  // no object is known
-  play(frame.video.buffer, nominal_duration(frame.video.info), frame.segment, running_ns, report);
-  if (frame.touch.kind != TouchKind::kOff) report.touch_problem = TouchProblem::kTrack;
-  touch_.end(times_.at_sink_ns(running_ns));
-  return true;
+  play(frame.video.buffer, nominal_duration(frame.video.info), frame.segment, frame.running_ns,
+       report);
+  reliefs_.end(times_.at_sink_ns(frame.running_ns));
 }
 
 void TrackSource::pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) {

@@ -13,9 +13,10 @@
 #include <string>
 
 #include "core/wrench.h"
-#include "plugin/filter/engine/frame_touch.h"
-#include "plugin/filter/engine/wrench_source.h"
-#include "plugin/filter/reports/no_force_watch.h"
+#include "plugin/filter/engine/passing_frame.h"
+#include "plugin/filter/touch/relief_stream.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/no_force_watch.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/timing/loop_queue.h"
 #include "plugin/timing/wrench_backlog.h"
@@ -75,22 +76,18 @@ class TrackReplay {
   int64_t given_ns_ = 0;     // up to here; backwards, from here on
 };
 
-class TrackSource : public WrenchSource {
+class TrackSource {
  public:
-  /// All are the engine's, and outlive this. `samples` takes those of the track; `times` knows when
+  /// All outlive this. `samples` takes those of the track; `times` knows when
   /// the sink shows a frame.
   TrackSource(const HapticOutput& output, BlockQueue& samples, const WrenchBacklog& times,
-              NoForceWatch& limits, FrameTouch& touch, const Orientation& turn)
-      : output_(output),
-        samples_(samples),
-        times_(times),
-        limits_(limits),
-        touch_(touch),
-        turn_(turn) {}
+              NoForceWatch& no_force, ReliefStream& reliefs)
+      : output_(output), samples_(samples), times_(times), no_force_(no_force), reliefs_(reliefs) {}
 
-  /// What was given of the track before is felt nevertheless: its frames are on their way to the
-  /// screen. `path` is its file.
-  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path);
+  /// Frames are not analysed: the samples of this track, of the file `path`, are felt. Null: they
+  /// are again. What was given of the track before is felt nevertheless: its frames are on their
+  /// way to the screen.
+  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.
   std::string path() const;
@@ -100,8 +97,8 @@ class TrackSource : public WrenchSource {
   /// The next frame has nothing to do with the one before.
   void restart() { replay_.restart(); }
   /// The report's wrench is the largest of the track while the frame is shown.
-  bool take(const PassingFrame& frame, int64_t running_ns, FrameReport& report) override;
-  void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) override;
+  void take(const PassingFrame& frame, FrameReport& report);
+  void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns);
 
  private:
   void play(GstBuffer* buffer, GstClockTime default_duration, const GstSegment& segment,
@@ -110,9 +107,8 @@ class TrackSource : public WrenchSource {
   const HapticOutput& output_;
   BlockQueue& samples_;
   const WrenchBacklog& times_;
-  NoForceWatch& limits_;
-  FrameTouch& touch_;
-  const Orientation& turn_;
+  NoForceWatch& no_force_;
+  ReliefStream& reliefs_;
   TrackReplay replay_;
   mutable std::mutex path_mutex_;  // of the pointer
   std::shared_ptr<const std::string> path_;

@@ -44,9 +44,7 @@ class MotionStats {
     return frames_;
   }
 
-  /// Adds frames, restarts (uint64), features, tracked (uint, of the last frame), model (string: of
-  /// the background in the last frame, 'none' when the motion that is felt needs none), objects
-  /// (uint, in the last frame), analysis-median, analysis-p95, analysis-max (uint64, ns).
+  /// Adds the fields that docs/fields.toml describes, of what is felt or of the last frame.
   void describe(GstStructure* structure) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     gst_structure_set(

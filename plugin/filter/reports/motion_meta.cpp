@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/reports/message_and_meta.h"
+#include "plugin/filter/reports/motion_meta.h"
 
 #include <utility>
 
@@ -28,40 +28,19 @@ struct SerialisedTrack {
 };
 static_assert(sizeof(SerialisedTrack) == 48);
 
-void set_tracks(GstStructure* structure, const std::vector<GstSpidarMotionTrack>& tracks) {
-  std::vector<SerialisedTrack> serialised;
-  serialised.reserve(tracks.size());
-  for (const GstSpidarMotionTrack& t : tracks) {
-    serialised.push_back({t.id, 0, t.from_x, t.from_y, t.to_x, t.to_y, t.object, 0});
-  }
+void set_tracks(GstStructure* structure, const std::vector<SerialisedTrack>& tracks) {
   // In one piece: a GVariant of each number takes longer than finding the motion does.
   GVariant* array = g_variant_new_fixed_array(
-      g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_TRACKS_TYPE)), serialised.data(),
-      serialised.size(), sizeof(SerialisedTrack));
+      g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_TRACKS_TYPE)), tracks.data(),
+      tracks.size(), sizeof(SerialisedTrack));
   gst_structure_set(structure, "tracks", G_TYPE_VARIANT, array, nullptr);
 }
 
-/// What a frame shows and how it is felt.
-GstSpidarFrameMotion motion_of(const ImageMotion& felt, const Wrench& wrench) {
-  GstSpidarFrameMotion m{};
-  m.velocity_x = felt.velocity_px_s.x();
-  m.velocity_y = felt.velocity_px_s.y();
-  m.growth = felt.growth_1_s;
-  m.roll = felt.roll_rad_s;
-  m.force_x = wrench.force_N.x();
-  m.force_y = wrench.force_N.y();
-  m.force_z = wrench.force_N.z();
-  m.torque_x = wrench.torque_Nm.x();
-  m.torque_y = wrench.torque_Nm.y();
-  m.torque_z = wrench.torque_Nm.z();
-  return m;
-}
-
-void set_values(GstStructure* structure, const GstSpidarFrameMotion& m) {
+void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, gboolean repeated) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
                     m.interval, "growth", G_TYPE_DOUBLE, m.growth, "roll", G_TYPE_DOUBLE, m.roll,
-                    nullptr);
+                    "repeated", G_TYPE_BOOLEAN, repeated, nullptr);
   set_motion(structure, {m.velocity_x, m.velocity_y},
              {{m.force_x, m.force_y, m.force_z}, {m.torque_x, m.torque_y, m.torque_z}});
 }
@@ -119,18 +98,16 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const Gs
   map_motion(map, motion);
   motion.width = static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out));
   motion.height = static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out));
-  std::vector<GstSpidarMotionTrack> moved;
+  std::vector<SerialisedTrack> moved;
   for (guint i = 0; i < tracks->len; ++i) {
-    GstSpidarMotionTrack track = g_array_index(tracks, GstSpidarMotionTrack, i);
+    const GstSpidarMotionTrack& track = g_array_index(tracks, GstSpidarMotionTrack, i);
     const Eigen::Vector2d before = mapped(map, {track.from_x, track.from_y});
     const Eigen::Vector2d now = mapped(map, {track.to_x, track.to_y});
-    moved.push_back({track.id, before.x(), before.y(), now.x(), now.y(), track.object});
+    moved.push_back({track.id, 0, before.x(), before.y(), now.x(), now.y(), track.object, 0});
   }
   g_array_unref(tracks);
   GstStructure* structure = add_meta(to);
-  set_values(structure, motion);
-  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, gst_buffer_repeats_spidar_motion(from),
-                    nullptr);
+  set_values(structure, motion, gst_buffer_repeats_spidar_motion(from));
   set_tracks(structure, moved);
   return true;
 }
@@ -198,21 +175,33 @@ void register_motion_meta() {
 void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height) {
   GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
-  GstSpidarFrameMotion motion = motion_of(report.frame.motion, report.frame.wrench);
-  motion.width = static_cast<guint>(width);
-  motion.height = static_cast<guint>(height);
-  motion.running_time = static_cast<guint64>(report.frame.running_ns);
-  motion.interval = static_cast<guint64>(report.frame.interval_ns);
-  std::vector<GstSpidarMotionTrack> tracks;
+  const Frame& frame = report.frame;
+  const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
+  const Eigen::Vector3d &force = frame.wrench.force_N, &torque = frame.wrench.torque_Nm;
+  const GstSpidarFrameMotion motion{
+      static_cast<guint>(width),
+      static_cast<guint>(height),
+      static_cast<guint64>(frame.running_ns),
+      static_cast<guint64>(frame.interval_ns),
+      velocity.x(),
+      velocity.y(),
+      frame.motion.growth_1_s,
+      frame.motion.roll_rad_s,
+      force.x(),
+      force.y(),
+      force.z(),
+      torque.x(),
+      torque.y(),
+      torque.z(),
+  };
+  GstStructure* structure = add_meta(buffer);
+  set_values(structure, motion, frame.goes_on() ? TRUE : FALSE);
+  std::vector<SerialisedTrack> tracks;
   tracks.reserve(report.tracks.size());
   for (const OwnedTrack& track : report.tracks) {
-    tracks.push_back(
-        {track.id, track.from.x_px, track.from.y_px, track.to.x_px, track.to.y_px, track.object});
+    tracks.push_back({track.id, 0, track.from.x_px, track.from.y_px, track.to.x_px, track.to.y_px,
+                      track.object, 0});
   }
-  GstStructure* structure = add_meta(buffer);
-  set_values(structure, motion);
-  gst_structure_set(structure, "repeated", G_TYPE_BOOLEAN, report.frame.goes_on() ? TRUE : FALSE,
-                    nullptr);
   set_tracks(structure, tracks);
 }
 

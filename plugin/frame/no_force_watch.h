@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why nothing is felt: reasons of the film, and those of the playback and the device.
+/// Finds why nothing is felt: reasons of the film, and those of the playback and the device.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 
-#include <gst/gst.h>
-
+#include "core/analysis/frame.h"
+#include "core/motion/image_motion.h"
 #include "core/wrench.h"
 #include "plugin/frame/no_force_reason.h"
 #include "spidar/loop/tick_record.h"
 
 namespace spidar {
 
-/// Keeps the latest frames and finds what limited the force in the last second. Not thread-safe.
+/// The reason in the video, for one frame that was analysed for `motion`.
+NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
+
+/// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
+/// device is open.
+NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
+
+/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
+/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
+/// back with the force.
+NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted);
+
+/// Keeps the latest frames and finds why there was no force in the last second. Not thread-safe.
 /// Allocates nothing.
 class NoForceHistory {
  public:
@@ -28,12 +41,12 @@ class NoForceHistory {
 
   /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames that were added
   /// before and are not earlier are dropped.
-  void add(int64_t shown_ns, double force_N, NoForceReason limit) noexcept;
+  void add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept;
 
   /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is
   /// felt; kRepeatedFrames when all of them show the same picture; else the reason that most
   /// pictures have.
-  NoForceReason limit(int64_t now_ns) const noexcept;
+  NoForceReason reason(int64_t now_ns) const noexcept;
 
   void forget() noexcept { count_ = 0; }
 
@@ -41,7 +54,7 @@ class NoForceHistory {
   struct Frame {
     int64_t shown_ns = 0;
     double force_N = 0;
-    NoForceReason limit = NoForceReason::kNone;
+    NoForceReason reason = NoForceReason::kNone;
   };
   const Frame& latest(size_t i) const noexcept {
     return frames_[(next_ + 2 * kFrames - 1 - i) % kFrames];
@@ -54,23 +67,23 @@ class NoForceHistory {
 
 /// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
 /// second; kNone before. `can_touch`: see GripAbilities.
-NoForceReason limit_of_contact(const LoopSnapshot& loop, bool can_touch);
+NoForceReason reason_in_contact(const LoopSnapshot& loop, bool can_touch);
 
 /// Thread-safe. `loop` is nothing while no device is open.
 class NoForceWatch {
  public:
   /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
   /// for one that is too weak to feel.
-  void add(int64_t shown_ns, const Wrench& wrench, NoForceReason limit);
+  void add(int64_t shown_ns, const Wrench& wrench, NoForceReason reason);
   /// No frames come after the one that was added last, until another one is.
   void end();
   /// Running time begins anew.
   void forget();
-  void set_muted(bool muted);
+  void set_muted(bool muted) { muted_ = muted; }
   /// The picture is touched: from now on what is felt is the contact, and not the film.
-  void set_touching(bool touching);
+  void set_touching(bool touching) { touching_ = touching; }
   /// Of the device that is open.
-  void set_can_touch(bool can_touch);
+  void set_can_touch(bool can_touch) { can_touch_ = can_touch; }
 
   /// The film's reason, of the last second up to the picture on the screen; without a device, up to
   /// the frame added last.
@@ -90,9 +103,9 @@ class NoForceWatch {
   NoForceHistory frames_;
   int64_t newest_ns_ = 0;
   bool is_last_ = false;  ///< the newest
-  bool muted_ = false;
-  bool touching_ = false;
-  bool can_touch_ = true;
+  std::atomic<bool> muted_{false};
+  std::atomic<bool> touching_{false};
+  std::atomic<bool> can_touch_{true};
 };
 
 }  // namespace spidar

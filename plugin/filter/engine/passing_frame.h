@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A frame that passes the element.
+#pragma once
+
+#include <cstdint>
+
+#include <gst/video/video.h>
+
+#include "plugin/properties/motion_properties.h"
+
+namespace spidar {
+
+struct PassingFrame {
+  const GstVideoFrame& video;
+  const GstSegment& segment;
+  const FrameSettings& settings;
+  int64_t running_ns;  ///< at which it is shown, at the element
+};
+
+}  // namespace spidar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a spidarmotion consists of.
+#pragma once
+
+#include <mutex>
+#include <string>
+
+#include <gst/video/video.h>
+
+#include "plugin/filter/bus_warnings.h"
+#include "plugin/filter/choice/motion_choice.h"
+#include "plugin/filter/display/motion_display.h"
+#include "plugin/filter/engine/live_source.h"
+#include "plugin/filter/engine/stream_orientation.h"
+#include "plugin/filter/engine/track_source.h"
+#include "plugin/filter/reports/frame_trace.h"
+#include "plugin/filter/reports/motion_stats.h"
+#include "plugin/filter/touch/relief_stream.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/no_force_watch.h"
+#include "plugin/output/haptic_output.h"
+#include "plugin/properties/motion_properties.h"
+#include "plugin/timing/step_watch.h"
+#include "plugin/timing/wrench_backlog.h"
+#include "plugin/tracks/track_loader.h"
+
+namespace spidar {
+
+/// The settings of an element, and the parts that its frames and events go through. The functions
+/// are those that several parts have to do with.
+struct MotionState {
+  explicit MotionState(GstElement* element);
+
+  // --- state changes
+
+  /// Opens the device. Throws ProfileError, DeviceError, std::runtime_error. Empty, or why the
+  /// haptic trace cannot be written: the device works without it.
+  std::string open(const MotionProperties& properties);
+  /// Motors to rest, device closed.
+  void close();
+
+  // --- any thread
+
+  /// The force ramps to rest at once and stays there until frames come after set_muted(false).
+  void set_muted(bool muted);
+  /// What was scheduled is forgotten at once, and so is what can be touched.
+  void flush();
+  /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
+  void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
+  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
+  void skip(GstClockTime duration);
+  /// Running time begins anew: after a flush, and before a stream. Streaming thread.
+  void restart_timing();
+  GstStructure* describe() const;
+
+  // --- streaming thread
+
+  /// A frame with the settings `frame_settings`. What is only shown of it is not filled in yet.
+  void process(const GstVideoFrame& frame, const GstSegment& segment);
+  /// In place of a frame that has no picture.
+  void pass_gap(GstBuffer* buffer, const GstSegment& segment);
+
+  std::mutex setting;                  ///< what is set reaches the parts in the order it was set
+  MotionProperties settings;           ///< object lock
+  double largest_set_N = G_MAXDOUBLE;  ///< object lock: max-force by others than presets
+  bool opened = false;                 ///< object lock: READY or above
+  gint unread_messages = 0;            ///< atomic: that an application has not read
+  gint window_changes = 0;             ///< atomic: how many the window has still to follow
+
+  // Any thread. These outlive the output's thread, which forwards what waits.
+  WrenchBacklog schedule;
+  BlockQueue track_samples;
+  NoForceWatch no_force;
+  ReliefStream reliefs;
+  std::mutex skip_mutex;  ///< what is skipped reaches schedule and output in the same order
+  HapticOutput output;
+  MotionStats stats;
+  TrackLoader loader;
+  MotionChoice choice;
+  MotionDisplay display;
+  StepWatch steps;  ///< state changes
+
+  // Streaming thread.
+  FrameSettings frame_settings;  ///< of the frame that passes
+  StreamOrientation orientation;
+  LiveSource live{schedule, no_force, reliefs, output};
+  TrackSource track{output, track_samples, schedule, no_force, reliefs};
+  FrameTrace trace;
+  FrameReport report;  ///< of the newest frame
+  FeltTrack felt;
+  BusWarnings warnings;
+};
+
+}  // namespace spidar

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/frame/no_force_watch.h"
+
+#include <algorithm>
+
+#include "core/force/gain_controller.h"
+#include "core/force/motion_rendering.h"
+#include "core/motion/cadence.h"
+
+namespace spidar {
+namespace {
+
+/// What is slower than this, in px/s of a frame 480 lines high, does not count as moving
+/// (docs/feeling.md).
+constexpr double kMoving_px_s = 1;
+/// With fewer points no motion can be told from the background's: a translation of the background
+/// takes one of them, and an object two.
+constexpr int kFewestPoints = 4;
+/// When a hand swings a slack string, the pose is lost for less than this.
+constexpr int64_t kGripLost_ns = 100'000'000;
+
+/// Whether what was chosen leaves nothing to feel.
+bool is_withheld(const Frame& frame) {
+  const Chosen& choice = frame.choice;
+  if (choice.is_free()) return false;
+  const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt ||
+                      choice.rule->kind == FeelKind::kBox;
+  if (is_one) return frame.felt_object == 0;
+  return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
+}
+
+/// Whether nothing was felt in the whole interval and no frame was due in it.
+bool is_late(const LoopSnapshot& loop) {
+  return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
+         (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);
+}
+
+}  // namespace
+
+NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
+  if (frame.picture == PictureKind::kFirst) return NoForceReason::kNothingToCompare;
+  if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
+  if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
+  if (is_withheld(frame)) return NoForceReason::kNotChosen;
+  if (frame.height > 0 &&
+      reference_speeds_px_s(frame.motion, {}, frame.height).norm() >= kMoving_px_s) {
+    return NoForceReason::kTooWeak;
+  }
+  if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;
+  if (frame.features < kFewestPoints) return NoForceReason::kTooFewPoints;
+  const bool leaves_out_camera =
+      frame.choice.is_free() ? motion == MotionKind::kObject || motion == MotionKind::kObjects
+                             : frame.choice.is_kept || frame.choice.rule->is_about_objects();
+  const bool is_unknown = frame.background && frame.background->coverage == 0 &&
+                          frame.features >= static_cast<int>(kLeastVotes);
+  if (leaves_out_camera && is_unknown) return NoForceReason::kCameraUnknown;
+  const bool camera_moves = frame.background && frame.background->model.kind != ModelKind::kStill;
+  return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
+                                           : NoForceReason::kNothingMoves;
+}
+
+NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop) {
+  if (size_N(wrench) < kFeltForce_N) return NoForceReason::kSilentTrack;
+  // Before its first tick the loop has no limit to tell.
+  const bool is_weak = loop && loop->counters.ticks > 0 && loop->last.max_force_N < kFeltForce_N;
+  return is_weak ? NoForceReason::kTooWeak : NoForceReason::kNone;
+}
+
+NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted) {
+  switch (loop.last.device) {
+    case DeviceState::kLost:
+      return NoForceReason::kDeviceLost;
+    case DeviceState::kOpening:
+    case DeviceState::kClosing:
+    case DeviceState::kClosed:
+      return NoForceReason::kDeviceStarting;
+    case DeviceState::kRunning:
+    case DeviceState::kIdle:
+      break;
+  }
+  if (loop.untrusted_ns > kGripLost_ns) return NoForceReason::kGripUnknown;
+  if (muted) return NoForceReason::kMuted;
+  if (!loop.last.playing) return NoForceReason::kNotPlaying;
+  if (!loop.last.held) return NoForceReason::kGripReleased;
+  return loop.vibration.lowered() ? NoForceReason::kVibration : NoForceReason::kNone;
+}
+
+NoForceReason reason_in_contact(const LoopSnapshot& loop, bool can_touch) {
+  if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
+  if (!can_touch) return NoForceReason::kCannotTouch;
+  const Contact& contact = loop.last.contact;
+  if (!contact.has_surface) return NoForceReason::kNoRelief;
+  return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
+}
+
+void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept {
+  if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
+  frames_[next_] = {shown_ns, force_N, reason};
+  next_ = (next_ + 1) % kFrames;
+  count_ = std::min(count_ + 1, kFrames);
+}
+
+NoForceReason NoForceHistory::reason(int64_t now_ns) const noexcept {
+  std::array<size_t, kNoForceReasons> pictures{};
+  bool repeats = false;
+  for (size_t i = 0; i < count_; ++i) {
+    const Frame& frame = latest(i);
+    if (frame.shown_ns > now_ns) continue;
+    if (frame.shown_ns <= now_ns - kWindow_ns) break;
+    if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;
+    if (frame.reason == NoForceReason::kRepeatedFrames) {
+      repeats = true;
+    } else {
+      ++pictures[static_cast<size_t>(frame.reason)];
+    }
+  }
+  // What had nothing to be compared with says nothing where others do.
+  size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
+  const bool any_incomparable = incomparable > 0;
+  incomparable = 0;
+  const auto most = std::max_element(pictures.begin(), pictures.end());
+  if (*most > 0) return static_cast<NoForceReason>(most - pictures.begin());
+  if (repeats) return NoForceReason::kRepeatedFrames;
+  return any_incomparable ? NoForceReason::kNothingToCompare : NoForceReason::kNoFrames;
+}
+
+void NoForceWatch::add(int64_t shown_ns, const Wrench& wrench, NoForceReason reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.add(shown_ns, size_N(wrench), reason);
+  newest_ns_ = shown_ns;
+  is_last_ = false;
+}
+
+void NoForceWatch::end() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_last_ = true;
+}
+
+void NoForceWatch::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_.forget();
+  newest_ns_ = 0;
+  is_last_ = false;
+}
+
+NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const {
+  return frames_.reason(loop ? loop->last.running_ns : newest_ns_);
+}
+
+/// The last frame is on the screen. Without a device, nothing says when that is.
+bool NoForceWatch::has_ended(const std::optional<LoopSnapshot>& loop) const {
+  return is_last_ && (!loop || loop->last.running_ns >= newest_ns_);
+}
+
+NoForceReason NoForceWatch::device(const std::optional<LoopSnapshot>& loop) const {
+  if (!loop) return NoForceReason::kNoDevice;
+  const NoForceReason reason = reason_in_device(*loop, muted_);
+  const bool is_at_rest = reason == NoForceReason::kNone || reason == NoForceReason::kNotPlaying;
+  if (is_at_rest && has_ended(loop)) return NoForceReason::kEnded;
+  if (reason != NoForceReason::kNone) return reason;
+  if (touching_) return reason_in_contact(*loop, can_touch_);
+  // Of frames that come too late, none may be due in the last second.
+  const int64_t due_ns = std::min(newest_ns_, loop->last.running_ns);
+  const bool was_due = frames_.reason(due_ns) == NoForceReason::kNone;
+  return was_due && is_late(*loop) ? NoForceReason::kLate : NoForceReason::kNone;
+}
+
+NoForceReason NoForceWatch::of_film(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return film(loop);
+}
+
+NoForceReason NoForceWatch::of_device(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return device(loop);
+}
+
+NoForceReason NoForceWatch::first(const std::optional<LoopSnapshot>& loop) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (has_ended(loop)) return NoForceReason::kEnded;
+  const NoForceReason of_device = device(loop);
+  if (touching_) return of_device;
+  const NoForceReason of_film = film(loop);
+  // That no frame is there may be because of the device.
+  const bool has_own = of_film != NoForceReason::kNone && of_film != NoForceReason::kNoFrames;
+  return has_own || of_device == NoForceReason::kNone ? of_film : of_device;
+}
+
+}  // namespace spidar
