@@ -151,7 +151,7 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.playing =
       clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
-  // What a device feels late is told early.
+  // The device renders a command later by the delay that it reports.
   const TimelineResult result =
       schedule_.find(record.playing, record.running_ns + grip_->reading().lag_ns);
   counters_.refused_wrenches += schedule_.take_refused();
