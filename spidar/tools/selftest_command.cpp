@@ -99,7 +99,7 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
 
 /// A device that does not say where it is: whether these are felt, and where, only a person knows.
 int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
-  constexpr double kRamp_s = 0.05, kPulse_s = 0.5;
+  constexpr double kRise_s = 0.05, kPulse_s = 0.5;
   const GripAbilities can = chosen.grip->abilities();
   const double push_N = can.largest_force_N / 2;
   if (!may_move(options.device, options.yes,
@@ -113,8 +113,8 @@ int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
     if (!can.force[axis]) continue;
     std::cout << kSides[axis] << "  a pulse of 0.5 s" << std::endl;
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
-    whole = hold.go(push_N * along, kRamp_s) && hold.stay(kPulse_s) &&
-            hold.go(Eigen::Vector3d::Zero(), kRamp_s) && hold.stay(kPulse_s);
+    whole = hold.go(push_N * along, kRise_s) && hold.stay(kPulse_s) &&
+            hold.go(Eigen::Vector3d::Zero(), kRise_s) && hold.stay(kPulse_s);
   }
   if (!whole) {
     std::cerr << "interrupted; the force is zero\n";

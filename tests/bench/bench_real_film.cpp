@@ -80,7 +80,7 @@ class LargestRegion {
   Vector2d find(const Flow& flow, double px_of_480_lines) {
     WeightedDisplacements evidence;
     for (size_t i = 0; i < flow.known.size(); ++i) {
-      if (flow.known[i]) evidence.points.push_back({0, flow.at_px(i), flow.moved_px[i]});
+      if (flow.known[i]) evidence.points.push_back({flow.at_px(i), flow.moved_px[i]});
     }
     if (evidence.points.size() < 16) return Vector2d::Zero();
     evidence.weights.assign(evidence.points.size(), 1.0);

@@ -275,9 +275,7 @@ bool read_kind(WireReader& wire, size_t kind, Message& message) {
     return false;
   } else {
     if (kind != kKind) return read_kind<Message, kKind + 1>(wire, kind, message);
-    std::variant_alternative_t<kKind, Message> content;
-    wire(content);
-    message = std::move(content);
+    wire(message.template emplace<kKind>());
     return true;
   }
 }
