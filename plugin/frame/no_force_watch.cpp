@@ -145,7 +145,8 @@ void NoForceWatch::forget() {
 }
 
 NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const {
-  return frames_.reason(loop ? loop->last.running_ns : newest_ns_);
+  // Running time is 0 while the loop does not play.
+  return frames_.reason(loop && loop->last.playing ? loop->last.running_ns : newest_ns_);
 }
 
 /// The last frame is on the screen. Without a device, nothing says when that is.

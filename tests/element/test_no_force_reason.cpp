@@ -84,6 +84,16 @@ TEST_F(ForceLimitTest, NotPlaying) {
   expect_of_device("not-playing");
 }
 
+TEST_F(ForceLimitTest, InAPauseTheReasonOfTheFilmStays) {
+  open("device=sim");
+  play();
+  show_moved(kFrames, 2);
+  loop().set_playback_clock(PlaybackClock());
+  tick(1);
+  EXPECT_EQ(stats_field("no-force-reason"), "none");
+  EXPECT_EQ(stats_field("device-no-force-reason"), "not-playing");
+}
+
 TEST_F(ForceLimitTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
   open("device=sim");
   play();
