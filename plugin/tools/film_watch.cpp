@@ -160,8 +160,10 @@ std::string FilmWatch::felt() const {
   const auto percent = [frames](int count) {
     return std::to_string(std::lround(100.0 * count / frames)) + " %";
   };
-  return percent(*felt) + " of its frames are felt" +
-         (*most == 0 ? "" : "; " + percent(*most) + ": " + sentence(reason));
+  std::string text = percent(*felt) + " of its frames are felt";
+  if (*most > 0) text += "; " + percent(*most) + ": " + sentence(reason);
+  if (text.back() == '.') text.pop_back();  // more may follow
+  return text;
 }
 
 }  // namespace spidar

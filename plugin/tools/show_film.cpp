@@ -7,6 +7,7 @@
 #include <string>
 #include <unistd.h>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
@@ -47,12 +48,28 @@ class ProgressLine {
   const bool shown_;
 };
 
+/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
+/// are stored in another order; MP4 takes none such. The later one follows when the other one ends.
+GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
+  GstClockTime& last = *static_cast<GstClockTime*>(user);
+  auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
+  if (GST_CLOCK_TIME_IS_VALID(last) && GST_BUFFER_PTS(frame) <= last) {
+    const GstClockTime duration =
+        GST_BUFFER_DURATION_IS_VALID(frame) ? GST_BUFFER_DURATION(frame) : GST_MSECOND;
+    info->data = frame = gst_buffer_make_writable(frame);
+    GST_BUFFER_PTS(frame) = last + duration;
+  }
+  last = GST_BUFFER_PTS(frame);
+  return GST_PAD_PROBE_OK;
+}
+
 /// Returns what is to be said of it. Throws std::runtime_error, without the name of the film.
 std::string show(const ShowOptions& options, const PartFile& part) {
   const ProgressLine line(options.film);
   FilmProgress progress([&line](int percent) { line.tell(percent); });
   FilmWatch watch;
   KeptSound sound;
+  GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
   const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, options.properties);
@@ -60,6 +77,8 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   watch.begin(file.pipeline(), end == FilmEnd::kAppended);
   sound.begin(file.pipeline());
   progress.watch(motion);
+  const Ref<GstPad> drawn(gst_element_get_static_pad(motion, "src"));
+  gst_pad_add_probe(drawn.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
   std::string error;
   try {
     file.play_until(GST_MESSAGE_EOS);

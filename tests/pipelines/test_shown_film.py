@@ -48,6 +48,15 @@ class ShownFilm(track_case.TrackCase):
     def sound(self, name):
         return array.array("f", self.read("-i", name, "-f", "f32le", "-ac", "1", "-ar", str(SOUND_HZ)))
 
+    def test_frames_of_the_same_time_follow_each_other(self):
+        """Frames that are stored in another order than they are shown have no times in an AVI."""
+        self.run_in_folder(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"testsrc2=size=320x240:rate={RATE_HZ}:duration=2",
+                            "-c:v", "mpeg4", "-bf", "2", "film.avi"])
+        for name in ("shown.mp4", "shown.mkv"):
+            said = self.spidartrack("show", "film.avi", name)
+            self.assertNotIn(".;", said)
+            self.assertEqual(int(self.streams(name)["video"]["nb_read_packets"]), RATE_HZ * SECONDS)
+
     def test_pictures_have_outline_arrow_and_curve(self):
         self.make_sounding("film.avi")
         said = self.spidartrack("show", "film.avi", "shown.mp4")
