@@ -31,8 +31,9 @@ struct DeadZone {
   /// coordinates P(|e| > 3 σ) = 1.1 %.
   static constexpr double kSigmas = 3;
   /// Of an object, as a fraction of MovingObject::error_px_s, which 95 % of its errors are below.
-  /// Most of such an error lasts for many frames, and the hand does not take it for a tremor; what
-  /// changes has a standard error of 1/25 of the bound.
+  /// Most of such an error stays the same for many frames, and the hand does not take it for a
+  /// tremor. The part that changes from frame to frame has a standard error of 1/25 of the bound,
+  /// as measured against points whose noise is known (docs/tracking.md).
   static constexpr double kOfBound = kSigmas / 25;
   /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
   /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed

@@ -27,8 +27,8 @@
 
 namespace spidar {
 
-/// The settings of an element, and the parts that its frames and events go through. The functions
-/// are those that several parts have to do with.
+/// The settings of an element, and the parts that its frames and events go through. Its functions
+/// involve several of these parts.
 struct MotionState {
   explicit MotionState(GstElement* element);
 

@@ -71,7 +71,7 @@ struct SinkState {
   HapticOutput output;
   // Streaming thread.
   spidar::TrackInput input;
-  bool is_marked = false;  // the stream, as a haptic track
+  spidar::StreamMark mark;  // as a haptic track
   spidar::DeviceWarnings warnings;
   spidar::TrackWarnings track_warnings;
   spidar::BlockMessages messages;
@@ -132,7 +132,7 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   GST_OBJECT_LOCK(self);
   const SinkProperties properties = self->state->settings;
   GST_OBJECT_UNLOCK(self);
-  const bool is_felt = self->state->is_marked || properties.accept_unmarked;
+  const bool is_felt = self->state->mark.is_set() || properties.accept_unmarked;
   const guint64 samples_before = self->state->input.samples();
   const GstFlowReturn flow = self->state->input.read(
       buffer, sink->segment, properties.gain, [&](const spidar::TrackBlock& block) {
@@ -172,7 +172,7 @@ static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* eve
 
 static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  spidar::follow_mark(event, self->state->is_marked);
+  self->state->mark.follow(event);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       self->state->queue.forget();

@@ -3,6 +3,7 @@
 #include "plugin/tracks/track_mark.h"
 
 #include <sstream>
+#include <utility>
 
 #include "core/track/track_format.h"
 
@@ -35,21 +36,31 @@ bool is_marked(const GstTagList* tags) {
   return false;
 }
 
-void follow_mark(GstEvent* event, bool& marked) {
-  if (GST_EVENT_TYPE(event) == GST_EVENT_STREAM_START) marked = false;
-  if (GST_EVENT_TYPE(event) != GST_EVENT_TAG) return;
+void StreamMark::follow(GstEvent* event) {
   GstTagList* tags = nullptr;
-  gst_event_parse_tag(event, &tags);
-  marked = marked || is_marked(tags);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_STREAM_START:
+      if (std::exchange(has_caps_, false)) is_set_ = false;
+      break;
+    case GST_EVENT_CAPS:
+      has_caps_ = true;
+      break;
+    case GST_EVENT_TAG:
+      gst_event_parse_tag(event, &tags);
+      is_set_ = is_set_ || is_marked(tags);
+      break;
+    default:
+      break;
+  }
 }
 
 bool is_marked(GstPad* pad) {
-  bool marked = false;
+  StreamMark mark;
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
-    follow_mark(event, marked);
+    mark.follow(event);
     gst_event_unref(event);
   }
-  return marked;
+  return mark.is_set();
 }
 
 bool has_form_of_track(const GstCaps* caps) {

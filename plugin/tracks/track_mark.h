@@ -17,8 +17,18 @@ extern const char* const kTrackMark;
 /// say nothing of one of them.
 bool is_marked(const GstTagList* tags);
 
-/// Whether the stream to which `event` belongs is marked, after it.
-void follow_mark(GstEvent* event, bool& marked);
+/// Whether the stream that comes to a pad is marked, from the events that come to it.
+class StreamMark {
+ public:
+  void follow(GstEvent* event);
+  bool is_set() const { return is_set_; }
+
+ private:
+  // When the first packets of a network stream are lost, its tags may come before its start, after
+  // one that rtpgstdepay has made up. Such a stream has no caps.
+  bool has_caps_ = false;
+  bool is_set_ = false;
+};
 
 /// Whether a tag that has come to `pad` is marked.
 bool is_marked(GstPad* pad);

@@ -15,24 +15,26 @@
 namespace spidar::test::film_tools_test {
 namespace {
 
-TEST(FilmTools, APipelineThatReadsNothingMoreIsNotAwaitedForEver) {
-  init_gstreamer();
+class FilmTools : public testing::Test {
+ protected:
+  FilmTools() {
+    init_gstreamer();
+    std::ofstream(path) << "some bytes";
+  }
+
   const TemporaryFolder folder;
   const std::string path = folder.path / "file";
-  std::ofstream(path) << "some bytes";
   // The second sink waits for ever, and the end of the file is not that of the pipeline.
-  const FilePipeline file("filesrc name=source ! fakesink appsrc ! fakesink", path, nullptr,
-                          200 * GST_MSECOND);
+  const char* const line = "filesrc name=source ! fakesink appsrc ! fakesink";
+};
+
+TEST_F(FilmTools, APipelineThatReadsNothingMoreIsNotAwaitedForEver) {
+  const FilePipeline file(line, path, nullptr, 200 * GST_MSECOND);
   EXPECT_THROW(file.play_until(GST_MESSAGE_EOS), std::runtime_error);
 }
 
-TEST(FilmTools, ManyMessagesAreNoSilence) {
-  init_gstreamer();
-  const TemporaryFolder folder;
-  const std::string path = folder.path / "file";
-  std::ofstream(path) << "some bytes";
-  const FilePipeline file("filesrc name=source ! fakesink appsrc ! fakesink", path, nullptr,
-                          10 * FilePipeline::kLook);
+TEST_F(FilmTools, ManyMessagesAreNoSilence) {
+  const FilePipeline file(line, path, nullptr, 10 * FilePipeline::kLook);
   GstObject* const pipeline = GST_OBJECT(file.pipeline());
   const auto post = [&file](GstMessage* message) {
     gst_element_post_message(file.pipeline(), message);

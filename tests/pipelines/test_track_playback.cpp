@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/force/motion_rendering.h"
+#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_mark.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
 
@@ -109,6 +111,22 @@ TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
       EXPECT_NEAR(size_N(messages[i].wrench), largest_N, 1e-6);
     }
   }
+}
+
+TEST(TrackPlayback, AMarkBeforeTheStartOfItsStreamCounts) {
+  StreamMark mark;
+  const auto follow = [&mark](GstEvent* event) {
+    mark.follow(event);
+    gst_event_unref(event);
+    return mark.is_set();
+  };
+  GstCaps* const caps = gst_caps_new_empty_simple("audio/x-raw");
+  EXPECT_FALSE(follow(gst_event_new_stream_start("made up")));
+  EXPECT_TRUE(follow(gst_event_new_tag(track_tags())));
+  EXPECT_TRUE(follow(gst_event_new_stream_start("track"))) << "as after lost packets";
+  EXPECT_TRUE(follow(gst_event_new_caps(caps)));
+  EXPECT_FALSE(follow(gst_event_new_stream_start("sound")));
+  gst_caps_unref(caps);
 }
 
 TEST(TrackPlayback, TakesEveryRate) {
