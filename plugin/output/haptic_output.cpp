@@ -117,7 +117,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   const auto choose = [&](const AutoDevice& found, const std::string& profile) {
     const std::string trace_problem = open_named(found.device, profile, haptic_trace);
     const std::lock_guard<std::mutex> lock(mutex_);
-    chosen_ = "auto: " + found.why + refused;
+    chosen_ = found.why + " (device=auto)" + refused;
     return trace_problem;
   };
   for (const AutoDevice& found : auto_devices()) {

@@ -73,10 +73,10 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
     if (!take_option(option, settings, has_carrier, has_gain)) {
       const std::string card = "sound:" + settings.card;
       throw DeviceError(
-          name + ": \"" + option + "\" is not known or not the only one; write " + card +
+          name + ": \"" + option + "\" is unknown, out of range or given twice; write " + card +
               ",3=x,4=-y for the direction that channel 3 and 4 play (x, y, z, or 0.6/0.8/0), " +
               card + ",carrier=40 for 40 Hz (20 to 120), or " + card +
-              ",gain=50 for 50 % of the full volume",
+              ",gain=50 for 50 % of the full volume (1 to 100)",
           DeviceTrouble::kSettings);
     }
     comma = end;

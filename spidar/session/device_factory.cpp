@@ -16,8 +16,8 @@ namespace spidar {
 namespace {
 
 /// "sim, sim:BOARD, none, usb, usb:ID, …"
-std::string known_names(bool with_none) {
-  std::string names = std::string("sim, sim:BOARD") + (with_none ? ", none, auto" : "");
+std::string known_names(bool with_elements) {
+  std::string names = std::string("sim, sim:BOARD") + (with_elements ? ", none, auto" : "");
   const char* last = "";
   for (const DeviceKind& kind : devices()) {
     if (kind.device != std::string(last)) names += std::string(", ") + kind.names;
@@ -57,11 +57,12 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   }
   const auto kinds = kinds_called(name.device);
   if (kinds.empty() || !name.has_end || (kinds[0]->needs_rest() && name.rest.empty())) {
-    // Only an element, which analyses pictures, does without a device: this is not asked about it.
-    const bool is_none = text == "none";
-    throw DeviceError((is_none ? "\"none\" is not a device" : "unknown device \"" + text + "\"") +
-                          "; known are: " + known_names(!is_none),
-                      DeviceTrouble::kSettings);
+    // Only an element does without a device, or chooses one: this is not asked about these names.
+    const bool is_elements = text == "none" || text == "auto";
+    throw DeviceError(
+        (is_elements ? "\"" + text + "\" is not a device" : "unknown device \"" + text + "\"") +
+            "; known are: " + known_names(!is_elements),
+        DeviceTrouble::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());

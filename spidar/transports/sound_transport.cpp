@@ -92,7 +92,7 @@ std::vector<FoundCard> find_cards() {
 std::string names_of(const std::vector<FoundCard>& cards) {
   std::string names;
   for (const FoundCard& card : cards) names += (names.empty() ? "sound:" : ", sound:") + card.id;
-  return names.empty() ? "there is no sound card" : "there are " + names;
+  return names.empty() ? "no card was found" : "there are " + names;
 }
 
 }  // namespace

@@ -126,19 +126,21 @@ class Auto(Pipelines):
         return name, told.get_value("reason")
 
     def test_without_anything_it_is_simulated(self):
-        self.assertEqual(self.chosen(), ("sim", "auto: simulated, because nothing that gives a force can be used"))
+        self.assertEqual(self.chosen(),
+                         ("sim", "simulated, because nothing that gives a force can be used (device=auto)"))
 
     def test_what_has_a_direction_comes_before_what_rumbles(self):
         bus.evdev_plug(0, Evdev.KEYBOARD)
         bus.evdev_plug(1, Evdev.PAD)
-        self.assertEqual(self.chosen(), ("ff:/dev/input/event1", "auto: a gamepad that rumbles"))
+        self.assertEqual(self.chosen(), ("ff:/dev/input/event1", "a gamepad that rumbles (device=auto)"))
         # A Falcon comes before it, but this one has no firmware.
         bus.bus_plug(0, Usb.FALCON)
         device, why = self.chosen()
         self.assertEqual(device, "ff:/dev/input/event1")
-        self.assertIn("a gamepad that rumbles; not falcon:1-1: has not got its firmware", why)
+        self.assertIn("a gamepad that rumbles (device=auto); not falcon:1-1: has not got its firmware", why)
         bus.evdev_plug(2, Evdev.WHEEL)
-        self.assertEqual(self.chosen(), ("ff:/dev/input/event2", "auto: a joystick or wheel with directional force"))
+        self.assertEqual(self.chosen(),
+                         ("ff:/dev/input/event2", "a joystick or wheel with directional force (device=auto)"))
 
     def test_a_board_is_driven_only_with_a_profile_that_was_confirmed(self):
         bus.bus_plug_named(0, Usb.SH4, b"A1")
@@ -149,7 +151,7 @@ class Auto(Pipelines):
             self.path("gst-spidar").mkdir()
             self.path("gst-spidar/boards.toml").write_text('"0cec:0205 A1" = "spidar-g6x3-v2-l"\n')
             bus.evdev_plug(0, Evdev.STICK)
-            self.assertEqual(self.chosen(), ("usb:1-1", "auto: a SPIDAR whose profile was confirmed"))
+            self.assertEqual(self.chosen(), ("usb:1-1", "a SPIDAR whose profile was confirmed (device=auto)"))
 
     def test_what_cannot_be_opened_is_passed_over_and_named(self):
         bus.evdev_plug(0, Evdev.STICK)
@@ -159,7 +161,7 @@ class Auto(Pipelines):
         device, why = self.chosen()
         holder.set_state(Gst.State.NULL)
         self.assertEqual(device, "ff:/dev/input/event1")
-        self.assertRegex(why, "^auto: a gamepad that rumbles; not ff:/dev/input/event0: .*another program uses it")
+        self.assertRegex(why, r"^a gamepad that rumbles \(device=auto\); not ff:/dev/input/event0: .*another program uses it")
 
 
 class Boards(Pipelines):

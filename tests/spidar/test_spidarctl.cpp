@@ -80,6 +80,7 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   const std::pair<const char*, const char*> cases[] = {
       {"calibrate nothing", "unknown device \"nothing\""},
       {"info nothing", "unknown device \"nothing\""},
+      {"info auto", "\"auto\" is not a device; known are: sim, sim:BOARD, usb,"},
       {"info none", "\"none\" is not a device; known are: sim, sim:BOARD, usb,"},
       {"info uart", "unknown device \"uart\""},
       {"monitor sim:mouse", "is for devices with strings"},

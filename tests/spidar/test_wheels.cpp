@@ -131,11 +131,14 @@ TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
                           "gain=1e1", "gain=", "flip=", "flip=z"})
     EXPECT_EQ(says(std::string("ff:/dev/input/event0,") + bad),
               std::string("ff:/dev/input/event0,") + bad + ": \"" + bad +
-                  "\" is not known; write ff:/dev/input/event0,axes=1 for a wheel, "
+                  "\" is unknown, out of range or given twice; write ff:/dev/input/event0,axes=1 "
+                  "for a wheel, "
                   "ff:/dev/input/event0,axes=2 for a joystick, ff:/dev/input/event0,gain=50 for "
-                  "50 % of the device's strength, or ff:/dev/input/event0,flip=x if it pushes to "
+                  "50 % of the device's strength (1 to 100), or ff:/dev/input/event0,flip=x if it "
+                  "pushes to "
                   "the wrong side");
-  EXPECT_NE(says("ff:/dev/input/event0,axes=1,axes=1").find("\"axes=1\" is not known"),
+  EXPECT_NE(says("ff:/dev/input/event0,axes=1,axes=1")
+                .find("\"axes=1\" is unknown, out of range or given twice"),
             std::string::npos);
   EXPECT_EQ(says("ff:,axes=1"), "ff:,axes=1: the path is empty; write ff:/dev/input/eventN,axes=1");
   plug_evdev(0, EvdevKind::kOneAxis);
