@@ -50,6 +50,9 @@ constexpr Wording kWordings[] = {
     {"camera-only",
      "Only the camera moves, and motion=object and motion=objects leave that out; with "
      "motion=camera it is felt."},
+    {"objects-only",
+     "The camera rests and only objects move, which motion=camera leaves out; with motion=object "
+     "they are felt."},
     {"nothing-moves", "Nothing moves in the picture."},
     {"too-weak",
      "The force is weaker than a hand feels (0.04 N): the motion is slow, or alpha, depth-gain, "

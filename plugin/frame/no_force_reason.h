@@ -30,6 +30,7 @@ enum class NoForceReason {
   kNotChosen,
   kCameraUnknown,
   kCameraOnly,
+  kObjectsOnly,
   kNothingMoves,
   kTooWeak,
   kSilentTrack,  ///< a haptic track is played in place of the video's motion

@@ -30,6 +30,13 @@ bool is_withheld(const Frame& frame) {
   return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
 }
 
+/// Whether an object in sight moves by more than its error. motion=mean knows no objects.
+bool objects_move(const Frame& frame) {
+  return std::any_of(frame.objects.begin(), frame.objects.end(), [](const MovingObject& object) {
+    return object.tracks > 0 && object.relative_px_s.norm() > object.error_px_s;
+  });
+}
+
 /// Whether nothing was felt in the whole interval and no frame was due in it.
 bool is_late(const LoopSnapshot& loop) {
   return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
@@ -56,8 +63,9 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
                           frame.features >= static_cast<int>(kLeastVotes);
   if (leaves_out_camera && is_unknown) return NoForceReason::kCameraUnknown;
   const bool camera_moves = frame.background && frame.background->model.kind != ModelKind::kStill;
-  return leaves_out_camera && camera_moves ? NoForceReason::kCameraOnly
-                                           : NoForceReason::kNothingMoves;
+  if (leaves_out_camera && camera_moves) return NoForceReason::kCameraOnly;
+  return !leaves_out_camera && objects_move(frame) ? NoForceReason::kObjectsOnly
+                                                   : NoForceReason::kNothingMoves;
 }
 
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop) {

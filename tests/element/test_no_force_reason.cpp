@@ -24,6 +24,13 @@ TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
 TEST_F(ForceLimitTest, EachOfTheFilm) {
   const auto moves = [&] { show_moved(kFrames, 2); };
   const auto stays = [&] { show_moved(kFrames, 0); };
+  const auto object_moves = [&] {
+    show_picture([](int x, int y, int n) {
+      const int left = 20 + 2 * n;
+      const bool inside = x >= left && x < left + 100 && y >= 60 && y < 160;
+      return static_cast<int>(inside ? texture(y, x - left) : texture(x, y));
+    });
+  };
   const auto is_plain = [&] { show_picture([](int, int, int n) { return 100 + n; }); };
   struct Case {
     const char* properties;
@@ -32,7 +39,9 @@ TEST_F(ForceLimitTest, EachOfTheFilm) {
   };
   const Case cases[] = {
       {"motion=object", moves, "camera-only"},
+      {"motion=camera", object_moves, "objects-only"},
       {"motion=object", [&] { show_noise(); }, "nothing-moves"},
+      {"motion=camera", [&] { show_noise(); }, "nothing-moves"},
       {"motion=object", [&] { show_noise(400); }, "few-pictures"},
       {"motion=object", stays, "repeated-frames"},
       {"motion=mean", stays, "repeated-frames"},
