@@ -2,11 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/properties/typed_property.h"
 
-#include <algorithm>
 #include <locale>
-#include <numeric>
 #include <sstream>
 #include <vector>
+
+#include "spidar/spelling.h"
 
 namespace spidar {
 namespace {
@@ -53,36 +53,16 @@ std::string unit(GParamSpec* property) {
   return blurb ? std::string(". ") + blurb : std::string();
 }
 
-/// How many letters must be added, left out or replaced (V. I. Levenshtein, 1966).
-size_t edits(const std::string& from, const std::string& to) {
-  std::vector<size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < from.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 0; j < to.size(); ++j) {
-      const size_t replaced = diagonal + (from[i] != to[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// "; did you mean max-force?" for a word that is nearly a property that can be set.
-std::string meant(GObject* element, const std::string& name) {
+/// Those that can be set.
+std::vector<std::string> names_of_properties(GObject* element) {
   guint count = 0;
   GParamSpec** const all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
-  std::string nearest;
-  // A quarter of the letters may be wrong.
-  size_t fewest = std::max<size_t>(1, name.size() / 4) + 1;
+  std::vector<std::string> names;
   for (guint i = 0; i < count; ++i) {
-    if (!(all[i]->flags & G_PARAM_WRITABLE)) continue;
-    const size_t needed = edits(name, all[i]->name);
-    if (needed < fewest) nearest = all[i]->name;
-    fewest = std::min(fewest, needed);
+    if (all[i]->flags & G_PARAM_WRITABLE) names.emplace_back(all[i]->name);
   }
   g_free(all);
-  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+  return names;
 }
 
 }  // namespace
@@ -96,7 +76,8 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
     throw PropertyError(text + ": is not PROPERTY=VALUE, such as max-force=2");
   if (!is_property)
     throw PropertyError("spidarmotion has no property \"" + name + "\" that can be set" +
-                        meant(element, name) + "; gst-inspect-1.0 spidarmotion lists them");
+                        meant(name, names_of_properties(element)) +
+                        "; gst-inspect-1.0 spidarmotion lists them");
   if (equals == std::string::npos) {
     throw PropertyError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
                         values_of(property_) + unit(property_));

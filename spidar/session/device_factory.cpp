@@ -11,6 +11,7 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/session/device_registry.h"
 #include "spidar/simulation/simulated_device.h"
+#include "spidar/spelling.h"
 
 namespace spidar {
 namespace {
@@ -24,6 +25,13 @@ std::string known_names(bool with_elements) {
     last = kind.device;
   }
   return names;
+}
+
+/// "; did you mean ff?"
+std::string meant_device(const std::string& device) {
+  std::vector<std::string> names = {"sim", "none", "auto"};
+  for (const DeviceKind& kind : devices()) names.emplace_back(kind.device);
+  return meant(device, names);
 }
 
 std::string simulated_names() {
@@ -59,10 +67,11 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   if (kinds.empty() || !name.has_end || (kinds[0]->needs_rest() && name.rest.empty())) {
     // Only an element does without a device, or chooses one: this is not asked about these names.
     const bool is_elements = text == "none" || text == "auto";
-    throw DeviceError(
-        (is_elements ? "\"" + text + "\" is not a device" : "unknown device \"" + text + "\"") +
-            "; known are: " + known_names(!is_elements),
-        DeviceTrouble::kSettings);
+    throw DeviceError((is_elements ? "\"" + text + "\" is not a device"
+                                   : "unknown device \"" + text + "\"" +
+                                         (kinds.empty() ? meant_device(name.device) : "")) +
+                          "; known are: " + known_names(!is_elements),
+                      DeviceTrouble::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());

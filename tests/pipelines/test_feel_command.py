@@ -48,7 +48,8 @@ class Command(track_case.TrackCase):
 
     def test_a_device_that_cannot_exist_or_be_driven_is_named_before_the_player_starts(self):
         for properties, said in (
-                ("device=zzz", 'unknown device "zzz"; known are: sim, '), ("device=", 'unknown device ""'),
+                ("device=zzz", 'unknown device "zzz"; known are: sim, '), ("device=", 'unknown device ""; known'),
+                ("device=fof", 'unknown device "fof"; did you mean ff?; known are: sim, '),
                 ("device=sim:zzz", 'unknown simulated board "zzz"; known are: sim:sh4, '),
                 ("device=uart:,/dev/ttyUSB0 profile=spidar-g6x4", "a path is empty"),
                 ("profile=nope", 'unknown profile "nope"; known are spidar-g, '),
