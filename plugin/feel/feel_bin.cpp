@@ -86,11 +86,14 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
     gst_message_parse_warning(message, &error, &details);
   else
     gst_message_parse_info(message, &error, &details);
-  g_printerr("spidar-feel: %s\n", error->message);
+  const bool refused = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
+  constexpr const char* kWithout = "The video goes on without force.";
+  g_printerr("spidar-feel: %s%s%s\n", error->message, refused ? ". " : "", refused ? kWithout : "");
   // With its own code and location.
   const auto message_of = GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO ? gst_message_new_info
                                                                         : gst_message_new_warning;
-  gst_element_post_message(GST_ELEMENT(self), message_of(GST_OBJECT(self), error, details));
+  gst_element_post_message(GST_ELEMENT(self),
+                           message_of(GST_OBJECT(self), error, refused ? kWithout : details));
   g_clear_error(&error);
   g_free(details);
 }
