@@ -25,7 +25,7 @@ waiting = deque()  # structures of the messages of frames that are not shown yet
 app = Gtk.Application()
 
 
-def hear(_bus, message):
+def handle(_bus, message):
     if message.type == Gst.MessageType.ELEMENT and message.has_name("spidar-motion"):
         waiting.append(message.get_structure().copy())
     elif message.type in (Gst.MessageType.ERROR, Gst.MessageType.EOS):
@@ -53,7 +53,7 @@ def activate(_app):
 
 
 player.bus.add_signal_watch()
-player.bus.connect("message", hear)
+player.bus.connect("message", handle)
 app.connect("activate", activate)
 app.run()
 player.set_state(Gst.State.NULL)

@@ -28,7 +28,7 @@ problems = []
 waiting = deque()  # structures of the messages of frames that are not shown yet
 
 
-def hear(_bus, message):
+def handle(_bus, message):
     if message.type == Gst.MessageType.ELEMENT and message.has_name("spidar-motion"):
         frame = message.get_structure().copy()
         if waiting and frame.get_value("running-time") < waiting[-1].get_value("running-time"):
@@ -53,7 +53,7 @@ def show_what_is_due():
 
 
 player.bus.add_signal_watch()
-player.bus.connect("message", hear)
+player.bus.connect("message", handle)
 GLib.timeout_add(5, show_what_is_due)
 player.set_state(Gst.State.PLAYING)
 main.run()

@@ -69,7 +69,7 @@ def act(line):
           f"delay {motion.get_property('ts-offset') // Gst.MSECOND} ms", flush=True)
 
 
-def hear(_bus, message):
+def handle(_bus, message):
     global failed
     if message.type == Gst.MessageType.EOS and again:
         jump(0, 0)
@@ -86,7 +86,7 @@ def hear(_bus, message):
 
 
 player.bus.add_signal_watch()
-player.bus.connect("message", hear)
+player.bus.connect("message", handle)
 player.set_state(Gst.State.PLAYING)
 player.get_state(5 * Gst.SECOND)
 threading.Thread(target=lambda: [GLib.idle_add(act, line) for line in sys.stdin], daemon=True).start()

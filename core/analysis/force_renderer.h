@@ -26,7 +26,7 @@ class WrenchFade {
   /// felt; 0: nothing, or the whole picture. Returns whether the last wrench begins to fade out.
   bool turn_to(uint64_t object);
 
-  /// The wrench to be felt in this frame, `interval_s` > 0 after the one before, if `wrench` is
+  /// The wrench to render in this frame, `interval_s` > 0 after the one before, if `wrench` is
   /// that of the object.
   Wrench fade(const Wrench& wrench, double interval_s);
 

@@ -38,7 +38,7 @@ class BoxedObject {
   /// How long an object is kept without a box: a detector that looks at every tenth frame of 25 a
   /// second, as they do on slow machines, may miss it once.
   static constexpr double kHold_s = 0.8;
-  /// No box of a new rule comes for so long before that is told.
+  /// How long a new rule may get no box before that is reported.
   static constexpr double kPatience_s = 1;
   /// Box and object are the same object when at least this fraction of the smaller of them is in
   /// the other: a face is a part of the person who moves, a leg that moves one of the person in the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How strongly a speed is felt.
+/// How strongly a speed is rendered.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct ControllerSettings {
   double alpha_s_px = 0.0025;
 };
 
-/// What a controller is told of one frame, in px/s of the reference frame.
+/// What a controller receives for one frame, in px/s of the reference frame.
 struct MeasuredSpeed {
   // A bare number is a speed of which nothing else is known.
   MeasuredSpeed(double speed, double interval = 0, double dead_zone = 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Wrenches with the time at which each is to be felt.
+/// Wrenches with the time at which each is to be rendered.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ struct TimelineResult {
 ///
 /// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
 /// holds and expires as if the next frame were not known, and rises from zero to that of the next
-/// frame before that one is due: a picture that has been standing for long is not felt.
+/// frame before that one is due: a picture that has been standing for long gives no force.
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
@@ -125,7 +125,7 @@ class WrenchTimeline {
   Wrench value(size_t age, int64_t time_ns) const noexcept;
 
   History<Segment, kCapacity> segments_;
-  int64_t present_ns_ = INT64_MIN;  // nothing was felt yet
+  int64_t present_ns_ = INT64_MIN;  // nothing was rendered yet
 };
 
 }  // namespace spidar

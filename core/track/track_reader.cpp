@@ -7,8 +7,8 @@
 namespace spidar {
 namespace {
 
-/// If samples are further apart, some are missing between them. In slow motion, no sample is felt
-/// for longer than a frame.
+/// If samples are further apart, some are missing between them. In slow motion, no sample is
+/// rendered for longer than a frame.
 int64_t longest_step_ns(int64_t period_ns) {
   return std::min(period_ns + period_ns / 2, WrenchTimeline::kLongestHold_ns);
 }
@@ -17,7 +17,7 @@ int64_t longest_step_ns(int64_t period_ns) {
 
 bool TrackReader::read(const TrackBlock& block, int64_t time_ns) noexcept {
   for (; read_ < block.count && block.time_ns(read_) <= time_ns; ++read_) {
-    // A late sample counts only if it is newer than the one that was felt last.
+    // A late sample counts only if it is newer than the one that was rendered last.
     if (block.time_ns(read_) <= last_ns_) continue;
     last_ = block.samples[read_];
     last_ns_ = block.time_ns(read_);

@@ -18,7 +18,7 @@ namespace {
 
 struct ProblemWords {
   const char* why;      // in the log
-  const char* warning;  // null: nobody is to be told
+  const char* warning;  // null: nothing is reported
   const char* advice;
 };
 

@@ -17,7 +17,7 @@ class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
 
-  /// The element begins: everything may be said again.
+  /// The element begins: everything may be reported again.
   void start();
   /// Another stream: what is wrong with its frames may be.
   void begin_stream() {
@@ -38,8 +38,8 @@ class BusWarnings {
 
  private:
   GstElement* const element_;
-  guint frame_problems_ = 0;  // bit i: FrameProblem i was said
-  // Said:
+  guint frame_problems_ = 0;  // bit i: FrameProblem i was reported
+  // Reported:
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
   bool trace_ = false;
   DeviceWarnings device_;

@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-/// When the sink shows a frame. Nothing when it cannot be felt in time, for `problem`.
+/// When the sink shows a frame. Nothing when it cannot be rendered in time, for `problem`.
 std::optional<int64_t> time_of(const GstVideoFrame& frame, const GstSegment& segment,
                                FrameProblem& problem) {
   const bool has_time =

@@ -22,7 +22,7 @@ namespace spidar {
 
 enum class FrameProblem {
   kNone,
-  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be felt in time
+  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be rendered in time
   kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
   kFallingTimestamp,  ///< before the frame before
   kTooSmall,          ///< less memory than the picture needs

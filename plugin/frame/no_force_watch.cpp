@@ -14,7 +14,7 @@ namespace {
 /// What is slower than this, in px/s of a frame 480 lines high, does not count as moving
 /// (docs/feeling.md).
 constexpr double kMoving_px_s = 1;
-/// With fewer points no motion can be told from the background's: a translation of the background
+/// With fewer points no motion differs from the background's: a translation of the background
 /// takes one of them, and an object two.
 constexpr int kFewestPoints = 4;
 /// When a hand swings a slack string, the pose is lost for less than this.

@@ -90,7 +90,7 @@ class NoForceWatch {
   NoForceReason of_film(const std::optional<LoopSnapshot>& loop) const;
   /// The reason of the device, the playback or the contact, now; kNone when there is none.
   NoForceReason of_device(const std::optional<LoopSnapshot>& loop) const;
-  /// The one to be told to a person: the film's if it has one and has not ended, and else the
+  /// The one to show to a person: the film's if it has one and has not ended, and else the
   /// device's.
   NoForceReason first(const std::optional<LoopSnapshot>& loop) const;
 

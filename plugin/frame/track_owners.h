@@ -14,7 +14,7 @@ namespace spidar {
 /// nobody chose one; none while only the surface is felt.
 std::vector<uint32_t> felt_objects(const FrameReport& report);
 
-/// Where the arrow of the felt force begins, in pixels of the frame: on the one object that is
+/// Where the arrow of the force begins, in pixels of the frame: on the one object that is
 /// felt, where its tracks are and not merely its box, else in the middle of the picture.
 Eigen::Vector2d force_origin_px(const FrameReport& report);
 

@@ -24,10 +24,10 @@ class DeviceWarnings {
       : element_(element), what_(std::move(what)) {}
 
   /// Opens a device by `opens`, which returns why the haptic trace cannot be written, or nothing,
-  /// and says what came of it. False when the stream is not to begin without `device`.
+  /// and reports the result. False when the stream is not to begin without `device`.
   bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
             const std::function<std::string()>& opens) const;
-  /// The element begins: everything may be said again.
+  /// The element begins: everything may be reported again.
   void start();
   /// Looks at the device. False when the stream is to end, and then says why.
   bool check(const HapticSession* session, OnDeviceError policy);
@@ -51,10 +51,10 @@ class DeviceWarnings {
   GstElement* const element_;
   const std::string what_;
   guint strings_ = 0;       // bit i: string i
-  bool pose_lost_ = false;  // said, and not come back since
-  bool held_back_ = false;  // said
-  bool vibrated_ = false;   // said
-  bool shaken_ = false;     // said
+  bool pose_lost_ = false;  // reported, and not come back since
+  bool held_back_ = false;  // reported
+  bool vibrated_ = false;   // reported
+  bool shaken_ = false;     // reported
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
   uint64_t times_lost_ = 0;

@@ -23,8 +23,8 @@ class SimulatedDevice;
 /// state changes and the streaming thread.
 class HapticOutput {
  public:
-  /// `refreshed` is called each time after the haptic loop was told where playback is: a hundred
-  /// times a second while playing.
+  /// `refreshed` is called each time after the haptic loop has received where playback is: a
+  /// hundred times a second while playing.
   HapticOutput(GstElement* element, std::function<void()> refreshed)
       : element_(element), refreshed_(std::move(refreshed)), follower_(element) {}
 
@@ -46,7 +46,7 @@ class HapticOutput {
   /// Where playback is.
   PlaybackFollower& follower() { return follower_; }
   /// Holds with the next tick of the haptic loop. No more than the device can give in every
-  /// direction, which is said once for each device that is opened.
+  /// direction, which is reported once for each device that is opened.
   void set_max_force(double max_force_N);
 
   /// Null while closed. Opened and closed by state changes only.

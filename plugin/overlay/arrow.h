@@ -49,11 +49,11 @@ struct ArrowStyle {
   double scale = 4;          ///< arrow length / displacement, > 0
   double height_px = 480;    ///< height of the picture; line widths scale with it
   double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the felt force
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the force
   Orientation turn;                                     ///< of what is drawn, before it is shown
 };
 
-/// Shaft width of the arrow of the felt force.
+/// Shaft width of the arrow of the force.
 double felt_width_px(const ArrowStyle& style);
 
 /// One arrow per track with its tail at `from`: bold for objects, pale for the background. `at_px`
@@ -61,7 +61,7 @@ double felt_width_px(const ArrowStyle& style);
 std::vector<Arrow> track_arrows(const std::vector<OwnedTrack>& tracks, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 
-/// The felt force as a white arrow from the centre, in the direction in which it pushes the hand.
+/// The force as a white arrow from the centre, in the direction in which it pushes the hand.
 /// Empty when it is too short to show a direction.
 std::optional<Arrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
 

@@ -10,7 +10,7 @@
 
 namespace spidar {
 
-/// Draws the box of each object, thick if it is felt, and the felt force in newtons as a white
+/// Draws the box of each object, thick if it is felt, and the wanted force in newtons as a white
 /// arrow with a black border, which begins on the object (see force_origin_px()). While the picture
 /// is touched, also draws the finger as a ring, the touched point as a disc that grows with the
 /// force, and the contact force from that point. With `has_tracks`, also draws one arrow per track

@@ -25,7 +25,7 @@ struct TouchProperties {
   double stiffness_N_m = 500;
   double friction = 0.3;       ///< μs; μd is 0.8 of it
   double texture = 0;          ///< gain of the fine detail's slope
-  double motion_fraction = 0;  ///< of the film's motion, which is felt besides
+  double motion_fraction = 0;  ///< of the film's motion, which is rendered besides
 
   /// Where in its frames the film has depth that is touched; nothing where they are all picture.
   std::optional<DepthLayout> packed() const {

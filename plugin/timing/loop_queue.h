@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is to be felt when, on its way to the haptic loop.
+/// What is to be rendered when, on its way to the haptic loop.
 #pragma once
 
 #include <cstddef>

@@ -17,12 +17,12 @@
 
 namespace spidar {
 
-/// What is behind an element and delays its frames: the latency that the sink was told, `ts-offset`
+/// What is behind an element and delays its frames: the latency that the sink received, `ts-offset`
 /// of the sink (playbin: av-offset), offsets of the pads on the way, and elements on the way that
 /// wait for the clock themselves (`clocksync`, `identity sync=true`). The sink shows a frame when
 /// the last of those that wait has let it go.
 ///
-/// Only the latency is told by an event, and that one is not repeated for an element that is put
+/// Only the latency is sent by an event, and that one is not repeated for an element that is put
 /// into a pipeline which plays already: so this looks at the way to the sink itself.
 ///
 /// Not thread-safe: the owner holds one lock around it.
@@ -34,7 +34,7 @@ class PresentationDelay {
   PresentationDelay& operator=(const PresentationDelay&) = delete;
 
   /// Looks downstream of `element`, through bins, for the first sink that waits for the clock, and
-  /// keeps the way to it until told to forget it. Again whenever it may be another one.
+  /// keeps the way to it until forget(). Again whenever it may be another one.
   void follow(GstElement* element);
   void forget();
 

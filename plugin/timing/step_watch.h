@@ -14,7 +14,7 @@
 namespace spidar {
 
 /// A sink that steps over frames with a flush shows what follows as much earlier: it moves its own
-/// segment, and nobody upstream is told. All that is to be known of it is the message that the
+/// segment, and nobody upstream is informed. All that is to be known of it is the message that the
 /// application gets (STEP_DONE), so this listens to the pipeline's bus.
 class StepWatch {
  public:

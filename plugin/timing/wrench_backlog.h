@@ -19,8 +19,8 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
  public:
   /// More than waits for any sink: a quarter of an hour at 60 frames/s.
   static constexpr size_t kMostWaiting = 1 << 16;
-  /// As many as the loop may not have felt are kept for a change of the rate: at least as many as
-  /// fit into its ring and its timeline together.
+  /// As many as the loop may not have rendered are kept for a change of the rate: at least as many
+  /// as fit into its ring and its timeline together.
   static constexpr size_t kHandedOn = 512;
   WrenchBacklog() : LoopQueue(kMostWaiting, kHandedOn) {}
 

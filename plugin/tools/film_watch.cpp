@@ -29,7 +29,7 @@ std::string missing_decoder(const GstStructure* message) {
 void FilmWatch::begin(GstElement* pipeline, bool has_appended) {
   has_appended_ = has_appended;
   GstBus* bus = gst_element_get_bus(pipeline);
-  gst_bus_set_sync_handler(bus, hears, this, nullptr);
+  gst_bus_set_sync_handler(bus, handle, this, nullptr);
   gst_object_unref(bus);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "decode");
   g_signal_connect(decoder, "autoplug-continue", G_CALLBACK(look), this);
@@ -39,7 +39,7 @@ void FilmWatch::begin(GstElement* pipeline, bool has_appended) {
   gst_object_unref(convert_);  // the pipeline has it
 }
 
-GstBusSyncReply FilmWatch::hears(GstBus*, GstMessage* message, gpointer user) {
+GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const std::lock_guard<std::mutex> lock(self.lock_);
   const GstStructure* const about = gst_message_get_structure(message);

@@ -37,7 +37,7 @@ class FilmWatch {
   std::string felt() const;
 
  private:
-  static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
+  static GstBusSyncReply handle(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn decoded(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   static gboolean look(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
   static void choose(GstElement* decoder, gpointer self);

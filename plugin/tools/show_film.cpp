@@ -63,7 +63,7 @@ GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   return GST_PAD_PROBE_OK;
 }
 
-/// Returns what is to be said of it. Throws std::runtime_error, without the name of the film.
+/// Returns what is to be reported of it. Throws std::runtime_error, without the name of the film.
 std::string show(const ShowOptions& options, const PartFile& part) {
   const ProgressLine line(options.film);
   FilmProgress progress([&line](int percent) { line.tell(percent); });

@@ -113,10 +113,10 @@ void FilePipeline::pause() const {
 
 void FilePipeline::hear_errors(std::function<void(const std::string&)> take) {
   take_error_ = std::move(take);
-  gst_bus_set_sync_handler(bus().get(), hears, this, nullptr);
+  gst_bus_set_sync_handler(bus().get(), handle, this, nullptr);
 }
 
-GstBusSyncReply FilePipeline::hears(GstBus*, GstMessage* message, gpointer user) {
+GstBusSyncReply FilePipeline::handle(GstBus*, GstMessage* message, gpointer user) {
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
     static_cast<FilePipeline*>(user)->take_error_(text_of(message));
   return GST_BUS_PASS;

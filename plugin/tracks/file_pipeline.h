@@ -63,7 +63,7 @@ class FilePipeline {
   using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
   Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
 
-  static GstBusSyncReply hears(GstBus* bus, GstMessage* message, gpointer self);
+  static GstBusSyncReply handle(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn link(GstPad* pad, GstPadProbeInfo* info, gpointer self);
 
   const std::atomic<bool>* const stopped_;

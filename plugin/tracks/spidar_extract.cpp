@@ -85,7 +85,7 @@ static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
     frame.compared = motion.interval > 0;
     frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
                     {motion.torque_x, motion.torque_y, motion.torque_z}};
-    // A picture that has stood still for long is no longer felt, so its wrench differs.
+    // A picture that has stood still for long gives no force, so its wrench differs.
     frame.repeats =
         gst_buffer_repeats_spidar_motion(buffer) && frame.wrench.stacked() == last.stacked();
   }

@@ -50,7 +50,7 @@ using spidar::BlockQueue;
 using spidar::HapticOutput;
 using spidar::SinkProperties;
 
-/// Samples are handed to the haptic loop this long before they are felt.
+/// Samples are sent to the haptic loop this long before they are rendered.
 static constexpr gint64 kAhead_ns = 200 * 1000 * 1000;
 
 namespace {

@@ -74,11 +74,11 @@ class TrackWarnings {
 
   /// A new stream begins: every warning may be posted again.
   void start() { *this = TrackWarnings(element_); }
-  /// Nothing marks the stream as a haptic track, and it is not felt.
+  /// Nothing marks the stream as a haptic track, and it is not rendered.
   void tell_of_mark();
   /// The property sync=false was set.
   void tell_of_sync();
-  /// Looks at the faults so far, and at whether the last buffer had a time at which to feel it.
+  /// Looks at the faults so far, and at whether the last buffer had a time at which to render it.
   /// `path` is that of the track, if it is a file.
   void check(const TrackFaults& faults, bool has_time, const std::string& path = "");
 

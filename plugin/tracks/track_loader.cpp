@@ -21,7 +21,7 @@
 namespace spidar {
 namespace {
 
-/// How long stop() waits for a thread that has been told to stop; it looks every 20 ms.
+/// How long stop() waits for a thread that has been asked to stop; it looks every 20 ms.
 constexpr std::chrono::milliseconds kLongestStop{500};
 
 /// Nothing when the film cannot be read.

@@ -69,17 +69,18 @@ class TrackLoader {
   std::thread thread_;
 };
 
-/// What is to be said of a track while it is felt. Streaming thread.
+/// What is to be reported of a track while it is played. Streaming thread.
 class FeltTrack {
  public:
   explicit FeltTrack(GstElement* element) : element_(element), warnings_(element) {}
 
-  /// The blocks to be felt for the film that comes to the sink pad of the element. Null when there
-  /// are none; a warning on the bus when the track cannot be used, or is that of another film.
+  /// The blocks to be rendered for the film that comes to the sink pad of the element. Null when
+  /// there are none; a warning on the bus when the track cannot be used, or is that of another
+  /// film.
   std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns);
   /// Posts each warning once. False when the track cannot be read further.
   bool check();
-  /// Nothing is felt of a track.
+  /// Nothing is rendered of a track.
   void forget() { blocks_ = nullptr; }
 
  private:

@@ -20,7 +20,7 @@ namespace spidar {
   "1000, channels = (int) 6, channel-mask = (bitmask) " mask
 #define SPIDAR_TRACK_CAPS SPIDAR_TRACK_CAPS_WITH("0x3f") "; " SPIDAR_TRACK_CAPS_WITH("0x0")
 
-/// What is said of one frame.
+/// What is known of one frame.
 struct FrameWrench {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   GstClockTime duration = GST_CLOCK_TIME_NONE;

@@ -59,7 +59,7 @@ class Window::Session {
 
   bool serve(Channel& channel);
   void pass_on(Channel& channel);
-  void obey(Channel& channel, FromWindow&& message);
+  void handle(Channel& channel, FromWindow&& message);
   void answer(Channel& channel);
   void free_slot(const SlotFree& free);
   void finish(const WindowEnd& end);
@@ -72,7 +72,7 @@ class Window::Session {
   std::atomic<bool> is_asking_{false};                       ///< the window is there
   std::atomic<bool> is_full_{false};                         ///< there is no free slot
   // The thread.
-  bool has_failed_ = false;        ///< the window has said why it cannot be opened
+  bool has_failed_ = false;        ///< the window has reported why it cannot be opened
   uint32_t memory_at_window_ = 0;  ///< that was sent last
   // The streaming thread.
   uint32_t memories_ = 0;
@@ -198,7 +198,7 @@ bool Window::Session::serve(Channel& channel) {
     while (const std::optional<std::vector<uint8_t>> packet = channel.next()) {
       std::optional<FromWindow> message = from_window(*packet);
       if (!message) return false;
-      obey(channel, std::move(*message));
+      handle(channel, std::move(*message));
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_closing_ && !latest) latest = Clock::now() + kPatience;
@@ -207,7 +207,7 @@ bool Window::Session::serve(Channel& channel) {
   return !channel.is_not_understood();
 }
 
-/// What is to be said at once.
+/// What is to be sent at once.
 void Window::Session::pass_on(Channel& channel) {
   std::deque<ToWindow> messages;
   {
@@ -246,7 +246,7 @@ void Window::Session::free_slot(const SlotFree& free) {
   is_full_ = false;
 }
 
-void Window::Session::obey(Channel& channel, FromWindow&& message) {
+void Window::Session::handle(Channel& channel, FromWindow&& message) {
   if (std::holds_alternative<Ask>(message)) {
     is_asking_ = true;
     answer(channel);

@@ -42,8 +42,8 @@ class WindowSource {
 };
 
 /// One window, which is a process of its own (spidar-window). Opening returns at once; what goes
-/// wrong then is said by source->warn(). Neither a window that is slow nor one that crashes holds
-/// up the player, whose own use of GL, GLFW or X it does not touch.
+/// wrong then is reported by source->warn(). Neither a window that is slow nor one that crashes
+/// holds up the player, whose own use of GL, GLFW or X it does not touch.
 class Window {
  public:
   explicit Window(std::shared_ptr<WindowSource> source);

@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-/// Hands the force to its board in the axes in which that is felt, up to what that can give, and
+/// Sends the force to its board in the axes that it renders, up to what it can give, and
 /// takes the position from it. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:

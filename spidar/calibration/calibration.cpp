@@ -99,11 +99,11 @@ double correlation_factor(const Fit& fit) {
   return std::sqrt((1 + bounded) / (1 - bounded));
 }
 
-/// The standard deviation of the combination of parameters that the samples tell worst, relative to
-/// that of a length, if the errors of successive samples are independent. Infinite where nothing is
-/// told. The pose of each sample is eliminated by an orthogonal projection, which is the Schur
-/// complement of bundle adjustment as a square root: it stays accurate where the information matrix
-/// is singular and its inverse does not exist.
+/// The standard deviation of the combination of parameters that the samples determine worst,
+/// relative to that of a length, if the errors of successive samples are independent. Infinite
+/// where nothing is told. The pose of each sample is eliminated by an orthogonal projection, which
+/// is the Schur complement of bundle adjustment as a square root: it stays accurate where the
+/// information matrix is singular and its inverse does not exist.
 double largest_sd(const Fit& fit) {
   // Singular values below this fraction of the largest one are rounding errors.
   constexpr double kRank = 1e-10;

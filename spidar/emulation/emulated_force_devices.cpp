@@ -82,10 +82,10 @@ void EmulatedFalcon::load(uint8_t byte) noexcept {
 void EmulatedFalcon::run(uint8_t byte) noexcept {
   falcon::Command command;
   if (!memory_->loaded || !feed(byte, falcon::kPacketSize)) return;
-  if (falcon::decode_command(packet_, command)) obey(command);
+  if (falcon::decode_command(packet_, command)) handle(command);
 }
 
-void EmulatedFalcon::obey(const falcon::Command& command) noexcept {
+void EmulatedFalcon::handle(const falcon::Command& command) noexcept {
   const Eigen::Vector3d at_m = position_m(*motors_);
   // Beyond its reach, the grip stays where it was.
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);

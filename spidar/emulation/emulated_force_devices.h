@@ -104,7 +104,7 @@ class EmulatedFalcon final : public EmulatedBoard {
   void hello(uint8_t byte) noexcept;
   void load(uint8_t byte) noexcept;
   void run(uint8_t byte) noexcept;
-  void obey(const falcon::Command& command) noexcept;
+  void handle(const falcon::Command& command) noexcept;
   void answer(ByteView bytes) noexcept;
   bool feed(uint8_t byte, size_t length) noexcept;
 

@@ -16,19 +16,19 @@
 namespace spidar {
 
 struct GripAbilities {
-  /// Axes of the force that are felt: to the right, up, towards the viewer.
+  /// Axes of the force that are rendered: to the right, up, towards the viewer.
   std::array<bool, 3> force{true, true, true};
   bool torque = true;
-  /// Otherwise only the size of the force is felt, in the axes that are felt.
+  /// Otherwise only the size of the force is rendered, in these axes.
   bool direction = true;
   std::array<bool, 3> position{true, true, true};  ///< axes in which it is measured
-  double largest_force_N = 0;                      ///< in every direction that is felt
+  double largest_force_N = 0;                      ///< in every direction that is rendered
   int rate_Hz = 1000;                              ///< forces a second, at most
   int buttons = 0;                                 ///< at most 32
   /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
   std::array<double, 3> half_room_m{};
 
-  /// Whether the grip can touch a picture, of which the depth is felt.
+  /// Whether the grip can touch a picture, of which the depth is rendered.
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
@@ -56,7 +56,7 @@ struct GripTraits {
   double drive_lag_s = 0;   ///< from a command to the force that follows
 };
 
-/// What a grip is told in a tick.
+/// What a grip receives in a tick.
 struct GripCommand {
   Wrench wrench;  ///< on the hand: within the limits, and no faster than they allow
   /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
@@ -73,7 +73,7 @@ struct GripCommand {
 struct GripReport {
   /// The wrench that the hand gets. Computed for `pose`, even if that is not known any more.
   Wrench delivered;
-  StringVector tension_N = StringVector::Zero();  ///< told; zero for a grip without strings
+  StringVector tension_N = StringVector::Zero();  ///< commanded; zero for a grip without strings
   bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
 
   Pose pose;             ///< from the newest good reading
@@ -89,7 +89,7 @@ struct GripReading : GripReport {
   Wrench at_rest;              ///< what the strings exert of `delivered` without a command
   GripMotion motion;           ///< of the poses; at rest while the pose is not known
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
-  int64_t lag_ns = 0;          ///< from a command to when it is felt, if the device reports it
+  int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
 
   bool knows_pose() const noexcept { return trouble == PoseTrouble::kNone; }

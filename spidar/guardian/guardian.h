@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The process that sets motors to zero when this one cannot, and what it is told to send.
+/// The process that sets motors to zero when this one cannot, and what it has to send.
 #pragma once
 
 #include <array>

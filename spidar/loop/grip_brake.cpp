@@ -69,7 +69,7 @@ void GripBrake::reset() noexcept {
 }
 
 void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept {
-  // What was told before acts until now.
+  // What was commanded before acts until now.
   acting_N_ += fraction_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
   late_N_ += fraction_passed(dt_s, GripMotion::kLag_s) * (acting_N_ - late_N_);
   given_m_s_ += dt_s / kUnheldGrip_kg * late_N_;

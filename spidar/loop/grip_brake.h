@@ -48,7 +48,7 @@ class GripBrake {
 
   /// Position and velocity after an exchange, `dt_s` after the last call.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double dt_s) noexcept;
-  /// The wrench that the strings are told to exert until the next exchange, and the one of their
+  /// The wrench that is commanded to the strings until the next exchange, and the one of their
   /// rest, which is a part of it.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
@@ -73,8 +73,8 @@ class GripBrake {
 
   const double radius_m_;
   const double drive_lag_s_;
-  // What the strings gave a unheld grip in the last kMemory_s, and what was seen.
-  Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< told
+  // What the strings gave an unheld grip in the last kMemory_s, and what was seen.
+  Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded
   Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();     ///< what of it pulls to the centre
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
   Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();     ///< as late as the velocity is

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is to be felt at which running time: from the streaming thread to the loop.
+/// What is to be rendered at which running time: from the streaming thread to the loop.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A value of a TOML file that knows where it stands, so that whatever is wrong with it can be said
+/// A value of a TOML file that knows where it stands, so that whatever is wrong with it is reported
 /// with file, line and name.
 #pragma once
 

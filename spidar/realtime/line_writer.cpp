@@ -40,7 +40,7 @@ struct LineWriter::Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Until it is told to end, or the writing fails.
+  /// Until it is asked to end, or the writing fails.
   void run() noexcept {
     std::unique_lock<std::mutex> lock(mutex);
     while (true) {

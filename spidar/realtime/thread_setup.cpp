@@ -32,11 +32,11 @@ Scheduling request_real_time() {
     error = request_fifo(priority);
   }
   if (error == 0) return {true, "SCHED_FIFO " + std::to_string(priority)};
-  const std::string wish = std::to_string(kRealTimePriority);
+  const std::string wanted = std::to_string(kRealTimePriority);
   return {false, std::string("no real-time priority: ") + std::strerror(error) +
                      "; the limit of this process is " + std::to_string(allowed) + ", allow " +
-                     wish + " with \"@GROUP - rtprio " + wish +
-                     "\" in /etc/security/limits.d and a new login, or with LimitRTPRIO=" + wish +
+                     wanted + " with \"@GROUP - rtprio " + wanted +
+                     "\" in /etc/security/limits.d and a new login, or with LimitRTPRIO=" + wanted +
                      " in a systemd unit"};
 }
 

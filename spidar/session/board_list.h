@@ -30,7 +30,7 @@ struct BoardInfo {
   /// no strings.
   std::string profile_board;
   bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
-  bool directional = true;  ///< otherwise only the strength of the force is felt
+  bool directional = true;  ///< otherwise only the strength of the force is rendered
 };
 
 /// BoardInfo::note of a device that 70-spidar.rules would make accessible.

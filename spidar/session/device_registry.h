@@ -40,7 +40,7 @@ struct DeviceKind : BoardKind {
   /// What is plugged in, as far as the system tells: the name, and what this row does not say.
   std::vector<BoardInfo> (*list)() = nullptr;
 
-  /// Whether it has to be said which one is meant.
+  /// Whether the name has to state which one is meant.
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };
 

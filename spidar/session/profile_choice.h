@@ -44,8 +44,8 @@ Profile profile_for(const std::string& device, const std::string& named);
 /// variable is set.
 std::filesystem::path remembered_profiles_file();
 
-/// What remember_profile() was last told for the board with this USB ID and serial number; empty if
-/// nothing. Throws ProfileError when the file cannot be read.
+/// The profile that remember_profile() last stored for the board with this USB ID and serial
+/// number; empty if nothing. Throws ProfileError when the file cannot be read.
 std::string remembered_profile(const std::string& usb_id, const std::string& serial);
 
 /// Throws DeviceError, which says what to do instead, if the board has no serial number by which

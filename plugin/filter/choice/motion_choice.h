@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a person chose to feel, and what is said when that cannot be.
+/// What a person chose to feel, and what is reported when that cannot be.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where a frame's motion and force are shown besides being felt.
+/// Where a frame's motion and force are shown besides being rendered.
 #pragma once
 
 #include <chrono>

@@ -137,7 +137,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
   no_force_.set_touching(touch.kind != TouchKind::kOff);
   const bool goes_on = report.frame.goes_on();
-  // This fraction of the film's motion is felt, reported and shown in addition to touch.
+  // This fraction of the film's motion is rendered, reported and shown in addition to touch.
   motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
   report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {

@@ -31,8 +31,8 @@ class LiveSource {
 
   /// The next frame has nothing to do with the one before.
   void restart() { analyzer_.restart(); }
-  /// Gives what is felt while the frame is shown, and fills in the report, but for the times of its
-  /// frame, or why it cannot be analysed.
+  /// Gives what is rendered while the frame is shown, and fills in the report, but for the times of
+  /// its frame, or why it cannot be analysed.
   void take(const PassingFrame& frame, FrameReport& report);
   /// In place of a frame that has no picture, and that is turned by `turn` before it is shown.
   void pass_gap(int64_t running_ns, const Orientation& turn);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic track that is felt in place of what a video's frames would give.
+/// A haptic track that is rendered in place of what a video's frames would give.
 #pragma once
 
 #include <atomic>
@@ -48,7 +48,7 @@ class TrackReplay {
   /// The next frame has nothing to do with the one before.
   void restart() { follows_ = late_ = false; }
 
-  /// Gives what is not yet given of the samples that are felt while the frame is shown. After a
+  /// Gives what is not yet given of the samples that are rendered while the frame is shown. After a
   /// jump, or at another rate, it begins with the block that the frame is in.
   void play(const FramePosition& frame, const std::function<void(const TrackBlock&)>& give);
 
@@ -84,9 +84,9 @@ class TrackSource {
               NoForceWatch& no_force, ReliefStream& reliefs)
       : output_(output), samples_(samples), times_(times), no_force_(no_force), reliefs_(reliefs) {}
 
-  /// Frames are not analysed: the samples of this track, of the file `path`, are felt. Null: they
-  /// are again. What was given of the track before is felt nevertheless: its frames are on their
-  /// way to the screen.
+  /// Frames are not analysed: the samples of this track, of the file `path`, are rendered. Null:
+  /// they are again. What was given of the track before is rendered nevertheless: its frames are on
+  /// their way to the screen.
   void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.

@@ -60,7 +60,7 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
   }
 }
 
-/// Returns the status of the program. What goes wrong is said by the player, on its bus.
+/// Returns the status of the program. The player reports what goes wrong, on its bus.
 int show(PlayerLink& link) {
   link.ask(kFirstPatience);
   if (link.is_over()) return link.is_not_understood() ? EXIT_FAILURE : EXIT_SUCCESS;

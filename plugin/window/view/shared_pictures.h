@@ -18,7 +18,7 @@
 namespace spidar {
 
 /// Slots of one size for frames of one format, in a file without a name. A slot is taken by
-/// copy(), and is free again when the window has said so. Thread-safe only where it says so.
+/// copy(), and is free again when the window has returned it. Thread-safe only where stated.
 class PictureSlots {
  public:
   /// As many as a window keeps: those that wait until they are on the screen, the one that is

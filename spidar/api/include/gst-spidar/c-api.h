@@ -215,7 +215,7 @@ GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
  * long. */
 GST_SPIDAR_API double gst_spidar_device_vibration_fraction(const GstSpidarDevice* device);
 
-/*! What the device is told to exert on the grip at present, after all limits: Device::felt(). */
+/*! The wrench that is commanded to the grip at present, after all limits: Device::felt(). */
 GST_SPIDAR_API void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench);
 
 /*! What the device is doing. */

@@ -22,12 +22,12 @@ inline namespace v0 {
 /// What an open device is doing.
 enum class DeviceState {
   kOpening,  ///< the strings are being tightened, which takes 0.2 s
-  kRunning,  ///< wrenches are felt
-  kIdle,     ///< nothing was to be felt for minutes and the motors are off; a wrench wakes it
+  kRunning,  ///< wrenches are rendered
+  kIdle,     ///< no force was wanted for minutes and the motors are off; a wrench wakes it
   /// It does not answer, for example unplugged. It is opened again by itself as soon as it answers,
-  /// and wrenches are felt again. Only a board that was without power while its grip was beside the
-  /// centre stays lost, with "counter jump" as its last_fault(): hold the grip at the centre, close
-  /// the device and open it anew.
+  /// and wrenches are rendered again. Only a board that was without power while its grip was beside
+  /// the centre stays lost, with "counter jump" as its last_fault(): hold the grip at the centre,
+  /// close the device and open it anew.
   kLost,
 };
 
@@ -62,7 +62,7 @@ struct Surface {
   /// N/m, above 0 and at most Capabilities::largest_stiffness_N_m.
   double stiffness_N_m = 200;
   double friction = 0.3;  ///< coefficient of static friction; that of kinetic friction is 0.8 of it
-  double texture = 0;     ///< how strongly the finest detail is felt as force to the side; 0: not
+  double texture = 0;  ///< how strongly the finest detail is rendered as force to the side; 0: not
 };
 
 /// Where the grip is in a tick, and how it moves.
@@ -183,7 +183,7 @@ class GST_SPIDAR_API Device {
   /// hand for long: the vibration of a day is limited (docs/safety.md).
   double vibration_fraction() const;
 
-  /// What the device is told to exert on the grip at present, after all limits, from the first
+  /// The wrench that is commanded to the grip at present, after all limits, from the first
   /// millisecond on: a device that is kOpening already pulls. Zero while it is kLost, and when its
   /// motors are off. Parts that the device cannot exert are zero: torques and the force towards the
   /// viewer (z) on joysticks, wheels, gamepads and the SPIDAR-mouse, and the vertical force (y) on

@@ -42,11 +42,11 @@ struct MotionSettings {
   double pointer_x = 0.5;
   /// The same, as a fraction of the height: 0 is the top of the picture, 1 its bottom.
   double pointer_y = 0.5;
-  /// How strongly growth is felt as force towards the viewer. With 1, growth counts as the speed
-  /// that it causes at half the picture's height from its centre; 0 turns it off. Finite, not
+  /// How strongly growth is rendered as force towards the viewer. With 1, growth counts as the
+  /// speed that it causes at half the picture's height from its centre; 0 turns it off. Finite, not
   /// negative.
   double depth_gain = 1;
-  /// How strongly roll is felt as torque about the view axis, in the same way.
+  /// How strongly roll is rendered as torque about the view axis, in the same way.
   double roll_gain = 1;
 };
 

@@ -118,7 +118,7 @@ class Device(_Handle):
         return self._call("device_vibration_fraction", c_double)
 
     def felt(self):
-        """The Wrench that the device is told to exert at present."""
+        """The Wrench that is commanded at present."""
         wrench = Wrench()
         self._call("device_felt", None, byref(wrench))
         return wrench
