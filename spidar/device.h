@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-/// What a link says of an exchange.
+/// What a link reports of an exchange.
 enum class LinkFault : uint8_t {
   kNone,         ///< answered
   kTimeout,      ///< no answer in time

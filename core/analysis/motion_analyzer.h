@@ -21,7 +21,7 @@ namespace spidar {
 /// move (MotionEstimator), which of these is felt, and with what wrench (ForceRenderer). One thread
 /// at a time.
 ///
-/// A frame that shows the previous picture again does not tell whether anything moves. It waits
+/// A frame that shows the previous picture again does not show whether anything moves. It waits
 /// (PictureKind::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 class MotionAnalyzer {

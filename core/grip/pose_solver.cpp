@@ -126,7 +126,7 @@ PoseResult PoseSolver::track_without_one(const StringVector& lengths_m,
   return result;
 }
 
-// Without an expectation only the residual tells, where it does.
+// Without an expectation only the residual can decide.
 PoseResult PoseSolver::locate_without_one(const StringVector& lengths_m,
                                           const Pose& start) const noexcept {
   PoseResult result = rejected(PoseStatus::kNotConverged);
@@ -225,8 +225,8 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
 }
 
 // The pose next to the expected one, without the string that is known to be at fault. Near the
-// walls of the frame, where the strings hardly tell one coordinate, steps stay long although the
-// lengths fit: what is as near as a hand can have moved the grip will do.
+// walls of the frame, where the strings hardly determine one coordinate, steps stay long although
+// the lengths fit: what is as near as a hand can have moved the grip will do.
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
   PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
   if (!fit.converged)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the element says on the bus when something is wrong that the video goes on without.
+/// What the element reports on the bus when something is wrong that does not stop the video.
 #pragma once
 
 #include <gst/gst.h>

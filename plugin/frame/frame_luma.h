@@ -30,7 +30,7 @@ namespace spidar {
 
 /// What becomes of each field of GstVideoInfo:
 ///
-/// - finfo, stride, offset: FrameLuma reads every format above as its caps and video meta say.
+/// - finfo, stride, offset: FrameLuma reads every format above as its caps and video meta describe.
 /// - interlace_mode, field order: FrameLuma takes the first field.
 /// - width, height: visible_part().
 /// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePixelResampler).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element tells of a frame, or of a piece of a haptic track, on the bus.
+/// What an element reports of a frame, or of a piece of a haptic track, on the bus.
 #pragma once
 
 #include <Eigen/Core>

@@ -70,7 +70,7 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
 
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop) {
   if (size_N(wrench) < kFeltForce_N) return NoForceReason::kSilentTrack;
-  // Before its first tick the loop has no limit to tell.
+  // Before its first tick the loop has no limit to report.
   const bool is_weak = loop && loop->counters.ticks > 0 && loop->last.max_force_N < kFeltForce_N;
   return is_weak ? NoForceReason::kTooWeak : NoForceReason::kNone;
 }
@@ -157,7 +157,7 @@ NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const 
   return frames_.reason(loop && loop->last.playing ? loop->last.running_ns : newest_ns_);
 }
 
-/// The last frame is on the screen. Without a device, nothing says when that is.
+/// The last frame is on the screen. Without a device, that moment is not known.
 bool NoForceWatch::has_ended(const std::optional<LoopSnapshot>& loop) const {
   return is_last_ && (!loop || loop->last.running_ns >= newest_ns_);
 }

@@ -41,15 +41,15 @@ struct DownstreamStep {
 /// The pads from an element to another one.
 using DownstreamPath = std::vector<DownstreamStep>;
 
-/// The way from `element` to the first one behind it, through bins, for which `wanted` says yes;
-/// empty without such. Links that change meanwhile end the search.
+/// The way from `element` to the first one behind it, through bins, for which `wanted` returns
+/// true; empty without such. Links that change meanwhile end the search.
 DownstreamPath find_path_downstream(GstElement* element,
                                     const std::function<bool(GstElement*)>& wanted);
 
 /// The same, from a source pad.
 DownstreamPath find_path_downstream(GstPad* source, const std::function<bool(GstElement*)>& wanted);
 
-/// Whether `wanted` says yes for an element before `sink`, through bins, on any branch.
+/// Whether `wanted` returns true for an element before `sink`, through bins, on any branch.
 bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted);
 
 /// The state of `element`, or the one that it is changing to.

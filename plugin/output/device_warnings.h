@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element says on the bus when something is wrong with its device.
+/// What an element reports on the bus when something is wrong with its device.
 #pragma once
 
 #include <exception>
@@ -29,7 +29,7 @@ class DeviceWarnings {
             const std::function<std::string()>& opens) const;
   /// The element begins: everything may be reported again.
   void start();
-  /// Looks at the device. False when the stream is to end, and then says why.
+  /// Looks at the device. False when the stream is to end, and then reports why.
   bool check(const HapticSession* session, OnDeviceError policy);
   /// Once a device: the haptic trace cannot be written any more.
   void check_haptic_trace(const HapticSession* session);

@@ -22,7 +22,7 @@ inline GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time)
              : GST_CLOCK_TIME_NONE;
 }
 
-/// As the caps say it; 0 where they do not.
+/// As the caps state it; 0 where they do not.
 GstClockTime nominal_duration(const GstVideoInfo& info);
 
 /// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its

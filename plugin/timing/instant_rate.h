@@ -19,7 +19,7 @@ inline bool is_time(GstClockTime running_time) {
 
 /// Running time at the sink of what has a running time here. They differ from an instant change of
 /// the rate on: segments stay as they are, and the sink shows frames closer together. The pipeline
-/// tells where the change takes place (INSTANT_RATE_SYNC_TIME, GStreamer's design document
+/// states where the change takes place (INSTANT_RATE_SYNC_TIME, GStreamer's design document
 /// "seeking", section "instant rate changes").
 class InstantRate {
  public:

@@ -17,9 +17,10 @@
 
 namespace spidar {
 
-/// Observes an element's clock and base time and says which running time is on the screen at which
-/// moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency, and the
-/// latency is part of the offset here, so the running time presented is clock − base time − offset.
+/// Observes an element's clock and base time and computes which running time is on the screen at
+/// which moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency,
+/// and the latency is part of the offset here, so the running time presented is clock − base time −
+/// offset.
 ///
 /// Not thread-safe: the owner holds one lock around it.
 class PlaybackSync {

@@ -23,7 +23,7 @@ struct FilmJob {
 struct FilmResult {
   std::string felt;     ///< how much of the film is felt, and why the rest is not
   std::string remark;   ///< what else is to be known of it; usually empty
-  std::string summary;  ///< what the track says of itself, as an object of JSON
+  std::string summary;  ///< of the track, as an object of JSON
 };
 
 /// Records the film of `job` into `part`. `tell` is called with the percentage that is done,

@@ -25,7 +25,7 @@ GstPadProbeReturn FilmProgress::passes(GstPad* frames, GstPadProbeInfo* info, gp
   auto& self = *static_cast<FilmProgress*>(user);
   if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
   if (self.film_ns_ <= 0) {
-    self.film_ns_ = -1;  // the container does not tell
+    self.film_ns_ = -1;  // the container does not state it
     return GST_PAD_PROBE_REMOVE;
   }
   const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));

@@ -74,7 +74,7 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   try {
     fingerprint = fingerprint_of(read_film(film).packets);
   } catch (const std::runtime_error& why) {
-    unread = why.what();  // decoding it may tell more
+    unread = why.what();  // decoding it may reveal more
   }
   FilmWatch watch;
   StoredSound stored;

@@ -98,7 +98,7 @@ TrackCondition find_track(const std::string& path, Film& film) {
   try {
     film = read_film(path);
   } catch (const std::runtime_error&) {
-    return found;  // reading the track will tell why
+    return found;  // reading the track will report why
   }
   found.film = path;
   if (film.has_track) return found;

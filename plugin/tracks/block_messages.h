@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a sink of haptic tracks tells on the bus.
+/// What a sink of haptic tracks reports on the bus.
 #pragma once
 
 #include <memory>

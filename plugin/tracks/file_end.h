@@ -14,7 +14,7 @@ enum class FilmEnd {
   kWhole,
   kAppended,  ///< whole, with something behind it that is no part of it
   kCutOff,    ///< within a chunk, a segment, a box or a page, or before the last page
-  kUnknown,   ///< the file does not say
+  kUnknown,   ///< the file does not state it
 };
 
 /// By what AVI, Matroska, WebM, MP4, QuickTime and Ogg say of their length. The demuxers of
@@ -23,10 +23,10 @@ enum class FilmEnd {
 FilmEnd film_end(const std::string& path);
 
 struct FileLength {
-  std::optional<int64_t> there_ns;  ///< nothing when the file does not tell without decoding
-  int64_t promised_ns = 0;          ///< by its head; 0: it does not say
+  std::optional<int64_t> there_ns;  ///< nothing when it is not known without decoding
+  int64_t promised_ns = 0;          ///< by its header; 0: not stated
   bool by_samples = false;          ///< both are exact: of WAV and FLAC
-  bool is_cut_off = false;          ///< as film_end() says
+  bool is_cut_off = false;          ///< as film_end() finds
 };
 
 FileLength file_length(const std::string& path);

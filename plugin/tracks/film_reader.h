@@ -65,7 +65,7 @@ struct Film {
   /// Stream time of the end of the last picture. Nothing when it cannot be found without reading
   /// the whole of a long film.
   std::optional<int64_t> end_ns;
-  int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not say
+  int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not state it
   int64_t frame_ns = 0;     ///< longest time between two pictures at the beginning
   bool has_track = false;   ///< a haptic track is inside the film
 };

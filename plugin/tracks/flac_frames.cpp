@@ -7,7 +7,7 @@
 namespace spidar {
 namespace {
 
-/// What the head says of all frames.
+/// What the header states for all frames.
 struct StreamInfo {
   uint64_t block_samples = 0;  ///< of all frames but the last, where they are equally long
   uint64_t rate_Hz = 0;

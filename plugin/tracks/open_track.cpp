@@ -270,7 +270,7 @@ std::unique_ptr<TrackOfFile> open_file(const std::string& path, bool only_notes,
     track->begin();
     if (track->is_chosen()) return track;
     if (!track->has_sound()) break;
-    // The other one tells why it is no track.
+    // The error of the other one explains why it is no track.
   }
   throw std::runtime_error("There is no haptic track in it, and no sound.");
 }

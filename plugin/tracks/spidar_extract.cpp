@@ -169,7 +169,7 @@ static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuf
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
   // No warning for a frame without a picture, nor for a single one: when two frames have the same
-  // time, spidarmotion analyses only the first, and says so.
+  // time, spidarmotion analyses only the first, and reports it.
   const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
   if (!is_missing) {
     g_atomic_int_set(&self->without_meta, 0);

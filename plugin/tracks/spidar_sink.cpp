@@ -113,7 +113,7 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
 }
 
 /// A stream of other sound, whose source does not ask first what is accepted, gets as far as
-/// set_caps(): the sentence there says more than a failed negotiation.
+/// set_caps(): the sentence there explains more than a failed negotiation.
 static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
   if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS)
     return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->query(sink, query);

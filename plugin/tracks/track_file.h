@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a haptic track says of itself in its metadata.
+/// The metadata of a haptic track.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads the track for a film in a thread of its own while it is played, and says whether it is
-/// felt.
+/// Reads the track for a film in a thread of its own while it is played, and decides whether it is
+/// rendered.
 #pragma once
 
 #include <chrono>

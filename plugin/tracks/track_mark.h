@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What says of a stream of sound that it is a haptic track.
+/// What marks a stream of sound as a haptic track.
 #pragma once
 
 #include <string>

@@ -181,8 +181,8 @@ void Window::Session::fail(const std::string& problem) {
   finish({false, ""});
 }
 
-/// Until the window has closed its end, or has had its time for that. False when it says what is no
-/// message.
+/// Until the window has closed its end, or has had its time for that. False when it sends what is
+/// no message.
 bool Window::Session::serve(Channel& channel) {
   std::optional<Clock::time_point> latest;
   while (!channel.is_gone()) {

@@ -18,7 +18,7 @@
 
 namespace spidar {
 
-/// Called on the thread of the Window only. messages.h says what is asked for.
+/// Called on the thread of the Window only. messages.h describes the requests.
 class WindowSource {
  public:
   virtual ~WindowSource() = default;

@@ -86,10 +86,10 @@ inline DacScale uart_dac(const Profile&) noexcept {
   return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
 }
 
-/// What the protocol of a board says about every board of its kind.
+/// What the protocol of a board defines for every board of its kind.
 struct BoardTraits {
   int dac_bits = 12;
-  double max_V = 0;      ///< of its D/A; 0: not published, the profile says it
+  double max_V = 0;      ///< of its D/A; 0: not published, the profile has it
   bool negative = true;  ///< whether it puts out negative volts
 };
 

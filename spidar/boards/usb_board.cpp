@@ -46,7 +46,7 @@ std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
   return found;
 }
 
-/// Whether the id tells which it is.
+/// Whether the id identifies the board.
 bool UsbSearch::is_clear(const std::vector<Candidate>& found) const {
   const UsbDeviceInfo& first = found.front().device;
   const bool by_name = !id_.empty() && (first.path == id_ || first.serial == id_);

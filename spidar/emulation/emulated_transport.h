@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Emulated boards, which answer as the descriptions of the real ones say, and the transport to
+/// Emulated boards, which answer as described for the real ones, and the transport to
 /// one.
 #pragma once
 

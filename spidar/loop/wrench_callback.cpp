@@ -81,7 +81,7 @@ Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noe
 
 void WrenchCallback::stop(State why) noexcept {
   Called* called = running_.load();
-  // If set() has taken it away already, there is nothing to tell.
+  // If set() has taken it away already, there is nothing to report.
   if (called_.compare_exchange_strong(called, nullptr))
     state_.store(why, std::memory_order_release);
 }

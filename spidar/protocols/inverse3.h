@@ -42,7 +42,7 @@ enum class Version {
   k35,  ///< the force is "vector", and a preset puts the origin into the middle of the workspace
 };
 
-/// What one message says about a device. Device frame: right, up, towards the viewer.
+/// What one message reports about a device. Device frame: right, up, towards the viewer.
 struct State {
   std::string id;
   Version version = Version::k31;

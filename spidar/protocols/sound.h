@@ -25,7 +25,7 @@ constexpr int kRampFrames = kRate_Hz / 1000 * kRamp_ms;
 /// A level that is not renewed for this time is followed by silence, as with guardians
 /// (kSilence_ms).
 constexpr int kSilence_ms = 50;
-/// The force for full level, as for sticks: amplifiers do not say how strong they are.
+/// The force for full level, as for sticks: amplifiers do not report how strong they are.
 constexpr double kFullForce_N = 3.0;
 /// What bass shakers and voice coils can do, and a hand or a back feels as one vibration.
 constexpr int kLowest_Hz = 20, kHighest_Hz = 120;

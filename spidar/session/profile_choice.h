@@ -3,7 +3,7 @@
 /// Which profile drives a device, and what is remembered of it.
 ///
 /// A profile that is wrong gives other forces than wanted, and may pull where it should let go:
-/// boards do not say which frame, motors and encoders are connected to them. So the motors of a
+/// boards do not report which frame, motors and encoders are connected to them. So the motors of a
 /// board get no force before somebody has named a profile for it, now or once with `spidarctl
 /// choose`.
 #pragma once

@@ -96,7 +96,7 @@ class Progress {
   int last_ = -1;
 };
 
-/// False when it is not as in the profile, or when interrupted; says so.
+/// False, with a message, when it is not as in the profile, or when interrupted.
 bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
   bool told = false;
   const Pace pace = [&, next = every_millisecond()] {

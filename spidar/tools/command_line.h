@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the command-line programs say when something is wrong, and how they end.
+/// What the command-line programs print when something is wrong, and how they end.
 #pragma once
 
 #include <cerrno>

@@ -97,7 +97,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return right ? kDone : kFailed;
 }
 
-/// A device that does not say where it is: whether these are felt, and where, only a person knows.
+/// A device that does not report its position: whether these are felt, and where, only a person
+/// knows.
 int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
   constexpr double kRise_s = 0.05, kPulse_s = 0.5;
   const GripAbilities can = chosen.grip->abilities();
@@ -125,7 +126,7 @@ int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return kDone;
 }
 
-/// Whether it takes a force and says where it is.
+/// Whether it takes a force and reports its position.
 bool answers_pushes(const ChosenDevice& chosen) {
   return chosen.grip && chosen.grip->abilities().position[0];
 }

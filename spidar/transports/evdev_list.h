@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lists force-feedback devices, and tells steering wheels from joysticks.
+/// Lists force-feedback devices, and distinguishes steering wheels from joysticks.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
   return bits[bit / 8] >> bit % 8 & 1;
 }
 
-/// Codes of an event type that the device supports; none when it does not tell.
+/// Codes of an event type that the device supports; none when it does not report them.
 template <size_t Bits>
 BitSet<Bits> codes(int file, unsigned type) noexcept {
   BitSet<Bits> bits{};
@@ -60,7 +60,7 @@ std::vector<EvdevInfo> list_force_feedback();
 /// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
 std::string evdev_driver(const std::string& path);
 
-/// What the kernel tells about an input device.
+/// What the kernel reports about an input device.
 struct EvdevTraits {
   uint16_t vendor = 0;
   uint16_t product = 0;
@@ -72,10 +72,10 @@ struct EvdevTraits {
 EvdevTraits evdev_traits(int file) noexcept;
 
 /// True when the second axis of the device is a pedal or a lever, not the other direction of a
-/// stick. Linux does not say so. On a wheel that is taken for a joystick, forces up and down turn
-/// the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases of
-/// doubt: a wheel is known by its USB ID, its name, an axis or a button that only wheels have, or
-/// by pedals. Joysticks have ABS_RZ, too, when they can be twisted, but seldom ABS_Z.
+/// stick. Linux does not report it. On a wheel that is taken for a joystick, forces up and down
+/// turn the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases
+/// of doubt: a wheel is known by its USB ID, its name, an axis or a button that only wheels have,
+/// or by pedals. Joysticks have ABS_RZ, too, when they can be twisted, but seldom ABS_Z.
 bool is_wheel(const EvdevTraits& traits) noexcept;
 
 }  // namespace spidar

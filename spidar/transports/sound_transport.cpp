@@ -108,7 +108,7 @@ struct SoundTransport::Pcm {
   }
 
   void configure(int least_channels);
-  /// What ALSA says, or 0.
+  /// What ALSA returns, or 0.
   int set_hardware(unsigned least_channels);
   int set_software();
 

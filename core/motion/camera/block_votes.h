@@ -11,8 +11,8 @@
 
 namespace spidar {
 
-/// What the frame before tells about the votes of this one. Vectors have one value for each block,
-/// or none after a cut.
+/// What is known from the frame before about the votes of this one. Vectors have one value for each
+/// block, or none after a cut.
 struct Past {
   /// How likely the block was not part of the background, 0 … 1.
   const std::vector<float>& persistence;

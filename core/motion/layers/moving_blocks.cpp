@@ -22,10 +22,10 @@ constexpr float kLeastVariance_grey2 = 0.5f;
 /// coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
 constexpr float kLeastDistance2 = 13;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
-/// is right to kMostOff_px. Nearer, the differences of pixels do not tell them apart.
+/// is right to kMostOff_px. Nearer, the differences of pixels do not separate them.
 constexpr float kDifferentPixels_px = 2 * kMostOff_px;
 /// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
-/// distribution: much of a scene is further from its model than the middle of it tells.
+/// distribution: much of a scene is further from its model than the middle of it suggests.
 constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise it would
 /// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
@@ -78,7 +78,7 @@ float least_worse(const BlockField& field, const MotionBlock& block) {
          kWorseFraction * static_cast<float>(block.difference);
 }
 
-/// Whether the pixels of a block tell its motion from the background's without any texture.
+/// Whether the pixels of a block separate its motion from the background's without any texture.
 bool pixels_tell(const BlockField& field, size_t index, const RelativeBlock& relative,
                  bool expected) {
   // Both are right to half a pixel.

@@ -19,7 +19,7 @@ namespace spidar {
 struct RelativeBlock {
   Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();       ///< against the background
   Eigen::Vector2f background_px = Eigen::Vector2f::Zero();  ///< motion of the background there
-  bool shows_motion = false;  ///< its texture, or its pixels, tell how it moves
+  bool shows_motion = false;  ///< its texture, or its pixels, determine its motion
   bool was_outside = false;   ///< most of it was outside of the film in the previous picture
   bool is_occluded = false;   ///< something burned in hides the film here, see BurnedIn::occludes()
   bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
@@ -40,10 +40,10 @@ bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 /// Compares each block with the background. A block moves by itself when its motion is further from
 /// the background's than its own error and the background's noise explain. The background's motion
 /// must also explain the pixels of a fast block clearly worse, and far worse if the block has no
-/// texture, as that of something out of focus. They do not tell motions of less than a pixel apart:
-/// a slow block must stand out from the parallax of the scene instead, unless the camera rests or
-/// an object is known there. While the motion of the background is unknown, no block is known to
-/// move by itself. A single block that stands out is an error unless it lasts.
+/// texture, as that of something out of focus. They do not separate motions that differ by less
+/// than a pixel: a slow block must stand out from the parallax of the scene instead, unless the
+/// camera rests or an object is known there. While the motion of the background is unknown, no
+/// block is known to move by itself. A single block that stands out is an error unless it lasts.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in

@@ -24,7 +24,7 @@ struct ObjectLife {
   };
 
   /// Position, motion and size in the last frame in which most of an object was visible. When only
-  /// a rim of it is left, the rim does not tell any of these.
+  /// a rim of it is left, the rim does not determine any of these.
   struct Expected {
     double blocks = 0;  ///< when nothing hides it
     Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
@@ -88,7 +88,7 @@ struct ObjectLife {
     high_px += moved_px;
   }
   /// It is then drawn towards the box around the blocks, from which it is never further away than a
-  /// block, because that is how well they tell where an edge is.
+  /// block, because that is how well they locate an edge.
   void draw_box_to(const Region& seen, double interval_s) {
     const double newest = interval_s / (kBoxSettles_s + interval_s);
     const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {

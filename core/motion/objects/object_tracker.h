@@ -45,8 +45,8 @@ class ObjectTracker {
   ObjectTracker();
 
   /// The result is valid until the next call and ordered by id. Ids count the objects that were in
-  /// a result, so that their number tells the next one. `background` is in pixels of the field's
-  /// picture.
+  /// a result, so that their number identifies the next one. `background` is in pixels of the
+  /// field's picture.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
 
   /// What the next frame's votes on the camera depend on.

@@ -40,7 +40,7 @@ class MotionChoice {
   void rules_changed() { is_read_ = false; }
   /// Whether read() has to come before the next frame.
   bool is_to_read() { return !is_read_.exchange(true); }
-  /// Reads what `feel` means, and says on the bus what is wrong with it. `sink` is asked for the
+  /// Reads what `feel` means, and reports on the bus what is wrong with it. `sink` is asked for the
   /// duration of the film.
   void read(const std::string& feel, GstPad* sink);
 

@@ -23,9 +23,9 @@ struct SinkMouse {
   double wheel = 0;    ///< notches, > 0 away from the user
 };
 
-/// What an event says that comes from downstream: elements that scale, crop or turn the picture
-/// have converted it to pixels of the frame. `source` is the pad that it comes to, whose caps are
-/// those of the frames. Nothing for other events and buttons.
+/// The content of an event that comes from downstream: elements that scale, crop or turn the
+/// picture have converted it to pixels of the frame. `source` is the pad that it comes to, whose
+/// caps are those of the frames. Nothing for other events and buttons.
 std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source);
 
 /// Moves point, and clicks of the left button keep what is there or let go. Thread-safe.

@@ -23,7 +23,7 @@ inline std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output) 
 }
 
 /// Makes the relief of a frame that was analysed, whose brightness is `luma` and which the sink
-/// shows at `shown_ns`. Fills in what the report says of touching. Streaming thread.
+/// shows at `shown_ns`. Fills in the fields of the report on touching. Streaming thread.
 inline void touch_frame(const PassingFrame& passing, const ImageView& luma, int64_t shown_ns,
                         const HapticOutput& output, ReliefStream& reliefs, FrameReport& report) {
   const TouchProperties& touch = passing.settings.touch;

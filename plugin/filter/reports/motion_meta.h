@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the element tells of a frame in the meta that travels with it.
+/// What the element reports of a frame in the meta that travels with it.
 #pragma once
 
 #include <gst/gst.h>

@@ -18,7 +18,7 @@ constexpr double kForceFraction = 0.3;
 constexpr ImU32 kRangeColor = IM_COL32(38, 43, 53, 255);
 /// Of a string's bar: half of its width, as a fraction of its room.
 constexpr double kHalfBar = 0.25;
-/// Of the axis, where a device says nothing of its motors.
+/// Of the axis, where a device reports nothing of its motors.
 constexpr double kLeastTension_N = 0.1;
 
 /// Blue at the smallest tension, red at the largest.

@@ -63,7 +63,7 @@ struct TimelineUse {
 TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
                           const ElementState& state, const FilmStrip& strip, bool has_unsaved);
 
-/// `note`: what the window has to say at the moment; may be empty.
+/// `note`: the window's message at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
                  const FrameReport& report, const std::string& note);
 

@@ -55,7 +55,7 @@ class PlayerLink {
 
   /// The player has closed the window, or is gone.
   bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }
-  /// Because it says what is no message, as one of another version does.
+  /// Because it sends what is no message, as one of another version does.
   bool is_not_understood() const { return is_not_understood_ || channel_->is_not_understood(); }
 
   /// Of the last answer.

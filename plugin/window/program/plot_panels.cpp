@@ -70,7 +70,7 @@ double largest_N(const std::vector<ForceColumn>& columns) {
   return largest_N;
 }
 
-/// Upper end of an axis of speed: fits what is plotted, whatever one frame says.
+/// Upper end of an axis of speed: fits what is plotted, whatever one frame has.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);

@@ -15,7 +15,7 @@ namespace spidar {
 /// may come with it. No function waits. One thread.
 class Channel {
  public:
-  /// More than any picture's report takes. The other end is broken if it says more.
+  /// More than any picture's report takes. The other end is broken if it sends more.
   static constexpr uint32_t kMostBytes = 64 << 20;
 
   /// Takes over the socket (AF_UNIX, SOCK_STREAM).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a player and its window say to each other.
+/// What a player and its window send to each other.
 ///
 /// The window asks for what it draws next (Ask). The player answers with the frames that have
 /// passed since, and then with the state of the element (ElementState). A window that is slow
@@ -21,8 +21,8 @@
 
 namespace spidar {
 
-/// To be raised when a message changes: a player and a window of different versions say so instead
-/// of misunderstanding each other.
+/// To be raised when a message changes: a player and a window of different versions report it
+/// instead of misunderstanding each other.
 constexpr uint16_t kWindowProtocol = 3;
 
 // --- to the window

@@ -54,7 +54,7 @@ class PictureSlots {
 /// The memory, which is read only.
 class MappedPictures {
  public:
-  /// Takes over the file. When it does not hold what the description says, is_there() is false.
+  /// Takes over the file. When it does not match the description, is_there() is false.
   MappedPictures(const PictureMemory& description, int file);
   ~MappedPictures();
   MappedPictures(const MappedPictures&) = delete;

@@ -48,7 +48,7 @@ struct Capabilities {
   /// Width, height and depth of the box around the centre that the grip is to stay in, m, and that
   /// a stick covers; 0 where its position is not measured.
   Vector3 workspace_m;
-  int buttons = 0;  ///< how many Device::buttons() tells, at most 32
+  int buttons = 0;  ///< how many Device::buttons() reports, at most 32
 };
 
 /// A relief that the grip touches from the front: the element's property `touch`.
@@ -215,7 +215,7 @@ class GST_SPIDAR_API Device {
 /// Names for Device(): what is plugged in, then the simulated ones. Opens nothing.
 GST_SPIDAR_API std::vector<std::string> list_devices();
 
-/// Names of the profiles that Device() knows, sorted.
+/// Names of the profiles that Device() accepts, sorted.
 GST_SPIDAR_API std::vector<std::string> list_profiles();
 
 }  // namespace v0

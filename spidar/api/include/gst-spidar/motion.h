@@ -61,7 +61,7 @@ struct MotionResult {
       false;  ///< false: nothing to compare with, and everything above is zero
 };
 
-/// Measures the motion of a picture and says what is to be felt of it, with the defaults of the
+/// Measures the motion of a picture and computes its wrench, with the defaults of the
 /// GStreamer element. All functions are for any thread: the library makes one call after another.
 /// Moving and destroying the object are not.
 class GST_SPIDAR_API MotionToWrench {
