@@ -80,6 +80,17 @@ TEST(MotionBounds, NanIsNoMotion) {
   }
 }
 
+TEST(CameraMotion, IsTheInverseOfWhatThePictureDoes) {
+  Background background;
+  background.model.kind = ModelKind::kSimilarity;
+  background.model.shift_px << 4, -2;
+  background.model.linear << 0.25, 0, 0, 0.25;
+  const ImageMotion camera = camera_motion(background, 100, 0.04);
+  EXPECT_EQ(camera.velocity_px_s, Eigen::Vector2d(-100, 50));
+  // A picture that grows by a quarter is seen by a camera that comes nearer by a fifth.
+  EXPECT_NEAR(camera.growth_1_s, -0.2 / 0.04, 1e-12);
+}
+
 TEST(DeadZone, IsThreeStandardErrorsOrAPartOfTheBound) {
   MovingObject object;
   object.error_px_s = 25;

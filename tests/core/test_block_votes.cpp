@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Which blocks vote on the motion of the camera, and how much each vote counts.
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/motion/camera/block_votes.h"
+#include "tests/core/field_film.h"
+#include "tests/support/texture.h"
+
+namespace spidar::test::block_votes_test {
+namespace {
+
+TEST(BlockVotes, CountTwiceInTheTwoColumnsAndRowsAtEachBorder) {
+  const Texture texture(1, 8);
+  BlockField field;
+  for (const double moved_px : {0.0, 4.0}) {
+    Picture picture(kFieldWidth, kFieldHeight);
+    picture.fill([&](double x, double y) { return texture.at(x - moved_px, y); });
+    PaddedImage padded;
+    reduce_blocks(picture.view(), 1, padded);
+    padded.repeat_border();
+    field.update(padded);
+  }
+  const std::vector<float> persistence;
+  const std::vector<uint8_t> burned_in;
+  BackgroundVotes votes;
+  collect_votes(field, {persistence, burned_in}, votes);
+  const BlockGrid& grid = field.grid();
+  const int inner = (grid.columns - 4) * (grid.rows - 4);
+  const int border = grid.columns * grid.rows - inner;
+  EXPECT_EQ(votes.all, inner + kBorderVotes * border);
+  double sum[2] = {};
+  int count[2] = {};
+  for (const BackgroundVote& vote : votes.cast) {
+    const int column = static_cast<int>(vote.source) % grid.columns;
+    const int row = static_cast<int>(vote.source) / grid.columns;
+    const bool at_border =
+        column < 2 || column >= grid.columns - 2 || row < 2 || row >= grid.rows - 2;
+    EXPECT_EQ(vote.at_border, at_border) << "column " << column << ", row " << row;
+    sum[at_border] += vote.weight;
+    ++count[at_border];
+  }
+  // The texture is alike everywhere; what comes into the picture fits less well.
+  EXPECT_GT(sum[true] / count[true], 1.5 * sum[false] / count[false]);
+}
+
+}  // namespace
+}  // namespace spidar::test::block_votes_test
