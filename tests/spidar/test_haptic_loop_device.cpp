@@ -127,8 +127,9 @@ TEST(HapticLoopDevice, LostAndBack) {
   driver.log().present = true;
   driver.log().answer = LinkFault::kNone;
   EXPECT_TRUE(driver.loop->reopen());
-  driver.tick(300 * kMs);
-  EXPECT_LT(largest_volt(driver.log().last_volts), 0.05);  // power and wrench from zero again
+  // Power and wrench begin at zero again.
+  EXPECT_LT(driver.tick(300 * kMs).commanded.force_N.norm(), 0.05);
+  EXPECT_LT(largest_volt(driver.log().last_volts), 0.05);
   EXPECT_EQ(driver.loop->snapshot().last.device, DeviceState::kOpening);
   EXPECT_EQ(driver.run(300 * kMs).commanded.force_N.x(), 1);
   EXPECT_EQ(driver.counters().times_lost, 1u);

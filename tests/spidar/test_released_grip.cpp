@@ -141,6 +141,22 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   EXPECT_FALSE(is_held_after(11));
 }
 
+TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
+  for (const bool is_faster : {false, true}) {
+    GripMotion motion;
+    GripBrake brake(0.03, 0);
+    for (int i = 0; i < 100; ++i) {
+      Pose pose;
+      pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
+      motion.see(pose, i * kTick_ns);
+      // No force has moved it: only the speed tells that there is no hand.
+      brake.see(pose.position_m, motion, 1e-3);
+    }
+    brake.apply({}, motion, 300, 1e-3);
+    EXPECT_EQ(brake.held(), !is_faster);
+  }
+}
+
 TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {
   GripBrake brake(0.03, 0);
   const Wrench wanted{{1, 0, 0}, {0, 0, 0}};

@@ -163,6 +163,16 @@ TEST(WrenchLimits, RestsInTimeHoweverLowTheSlewLimit) {
   EXPECT_EQ(commanded.force_N.norm(), 0);
 }
 
+TEST(WrenchLimits, WhatWasNotSentIsUndone) {
+  WrenchLimits safety;
+  for (int i = 0; i < 20; ++i) safety.apply(force(1, 0, 0), true, kTick_s, {});
+  const Wrench once = safety.apply(force(1, 0, 0), true, kTick_s, {});
+  for (int i = 0; i < 5; ++i) {
+    safety.undo();
+    EXPECT_EQ(safety.apply(force(1, 0, 0), true, kTick_s, {}).force_N, once.force_N) << i;
+  }
+}
+
 TEST(WrenchLimits, HoldsItsLimitsForAnySequence) {
   constexpr int kSeed = 20240501;
   std::mt19937_64 random(kSeed);

@@ -167,6 +167,9 @@ TEST(TouchLoop, IsAddedToTheFilmAndLimitedWithIt) {
     ASSERT_LE(record.commanded.force_N.norm(), SafetyLimits{}.max_force_N * (1 + 1e-12));
   }
   EXPECT_GT(hand.tick().contact.force_N.z(), 0.5);
+  // A second after the last frame, nothing of it is left.
+  const TickRecord later = hand.run(2000);
+  EXPECT_NEAR((later.wanted.force_N - later.contact.force_N).norm(), 0, 1e-12);
   // Deeper than the limit allows: the total is 3 N, in the direction of the sum.
   hand.hold(0, 0, -0.030);
   const TickRecord record = hand.run(500);

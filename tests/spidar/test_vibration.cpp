@@ -85,6 +85,19 @@ TEST(VibrationBudget, WeightsAsPublished) {
   }
 }
 
+TEST(VibrationBudget, ATorqueCountsAsTheForceAtTheRadiusOfTheGrip) {
+  constexpr double kRadius_m = 0.03;
+  Budget pushed(kRadius_m), turned(kRadius_m);
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double force_N = strobe_N(1e-3 * tick);
+    pushed.pass(push(force_N), 1e-3, tick * kTick_ns);
+    turned.pass({{0, 0, 0}, {kRadius_m * force_N, 0, 0}}, 1e-3, tick * kTick_ns);
+  }
+  EXPECT_GT(pushed.full_at_ns(), 1000 * kTick_ns);
+  // Each tick is rounded to a nanosecond.
+  EXPECT_NEAR(static_cast<double>(turned.full_at_ns() - pushed.full_at_ns()), 0, 1000);
+}
+
 TEST(VibrationBudget, AStepTakesItsEnergyOnceAndAConstantForceNothing) {
   Shaken hand;
   hand.budget.restore(200'000 * kTick_ns);  // the store does not become full
