@@ -138,17 +138,6 @@ TEST(TouchRendering, KeepsUpWithFramesThatAreAllLate) {
   }
 }
 
-TEST(TouchRendering, TheLastFrameHolds) {
-  Touched touched;
-  publish_plane(touched.mailbox, 0, 0);
-  touched.run(10 * kFrame);
-  for (int tick = 0; tick < 20000; ++tick) {
-    const Contact contact = touched.tick();
-    ASSERT_TRUE(contact.has_surface);
-    ASSERT_NEAR(contact.depth_m, 0.005, kRounding_m);
-  }
-}
-
 TEST(TouchRendering, NothingBeforeTheFirstFrameIsShown) {
   Touched touched;
   publish_plane(touched.mailbox, 100 * kMs, 0);

@@ -120,23 +120,5 @@ TEST_F(UsbFalcon, IsListedAndFoundByPathOrSerial) {
   EXPECT_EQ(opening(*grip()), "falcon: no Novint Falcon (0403:cb48) is plugged in");
 }
 
-/// An answer that comes after its exchange failed must not be taken for that of the next one.
-TEST_F(UsbFalcon, EveryFaultIsNamedAndPasses) {
-  UsbPort& port = plug_homed(0);
-  const auto falcon = grip();
-  ASSERT_EQ(opening(*falcon), "");
-  int moved_um = 0;
-  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kShort,
-                                LinkFault::kBabble, LinkFault::kBusError, LinkFault::kWrongReply}) {
-    port.fault = fault;
-    ASSERT_EQ(falcon->exchange(told(1)), fault);
-    EXPECT_EQ(falcon->health().count(fault), 1u) << to_string(fault);
-    port.fault = LinkFault::kNone;
-    port.count[0] = moved_um += 3000;
-    ASSERT_EQ(falcon->exchange(told(1)), LinkFault::kNone) << to_string(fault);
-    EXPECT_NEAR(falcon->reading().pose.position_m.x(), 1e-6 * moved_um, 5e-5) << to_string(fault);
-  }
-}
-
 }  // namespace
 }  // namespace spidar::test::usb_falcon_test

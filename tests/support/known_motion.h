@@ -62,8 +62,6 @@ class Film {
   /// Valid until the next call.
   ImageView draw(int frame);
 
-  /// Whether something in this frame was also in the previous one.
-  bool is_comparable(int frame) const { return frame != cut_at; }
   /// The position in this frame of what was at `from_px` (pixels of the previous frame).
   Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
   /// The same for an object relative to the background.

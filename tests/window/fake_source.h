@@ -34,9 +34,7 @@ class FakeSource final : public WindowSource {
   void set(const std::string& setting, double value) override {
     note([&] { sets_.emplace_back(setting, value); });
   }
-  void load_preset(const std::string& name) override {
-    note([&] { presets_.push_back(name); });
-  }
+  void load_preset(const std::string&) override {}
   /// Only what differs from before.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) override {
     note([&] {
@@ -65,7 +63,6 @@ class FakeSource final : public WindowSource {
 
   using Sets = std::vector<std::pair<std::string, double>>;
   Sets wait_for_sets(size_t count) { return wait_for(sets_, count); }
-  std::vector<std::string> wait_for_presets(size_t count) { return wait_for(presets_, count); }
   std::vector<bool> wait_for_plays(size_t count) { return wait_for(plays_, count); }
   std::vector<int64_t> wait_for_seeks(size_t count) { return wait_for(seeks_, count); }
   using Led = std::vector<std::optional<Eigen::Vector3d>>;
@@ -98,7 +95,6 @@ class FakeSource final : public WindowSource {
   std::condition_variable changed_;
   ElementState state_;
   Sets sets_;
-  std::vector<std::string> presets_;
   std::vector<bool> plays_;
   std::vector<int64_t> seeks_;
   Led led_;
