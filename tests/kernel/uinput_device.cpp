@@ -117,7 +117,7 @@ void UinputDevice::take_upload(uint32_t request) {
   if (upload_ms > 0) usleep(static_cast<unsigned>(1000 * upload_ms));
   const auto effect =
       ff::decode_effect({reinterpret_cast<const uint8_t*>(&upload.effect), sizeof upload.effect});
-  upload.retval = effect ? -upload_error : -EINVAL;
+  upload.retval = effect ? 0 : -EINVAL;
   if (upload.retval == 0) {
     Effect& kept = effect_[static_cast<size_t>(effect->number)];
     const int right = rounded(effect->right, ff::kFullLevel);

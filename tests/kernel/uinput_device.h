@@ -47,7 +47,6 @@ class UinputDevice {
   std::atomic<int> uploads{0};
   std::atomic<int> unchanged{0};
   std::atomic<int> upload_ms{0};       ///< that it takes for an upload
-  std::atomic<int> upload_error{0};    ///< errno of every upload; 0: none
   std::atomic<bool> uploading{false};  ///< an upload has begun and not ended
 
  private:
