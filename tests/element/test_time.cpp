@@ -118,15 +118,6 @@ TEST_F(Time, AnotherSegmentIsNoMotionButTheSameOneIs) {
   EXPECT_EQ(h.motions()[2].velocity_x, 0);
 }
 
-TEST_F(Time, GapIsNoMotion) {
-  h.push_moved(0, 0, 0);
-  h.push_moved(2, 0, kFrame);
-  gst_harness_push_event(h.harness(), gst_event_new_gap(2 * kFrame, 5 * kFrame));
-  h.push_moved(9, 0, 7 * kFrame);
-  ASSERT_EQ(h.motions().size(), 3u);
-  EXPECT_EQ(h.motions()[2].velocity_x, 0);
-}
-
 TEST_F(Time, AGapDoesNotStopTheFramesThatItHasOvertaken) {
   h.push_moved(0, 0, 0);
   h.push_moved(2, 0, kFrame);

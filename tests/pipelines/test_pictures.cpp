@@ -74,10 +74,6 @@ const Texture kOther(2, 7.0);
 /// Of one measurement: a tenth of a pixel (see test_frames.cpp), on 480 lines, over 40 ms.
 constexpr double kOne_px_s = 0.1 * 480 / kHeight / 0.04;
 
-TEST(Pictures, AStillPictureIsRest) {
-  expect_nothing_felt(10, [](int, int x, int y) { return kStill.at(x, y); });
-}
-
 TEST(Pictures, ACutIsNoKick) {
   // Both scenes move to the right, the second one half as fast. The force before the cut and after
   // it points there, too, so that no tick between the frames can point elsewhere.

@@ -105,23 +105,6 @@ TEST(Semantics, AnInstantChangeOfTheRateIsInTimeAndAsFast) {
   }
 }
 
-TEST(Semantics, InReverseTheForcePointsTheOtherWay) {
-  SteppedPipeline normal(kPlayer);
-  normal.set_state(GST_STATE_PLAYING);
-  const std::vector<Eigen::Vector3d> forwards_px_s = play(normal, 10);
-  SteppedPipeline pipeline(kPlayer);
-  pipeline.set_state(GST_STATE_PAUSED);
-  pipeline.seek(-1.0, GST_SEEK_FLAG_FLUSH, 0, 10 * kFrame);
-  pipeline.set_state(GST_STATE_PLAYING);
-  const std::vector<Eigen::Vector3d> backwards_px_s = play(pipeline, 10);
-  EXPECT_EQ(backwards_px_s[0].norm(), 0);
-  for (size_t n = 1; n < 10; ++n) {
-    // Between frames 10 − n and 9 − n.
-    EXPECT_LT((backwards_px_s[n] + forwards_px_s[10 - n]).norm(), kTolerance_px_s) << n;
-    EXPECT_GT(backwards_px_s[n].norm(), kMoves_px_s) << n;
-  }
-}
-
 TEST(Semantics, RunningTimesOfSeventyYears) {
   constexpr GstClockTime kYears = 70ull * 365 * 24 * 3600 * GST_SECOND;  // of 73, see is_time()
   SteppedPipeline pipeline(kPlayer);

@@ -25,16 +25,6 @@ void expect_something_felt(SteppedPipeline& pipeline) {
   EXPECT_GT(largest_N, 0.1);
 }
 
-TEST(Synchronisation, NonLive) {
-  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 20; ++n) {
-    SCOPED_TRACE(n);
-    expect_wrench_of_frame(pipeline, pipeline.step());
-  }
-  expect_something_felt(pipeline);
-}
-
 TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
   SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
@@ -52,25 +42,6 @@ TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
     EXPECT_GE(tick.wanted.force_N[axis], low_N - 1e-15);
     EXPECT_LE(tick.wanted.force_N[axis], high_N + 1e-15);
   }
-}
-
-TEST(Synchronisation, LiveWithLatency) {
-  SteppedPipeline pipeline("videotestsrc is-live=true " + kScene +
-                           "! queue ! fakesink name=sink sync=true processing-deadline=100000000");
-  pipeline.play_live();
-  pipeline.step();  // the source takes the first frame, which is shown 100 ms later
-  int shown = 0;
-  for (int n = 0; n < 40; ++n) {
-    SCOPED_TRACE(n);
-    const TickRecord tick = pipeline.step(2);
-    const GstClockTime running_time = pipeline.running_time();
-    if (running_time > 1000 * GST_SECOND || running_time % kFrame != 0)
-      continue;  // a source's step
-    ++shown;
-    expect_wrench_of_frame(pipeline, tick);
-  }
-  EXPECT_GT(shown, 10);
-  expect_something_felt(pipeline);
 }
 
 TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
@@ -106,63 +77,6 @@ TEST(Synchronisation, TheForceMovesWithThePictureWhenTheSinkHasAnOffset) {
   }
   gst_object_unref(sink);
   expect_something_felt(pipeline);
-}
-
-TEST(Synchronisation, NoForceBeforePlaying) {
-  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PAUSED);
-  pipeline.await_analysed(5);  // frames are analysed …
-  const TickRecord tick = pipeline.idle(300 * GST_MSECOND);
-  EXPECT_EQ(tick.found, Found::kNothing);  // … and none of them is felt
-  EXPECT_EQ(tick.commanded.force_N.norm(), 0);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 5; ++n) expect_wrench_of_frame(pipeline, pipeline.step());
-}
-
-TEST(Synchronisation, NoForceInPausedAndBackInTimeAfterwards) {
-  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 10; ++n) pipeline.step();
-  pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
-  EXPECT_GT(pipeline.idle(kFrame - GST_MSECOND).commanded.force_N.norm(), 0.01);
-  pipeline.set_state(GST_STATE_PAUSED);
-  const TickRecord paused = pipeline.idle(50 * GST_MSECOND);
-  EXPECT_FALSE(paused.playing);
-  EXPECT_EQ(paused.commanded.force_N.norm(), 0);
-  EXPECT_EQ(pipeline.idle(10 * GST_SECOND).commanded.force_N.norm(), 0);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 5; ++n) {
-    SCOPED_TRACE(n);
-    expect_wrench_of_frame(pipeline, pipeline.step());
-  }
-}
-
-TEST(Synchronisation, AfterAFlushingSeekNothingOfBefore) {
-  SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 10; ++n) pipeline.step();
-  pipeline.await();  // frame 9 has been let through, the sink waits with frame 10
-  pipeline.idle(kFrame - GST_MSECOND);
-  pipeline.seek(2 * GST_SECOND);
-  for (int n = 0; n < 5; ++n) {
-    SCOPED_TRACE(n);
-    const TickRecord tick = pipeline.step();
-    expect_wrench_of_frame(pipeline, tick);
-    // The seek itself is no motion.
-    if (n == 0) {
-      EXPECT_EQ(tick.wanted.force_N.norm(), 0);
-    }
-  }
-}
-
-TEST(Synchronisation, AtTheEndTheForceRunsOut) {
-  SteppedPipeline pipeline("videotestsrc num-buffers=6 " + kScene + kSink);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 6; ++n) pipeline.step();
-  EXPECT_GT(pipeline.wrenches().rbegin()->second.force_N.norm(), 0.1);
-  pipeline.await();  // the sink waits for the end of the last frame: EOS has come through
-  // The last frame lasts 40 ms; after that and the ramp there is nothing left.
-  EXPECT_EQ(pipeline.idle(kFrame + 50 * GST_MSECOND).commanded.force_N.norm(), 0);
 }
 
 }  // namespace

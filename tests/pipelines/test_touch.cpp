@@ -13,7 +13,6 @@
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/frame/touch_view.h"
 #include "tests/pipelines/touched_pipeline.h"
-#include "tests/support/rest_force.h"
 
 namespace spidar::test::touch_test {
 namespace {
@@ -53,28 +52,6 @@ TEST(Touch, DepthOfASecondStreamIsTouched) {
   EXPECT_NEAR(force_N / (500 * depth_m), 1, 0.005);
   // The step of an encoder is 22.5 µm, of which the pose has some.
   EXPECT_NEAR(surface_m, 0, 5e-5);
-}
-
-TEST(Touch, APlaneAtMidPictureIsStiffnessTimesDepth) {
-  const Profile profile = load_profile(kDefaultProfile);
-  for (const int stiffness_N_m : {300, 500, 800}) {
-    Touched touched(touched_film("pattern=solid-color foreground-color=0xff808080",
-                                 "touch=luma touch-stiffness=" + std::to_string(stiffness_N_m)));
-    touched.hold(0, 0, -0.009);
-    touched.play(50);
-    const double z_m = height_m(touched.luma(0.5, 0.5));
-    double force_N = 0;
-    double depth_m = 0;
-    constexpr int kTicks = 300;
-    for (int n = 0; n < kTicks; ++n) {
-      touched.wait(1);
-      const FeltState felt = touched.felt();
-      force_N += (felt.wrench.force_N - rest_force_N(profile, felt.pose)).z() / kTicks;
-      depth_m += (z_m - felt.pose.position_m.z()) / kTicks;
-    }
-    EXPECT_GT(depth_m, 0.002);
-    EXPECT_NEAR(force_N / (stiffness_N_m * depth_m), 1, 0.005) << stiffness_N_m;
-  }
 }
 
 /// What is not switched on changes nothing, to the last bit: wanted, commanded and delivered
