@@ -66,8 +66,10 @@ class ForceFeedbackBoard final : public ForceBoard {
     }
     if (!found.constant)
       return text + ", rumble only: the strength of the force is felt, not its direction";
-    if (force_axes_ > 1) return text + ", force feedback on two axes";
-    return text + ", force feedback on one axis: forces up and down are not felt";
+    text += force_axes_ > 1 ? ", force feedback on two axes" : ", force feedback on one axis";
+    if (found.axes_by_id) text += ", as its USB ID says";
+    if (force_axes_ < 2) text += ": forces up and down are not felt";
+    return found.autocentre ? text : text + "; its driver cannot switch a centring spring off";
   }
   GripAbilities abilities() const noexcept override {
     const int force = force_axes_, position = position_axes_;

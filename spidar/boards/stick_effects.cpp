@@ -45,7 +45,9 @@ std::string reason(const Transfer& transfer) {
       return why + "; close other programs that use its force feedback";
     case EINVAL:
     case ENOSYS:
-      return why + "; its driver does not support this effect, a newer kernel may";
+      return why +
+             "; its driver does not support this effect, a newer kernel may: hid-pidff drives "
+             "more devices since Linux 6.15";
     default:
       return why + "; plug the device in again, and look for messages of its driver in dmesg";
   }

@@ -46,6 +46,7 @@ struct Description {
   uint8_t buttons = 0;     ///< how many of them a position has, at most 32
   /// The driver turns autocentre on when the device is plugged in; other drivers turn it off.
   uint8_t starts_centred = 0;
+  uint8_t axes_by_id = 0;  ///< the number of axes follows from its USB ID
   std::array<char, 80> name{};
 };
 

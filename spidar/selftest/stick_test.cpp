@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/selftest/stick_test.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/selftest/hold.h"
 
@@ -9,6 +12,8 @@ namespace spidar {
 namespace {
 
 constexpr double kRamp_s = 0.05, kPush_s = 0.15, kReturn_s = 0.3, kAverage_s = 0.02;
+/// Slow drivers need up to this time before the device follows, and positions are smoothed.
+constexpr double kSettle_s = 0.05;
 
 bool average(ForceHold& hold, Eigen::Vector3d& position_m) {
   position_m.setZero();
@@ -22,13 +27,40 @@ bool average(ForceHold& hold, Eigen::Vector3d& position_m) {
   return whole;
 }
 
-bool push(ForceHold& hold, const Eigen::Vector3d& force_N, double& moved_m) {
-  Eigen::Vector3d before_m, after_m;
+/// Means of four pushes, along the force.
+struct Pushes {
+  double moved_m = 0;  ///< how far it moved
+  double place_m = 0;  ///< where it was then, from its middle: where that is cancels in the mean
+  double back_m = 0;   ///< how far it went back when the force had ended
+};
+
+bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
+  Eigen::Vector3d before_m, pushed_m, let_go_m, after_m;
   if (!average(hold, before_m) || !hold.go(force_N, kRamp_s) || !hold.stay(kPush_s) ||
+      !average(hold, pushed_m) || !hold.go(Eigen::Vector3d::Zero(), kRamp_s) ||
+      !hold.stay(kSettle_s) || !average(hold, let_go_m) || !hold.stay(kReturn_s) ||
       !average(hold, after_m))
     return false;
-  moved_m += force_N.normalized().dot(after_m - before_m);
-  return hold.go(Eigen::Vector3d::Zero(), kRamp_s) && hold.stay(kReturn_s);
+  const Eigen::Vector3d along = force_N.normalized();
+  const double pushed_by_m = along.dot(pushed_m - before_m),
+               let_go_at_m = along.dot(let_go_m - before_m);
+  // A strong spring has pulled it back when the force ends; without one, it moves on until then.
+  const Eigen::Vector3d farthest_m =
+      std::abs(pushed_by_m) > std::abs(let_go_at_m) ? pushed_m : let_go_m;
+  mean.moved_m += along.dot(farthest_m - before_m) / 4;
+  mean.place_m += along.dot(farthest_m) / 4;
+  mean.back_m += along.dot(farthest_m - after_m) / 4;
+  return true;
+}
+
+/// A stick whose friction grows with its speed goes back by the fraction 1 − exp(−k t/c) of its way
+/// in the time t, where k is the spring and c the friction. In the time T of the push, a force F
+/// had moved it by (1 − exp(−k T/c)) F/k. There, the spring pulls with 1 − exp(−k T/c) of F.
+double spring_that_pulls_back(double fraction) {
+  // Ramps count half, at both ends of the push.
+  constexpr double kPushed_s = kRamp_s + kPush_s + kAverage_s;
+  constexpr double kReturned_s = kReturn_s + kAverage_s;  // between the middles of two averages
+  return 1 - std::pow(1 - std::clamp(fraction, 0.0, 1.0), kPushed_s / kReturned_s);
 }
 
 }  // namespace
@@ -37,17 +69,22 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   StickTest test;
   ForceHold hold(grip, pace);
   const GripAbilities can = grip.abilities();
+  test.description = grip.description();
   test.complete = hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s);
   if (test.complete && !grip.reading().knows_pose())
     throw DeviceError(grip.name() + ": " + to_string(grip.reading().trouble));
   for (size_t axis = 0; axis < test.moved_m.size(); ++axis) {
     if (!can.direction || !can.force[axis]) continue;
-    double moved_m = 0;
-    for (const double side : {1.0, -1.0, -1.0, 1.0}) {
-      const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
-      test.complete = test.complete && push(hold, side * push_N * along, moved_m);
-    }
-    test.moved_m[axis] = moved_m / 4;
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    Pushes mean;
+    for (const double side : {1.0, -1.0, -1.0, 1.0})
+      test.complete = test.complete && push(hold, side * push_N * along, mean);
+    test.moved_m[axis] = mean.moved_m;
+    const double least = StickTest::kLeast_m / std::abs(mean.place_m);
+    test.least_spring[axis] = spring_that_pulls_back(least);
+    const double back = mean.back_m / mean.place_m;
+    if (std::abs(mean.moved_m) >= StickTest::kLeast_m && back >= least)
+      test.spring[axis] = spring_that_pulls_back(back);
   }
   hold.go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
   return test;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether a device that takes a force moves in the direction of that force.
+/// Whether a device that takes a force moves in the direction of that force, and whether a spring
+/// pulls it back.
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "spidar/grip/grip.h"
 #include "spidar/selftest/hold.h"
@@ -17,12 +19,18 @@ struct StickTest {
   /// How far it moved along the force, as a grip, in metres: right, up, towards the viewer. A
   /// positive axis is right; a negative one answers against the force.
   std::array<double, 3> moved_m{};
-  bool complete = false;  ///< false: ended early by the pace
+  /// Force of a spring that pulls it back, at the place to which the push moves it from its middle,
+  /// as a fraction of the push. 0: none was found. Friction of the stick makes it look weaker.
+  std::array<double, 3> spring{};
+  /// The weakest one that would have been found, because it moves the stick back by kLeast_m.
+  std::array<double, 3> least_spring{};
+  std::string description;  ///< of the open device
+  bool complete = false;    ///< false: ended early by the pace
 };
 
 /// Pushes four times along each axis that the device has, for 0.2 s: to one side, twice to the
-/// other, and back, so that a drift cancels. Throws DeviceError when the device is lost, or does
-/// not know where it is.
+/// other, and back, so that a drift cancels. Lets it go for 0.3 s after each. Throws DeviceError
+/// when the device is lost, or does not know where it is.
 StickTest test_stick(Grip& grip, const Pace& pace, double push_N);
 
 }  // namespace spidar

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/grip/picture_size.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
@@ -14,6 +15,7 @@
 #include "spidar/selftest/delay_test.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
+#include "spidar/selftest/stick_report.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/selftest/wiring_report.h"
 #include "spidar/session/device_factory.h"
@@ -49,23 +51,12 @@ void write(const SelftestOptions& options, const Profile& profile, const WiringR
 }
 
 bool is_stick(const std::string& device) {
-  return device == "ff" || device.compare(0, 3, "ff:") == 0;
+  return device == "ff" || device == "sim:ff" || device.compare(0, 3, "ff:") == 0;
 }
 
 const char* side_of(double moved_m) {
   if (moved_m >= StickTest::kLeast_m) return "moves with the force";
   return moved_m <= -StickTest::kLeast_m ? "moves against the force" : "does not move";
-}
-
-/// Advice for a stick whose driver pushes to the other side, or not at all.
-void advise_on_stick(bool x, bool y) {
-  const std::string sides = std::string(x ? "x" : "") + (y ? "y" : "");
-  if (sides.empty())
-    std::cout << "An axis that does not move is not tested. Let go of the stick, or try more "
-                 "strength: ff:PATH,gain=50\n";
-  else
-    std::cout << "Its driver pushes to the other side. Write flip=" << sides
-              << ": device=ff:PATH,flip=" << sides << '\n';
 }
 
 constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
@@ -85,15 +76,15 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
     return kInterrupted;
   }
   const GripAbilities can = chosen.grip->abilities();
+  if (stick)
+    std::cout << test.description << '\n'
+              << stick_report(test, can, half_picture_m(chosen.profile.geometry), options.device);
   bool right = true;
-  std::array<bool, 3> against{};
   for (size_t axis = 0; axis < kSides.size(); ++axis) {
     if (!can.force[axis]) continue;
-    std::cout << kSides[axis] << "  " << side_of(test.moved_m[axis]) << '\n';
+    if (!stick) std::cout << kSides[axis] << "  " << side_of(test.moved_m[axis]) << '\n';
     right = right && test.moved_m[axis] >= StickTest::kLeast_m;
-    against[axis] = test.moved_m[axis] <= -StickTest::kLeast_m;
   }
-  if (stick && !right) advise_on_stick(against[0], against[1]);
   return right ? kDone : kFailed;
 }
 
@@ -230,9 +221,9 @@ void add_selftest(Program& program) {
       "how stiff a surface may be.\n\n"
       "Of a device without strings, determines whether it moves in the direction of the force:\n"
       "pushes it to each side for 0.2 s, four times. Hold its grip loosely at the centre. Of a\n"
-      "joystick or wheel (ff), likewise, with half of the force that its gain allows. Take the\n"
-      "hand away. A device without a position, such as a sound card, gets a pulse in each\n"
-      "direction, which only you can feel.\n\n"
+      "joystick or wheel (ff), likewise, with half of the force that its gain allows, and whether\n"
+      "a spring pulls it back although it is switched off. Take the hand away. A device without a\n"
+      "position, such as a sound card, gets a pulse in each direction, which only you can feel.\n\n"
       "Exit status: 0 the wiring is as in the profile, 1 it is not, or drive_lag_s is too small "
       "or\n"
       "was not found, or not confirmed, or no device, 2 wrong usage, 130 interrupted.");

@@ -103,14 +103,16 @@ std::string evdev_driver(const std::string& path) {
 namespace {
 
 /// Vendor and product of wheels and wheel bases with force feedback: the wheels of the kernel's
-/// drivers hid-universal-pidff and hid-lg4ff (drivers/hid/hid-ids.h, Linux 6.15), and of SDL 3.2
-/// (initial_wheel_devices in SDL_joystick.c). A vendor is not enough: most of them also make
-/// joysticks or pedals.
+/// drivers hid-universal-pidff, hid-lg4ff and hid-tmff (drivers/hid/hid-ids.h and hid-tmff.c, Linux
+/// 6.15), of SDL 3.2 (initial_wheel_devices in SDL_joystick.c), and of
+/// https://github.com/JacKeTUs/linux-steering-wheels (its table, and its issue 24). A vendor is not
+/// enough: most of them also make joysticks or pedals.
 constexpr uint32_t kWheels[] = {
     0x0079'1864,  // DragonRise
-    0x044f'b65d, 0x044f'b65e, 0x044f'b664, 0x044f'b669, 0x044f'b66d, 0x044f'b66e, 0x044f'b66f,
-    0x044f'b677, 0x044f'b67f, 0x044f'b691, 0x044f'b692, 0x044f'b696,  // Thrustmaster
-    0x045b'59d7,                                                      // FFBeast
+    0x044f'b605, 0x044f'b653, 0x044f'b654, 0x044f'b65a, 0x044f'b65d, 0x044f'b65e, 0x044f'b664,
+    0x044f'b669, 0x044f'b66d, 0x044f'b66e, 0x044f'b66f, 0x044f'b677, 0x044f'b67f, 0x044f'b691,
+    0x044f'b692, 0x044f'b696,  // Thrustmaster
+    0x045b'59d7,               // FFBeast
     0x046d'c24f, 0x046d'c260, 0x046d'c261, 0x046d'c262, 0x046d'c266, 0x046d'c267, 0x046d'c268,
     0x046d'c269, 0x046d'c26d, 0x046d'c26e, 0x046d'c272, 0x046d'c293, 0x046d'c294, 0x046d'c295,
     0x046d'c298, 0x046d'c299, 0x046d'c29a, 0x046d'c29b, 0x046d'c29c, 0x046d'ca03,
@@ -120,20 +122,25 @@ constexpr uint32_t kWheels[] = {
     0x0583'b018,  // Padix
     0x0eb7'0001, 0x0eb7'0004, 0x0eb7'0005, 0x0eb7'0006, 0x0eb7'0007, 0x0eb7'0011, 0x0eb7'0020,
     0x0eb7'0197, 0x0eb7'038e, 0x0eb7'0e03,  // Fanatec
+    0x10f5'7077,                            // Turtle Beach VelocityOne Race
     0x11ff'0511, 0x11ff'1112, 0x11ff'1211, 0x11ff'1212, 0x11ff'2141,
     0x11ff'3245,                                                      // Lite Star, PXN
     0x1209'ffb0,                                                      // OpenFFBoard
     0x16d0'0d5a, 0x16d0'0d5f, 0x16d0'0d60, 0x16d0'0d61,               // Simucube
+    0x1fc9'804c,                                                      // SimXperience AccuForce Pro
     0x2433'f300, 0x2433'f301, 0x2433'f303, 0x2433'f306,               // Asetek
     0x3416'0301, 0x3416'0302,                                         // Cammus
     0x346e'0000, 0x346e'0002, 0x346e'0004, 0x346e'0005, 0x346e'0006,  // MOZA
     0x346e'0010, 0x346e'0012, 0x346e'0014, 0x346e'0015, 0x346e'0016,
 };
 
-bool has_wheel_id(const EvdevTraits& traits) noexcept {
-  const uint32_t id = uint32_t{traits.vendor} << 16 | traits.product;
-  return std::find(std::begin(kWheels), std::end(kWheels), id) != std::end(kWheels);
-}
+/// Joysticks that have neither "stick" in their name nor only two axes.
+constexpr uint32_t kJoysticks[] = {
+    0x045b'58f9,  // FFBeast; "the second joystick axis" in the kernel's hid-universal-pidff.c
+    // MOZA AB9 and AB6 FFB Base: https://github.com/bobhelander/EDForceFeedback/pull/36
+    0x346e'1000,
+    0x346e'1002,
+};
 
 bool has_pedals(const EvdevTraits& traits) noexcept {
   if (has(traits.axes, ABS_GAS) || has(traits.axes, ABS_BRAKE)) return true;
@@ -156,10 +163,19 @@ EvdevTraits evdev_traits(int file) noexcept {
   return traits;
 }
 
+int axes_by_id(const EvdevTraits& traits) noexcept {
+  const uint32_t id = uint32_t{traits.vendor} << 16 | traits.product;
+  const auto is_in = [id](const auto& ids) {
+    return std::find(std::begin(ids), std::end(ids), id) != std::end(ids);
+  };
+  return is_in(kWheels) ? 1 : is_in(kJoysticks) ? 2 : 0;
+}
+
 bool is_wheel(const EvdevTraits& traits) noexcept {
-  return has_wheel_id(traits) || strcasestr(traits.name.data(), "wheel") ||
-         has(traits.axes, ABS_WHEEL) || has(traits.keys, BTN_GEAR_DOWN) ||
-         has(traits.keys, BTN_GEAR_UP) || has_pedals(traits);
+  const int known = axes_by_id(traits);
+  if (known != 0) return known == 1;
+  return strcasestr(traits.name.data(), "wheel") || has(traits.axes, ABS_WHEEL) ||
+         has(traits.keys, BTN_GEAR_DOWN) || has(traits.keys, BTN_GEAR_UP) || has_pedals(traits);
 }
 
 }  // namespace spidar

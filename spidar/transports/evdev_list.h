@@ -71,6 +71,9 @@ struct EvdevTraits {
 
 EvdevTraits evdev_traits(int file) noexcept;
 
+/// How many axes have a force, where the USB ID says so: 1 for a wheel, 2 for a joystick; else 0.
+int axes_by_id(const EvdevTraits& traits) noexcept;
+
 /// True when the second axis of the device is a pedal or a lever, not the other direction of a
 /// stick. Linux does not report it. On a wheel that is taken for a joystick, forces up and down
 /// turn the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases

@@ -132,6 +132,7 @@ void EvdevTransport::find_buttons(const EvdevTraits& traits) {
 
 void EvdevTransport::find_axes(const std::string& path, const EvdevTraits& traits) {
   right_axis_ = has(traits.axes, ABS_X) ? ABS_X : has(traits.axes, ABS_WHEEL) ? ABS_WHEEL : -1;
+  axes_by_id_ = axes_ == 0 && axes_by_id(traits) != 0;
   const bool two = axes_ == 0 ? !is_wheel(traits) : axes_ == 2;
   up_axis_ = has(traits.axes, ABS_Y) && two ? ABS_Y : -1;
   if (axes_ != 2 || (right_axis_ >= 0 && up_axis_ >= 0)) return;
@@ -149,6 +150,7 @@ ff::Description EvdevTransport::describe() const noexcept {
   description.gain = has(bits, FF_GAIN);
   description.autocentre = has(bits, FF_AUTOCENTER);
   description.starts_centred = starts_centred_;
+  description.axes_by_id = axes_by_id_;
   int effects = 0;
   call_ioctl(file_, EVIOCGEFFECTS, &effects);
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));

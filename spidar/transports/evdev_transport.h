@@ -47,6 +47,8 @@ class EvdevTransport final : public Transport {
   const int axes_;
   int file_ = -1;
   bool starts_centred_ = false;
+  /// The number of axes follows from the USB ID.
+  bool axes_by_id_ = false;
   int right_axis_ = -1;  ///< ABS_…; −1: none
   int up_axis_ = -1;
   std::vector<uint16_t> buttons_;  ///< BTN_…, in the order in which they are counted

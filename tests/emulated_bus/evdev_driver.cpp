@@ -46,6 +46,7 @@ void reset(EvdevPort& port) {
   port.upload_ms = port.upload_error = 0;
   port.query_error = port.event_error = port.setting_error = 0;
   port.failing = -1;
+  port.keeps_spring = false;
   port.expires = port.hangs = port.cuts_events = port.signals = false;
 }
 

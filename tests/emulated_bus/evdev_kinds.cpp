@@ -12,7 +12,8 @@ namespace spidar::test {
 
 bool is_constant(EvdevKind kind) {
   return kind == EvdevKind::kStick || kind == EvdevKind::kWheel || kind == EvdevKind::kWheelBase ||
-         kind == EvdevKind::kPedalBase || kind == EvdevKind::kOneAxis;
+         kind == EvdevKind::kPedalBase || kind == EvdevKind::kOneAxis ||
+         kind == EvdevKind::kFlightBase;
 }
 
 std::vector<unsigned> ff_bits(EvdevKind kind) {
@@ -25,6 +26,8 @@ std::vector<unsigned> ff_bits(EvdevKind kind) {
       return {FF_CONSTANT, FF_GAIN, FF_AUTOCENTER};
     case EvdevKind::kOneAxis:
       return {FF_CONSTANT, FF_AUTOCENTER};
+    case EvdevKind::kFlightBase:
+      return {FF_CONSTANT, FF_GAIN};
     case EvdevKind::kPad:
       return {FF_RUMBLE};
     default:
@@ -36,7 +39,8 @@ std::vector<unsigned> abs_bits(EvdevKind kind) {
   if (kind == EvdevKind::kWheel) return {ABS_X, ABS_Y};  // the second is a pedal
   if (kind == EvdevKind::kKeyboard) return {};
   if (kind == EvdevKind::kOneAxis) return {ABS_X};
-  if (kind == EvdevKind::kPedalBase) return {ABS_X, ABS_Y, ABS_Z, ABS_RZ};
+  if (kind == EvdevKind::kPedalBase || kind == EvdevKind::kFlightBase)
+    return {ABS_X, ABS_Y, ABS_Z, ABS_RZ};
   if (kind == EvdevKind::kStick) return {ABS_X, ABS_Y, ABS_RZ, ABS_THROTTLE};  // it can be twisted
   return {ABS_X, ABS_Y};
 }
@@ -60,6 +64,8 @@ const char* name_of(EvdevKind kind) {
       return "Emulated Base";
     case EvdevKind::kOneAxis:
       return "Emulated Dial";
+    case EvdevKind::kFlightBase:
+      return "MOZA AB9 FFB Base";
     default:
       return "Emulated Keyboard";
   }
@@ -67,6 +73,7 @@ const char* name_of(EvdevKind kind) {
 
 UsbId usb_id_of(EvdevKind kind) {
   if (kind == EvdevKind::kWheelBase) return {0x346e, 0x0004};
+  if (kind == EvdevKind::kFlightBase) return {0x346e, 0x1000};
   return {0x1209, static_cast<uint16_t>(kind)};
 }
 

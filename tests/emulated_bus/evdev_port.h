@@ -23,6 +23,8 @@ enum class EvdevKind : int {
   kWheelBase,
   kPedalBase,  ///< a wheel that only its pedals give away
   kOneAxis,    ///< FF_CONSTANT without gain, and only ABS_X
+  /// A joystick that only its USB ID tells from a wheel, and whose driver has no autocentre.
+  kFlightBase,
 };
 
 /// An input device, as /dev/input/eventN with its number. Any process may change any member at any
@@ -69,6 +71,8 @@ struct EvdevPort {
   std::atomic<int> setting_error{0};     ///< of gain and autocentre
   std::atomic<bool> cuts_events{false};  ///< accepts only half of every event
   std::atomic<bool> signals{false};      ///< a signal interrupts every other call
+  /// The stick centres itself, whatever autocentre is.
+  std::atomic<bool> keeps_spring{false};
 
  private:
   friend class EvdevDriver;

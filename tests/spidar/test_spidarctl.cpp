@@ -188,7 +188,9 @@ TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
   expect_contains(felt.text, "heard after 30 ms\n");
   const CommandResult held = run_spidarctl("selftest sim:ff");
   EXPECT_EQ(held.status, 1);
-  expect_contains(held.text, "right    does not move\n");
+  expect_contains(held.text,
+                  "emulated stick at 20 % of its strength, force feedback on two axes\n");
+  expect_contains(held.text, "right    does not move: no force arrives, or ");
 }
 
 TEST(Spidarctl, MonitorShowsTheGrip) {

@@ -51,6 +51,10 @@ TEST(IsWheel, KnowsAxesButtonsNamesAndIds) {
   wingman.vendor = 0x046d;
   wingman.product = 0xc293;
   EXPECT_TRUE(is_wheel(wingman));
+  EvdevTraits thrustmaster = traits("Thrustmaster FGT", {ABS_X, ABS_Y});
+  thrustmaster.vendor = 0x044f;
+  thrustmaster.product = 0xb654;
+  EXPECT_TRUE(is_wheel(thrustmaster));
 }
 
 TEST(IsWheel, JoysticksAreNone) {
@@ -100,6 +104,22 @@ TEST_F(Wheels, AreKnownByTheirIdOrTheirPedals) {
     EXPECT_FALSE(port.effect[1].used);
     EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   }
+}
+
+TEST_F(Wheels, WhatTheIdSaysIsDescribedAndCanBeOverridden) {
+  const auto described = [](EvdevKind kind, const std::string& option) {
+    plug_evdev(0, kind);
+    return FeltPlayer("ff:/dev/input/event0" + option).session->grip().description();
+  };
+  constexpr const char* kSpring = "; its driver cannot switch a centring spring off";
+  EXPECT_EQ(described(EvdevKind::kWheelBase, ""),
+            "MOZA R5 Base at 20 % of its strength, force feedback on one axis, as its USB ID says: "
+            "forces up and down are not felt");
+  EXPECT_EQ(described(EvdevKind::kWheelBase, ",axes=2"), std::string("MOZA R5 Base") + kTwoAxes);
+  EXPECT_EQ(described(EvdevKind::kFlightBase, ""),
+            std::string("MOZA AB9 FFB Base") + kTwoAxes + ", as its USB ID says" + kSpring);
+  EXPECT_EQ(described(EvdevKind::kFlightBase, ",axes=1"),
+            std::string("MOZA AB9 FFB Base") + kOneAxis + kSpring);
 }
 
 TEST_F(Wheels, TheNumberOfAxesCanBeNamed) {
