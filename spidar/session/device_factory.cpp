@@ -67,11 +67,12 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   if (kinds.empty() || !name.has_end || (kinds[0]->needs_rest() && name.rest.empty())) {
     // Only an element does without a device, or chooses one: this is not asked about these names.
     const bool is_elements = text == "none" || text == "auto";
-    throw DeviceError((is_elements ? "\"" + text + "\" is not a device"
-                                   : "unknown device \"" + text + "\"" +
-                                         (kinds.empty() ? meant_device(name.device) : "")) +
-                          "; known are: " + known_names(!is_elements),
-                      DeviceTrouble::kSettings);
+    throw DeviceError(
+        (is_elements ? "\"" + text + "\" is not a device"
+                     : "unknown device \"" + text + "\"" +
+                           (kinds.empty() && name.has_end ? meant_device(name.device) : "")) +
+            "; known are: " + known_names(!is_elements),
+        DeviceTrouble::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());
