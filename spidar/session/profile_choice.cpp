@@ -50,7 +50,7 @@ void require_plugged_in(const std::string& device) {
     if (access(path.c_str(), F_OK) == 0) continue;
     const int error = errno;
     throw DeviceError(device + ": " + path + ": " + std::strerror(error) +
-                          "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…",
+                          "; serial lines have names such as /dev/ttyUSB0 and /dev/serial/by-id/…",
                       trouble_of(error));
   }
 }
@@ -173,12 +173,12 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 }
 
 void require_serial(const BoardInfo& board, const std::string& profile) {
+  require_plugged_in(board.device);
   if (board.path.empty())
-    throw DeviceError(
-        board.device +
-            ": no such board is plugged in, or it is one of several; name it by its bus "
-            "path or serial number, which spidarctl list prints",
-        DeviceTrouble::kAbsent);
+    throw DeviceError(board.device +
+                          ": is one of several boards; name it by its bus path or serial "
+                          "number, which spidarctl list prints",
+                      DeviceTrouble::kSettings);
   if (board.serial.empty())
     throw DeviceError(
         board.device +

@@ -82,8 +82,8 @@ int choose(const DeviceOptions& options) {
   if (options.profile.empty())
     throw UsageError("choose needs --profile NAME. " + fitting_text(board));
   if (!board.memory_trouble.empty()) throw ProfileError(board.memory_trouble);
-  require_serial(board, options.profile);
   ChosenDevice chosen = choose_device(options, Motors::kOff);
+  require_serial(board, options.profile);
   catch_signals();
   HandMoves moves;
   if (!move_by_hand(chosen, moves)) return kInterrupted;

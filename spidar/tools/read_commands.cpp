@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarctl list and info.
+#include <algorithm>
 #include <array>
 #include <iomanip>
 #include <iostream>
 #include <limits>
 
 #include "spidar/selftest/report_text.h"
+#include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
 #include "spidar/transports/tty_transport.h"
@@ -58,7 +60,15 @@ int list(const ListOptions& options) {
     return kDone;
   }
   std::cout << "devices\n";
-  for (const Json& board : found["devices"]) {
+  const Json& devices = found["devices"];
+  const bool any_real = std::any_of(devices.begin(), devices.end(), [](const Json& board) {
+    return !is_simulated(text_of(board, "device"));
+  });
+  if (!any_real) {
+    std::cout << "  none is plugged in: no board on USB, no joystick or gamepad with force "
+                 "feedback, no sound card\n";
+  }
+  for (const Json& board : devices) {
     const std::string serial = text_of(board, "serial"), note = text_of(board, "note");
     std::cout << "  " << std::left << std::setw(12) << text_of(board, "device") << "  "
               << text_of(board, "board") << "; " << text_of(board, "evidence")

@@ -94,7 +94,8 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
     advice =
         "; join the group of that file (dialout), or name the adapter in the udev rule "
         "70-spidar.rules";
-  if (error == ENOENT) advice = "; serial lines are /dev/ttyUSB0, /dev/serial/by-id/…";
+  if (error == ENOENT)
+    advice = "; serial lines have names such as /dev/ttyUSB0 and /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice, trouble_of(error),

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -33,6 +34,8 @@ TEST(Spidarctl, HelpAndListSucceed) {
   EXPECT_EQ(json.status, 0);
   expect_contains(json.text, "\"device\": \"sim:uart\"");
   expect_contains(json.text, "\"evidence\": \"emulated\"");
+  const bool any_real = std::regex_search(json.text, std::regex("\"device\": \"(?!sim)"));
+  EXPECT_EQ(list.text.find("none is plugged in") != std::string::npos, !any_real) << list.text;
 }
 
 TEST(Spidarctl, WrongUsageIsNamed) {
@@ -92,6 +95,9 @@ TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
       {"monitor sim:sh4 --profile spidar-gcc", "wants negative volts"},
       {"zero uart:/no/such/line", "/no/such/line"},
       {"selftest sim --write-profile /no/such/folder/a.toml", "cannot be written"},
+      {"choose usb --profile nobody", "unknown profile \"nobody\""},
+      {"choose usbs --profile spidar-g6c", "unknown device \"usbs\"; did you mean usb?"},
+      {"choose usb:nowhere --profile spidar-g6c", "is plugged in"},
       {"calibrate sim --profile nobody", "unknown profile \"nobody\""},
       {"calibrate sim --output /no/such/folder/a.toml", "cannot be written"},
   };

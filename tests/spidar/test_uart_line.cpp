@@ -161,8 +161,8 @@ TEST_F(UartLines, OpenSaysWhatIsWrong) {
     }
   };
   EXPECT_EQ(opening("uart:/nowhere/tty"),
-            "uart:/nowhere/tty: cannot be opened: No such file or directory; serial lines are "
-            "/dev/ttyUSB0, /dev/serial/by-id/…");
+            "uart:/nowhere/tty: cannot be opened: No such file or directory; serial lines have "
+            "names such as /dev/ttyUSB0 and /dev/serial/by-id/…");
   EXPECT_NE(opening("uart:/dev/null").find("it is no serial line"), std::string::npos)
       << opening("uart:/dev/null");
   UartLine line({first_motors, {}});
