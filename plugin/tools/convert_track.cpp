@@ -88,6 +88,18 @@ size_t channel_of(const std::string& axis) {
   return kUsualAxis;
 }
 
+/// What is to be known of the channel of a funscript, as a line; empty: nothing.
+std::string about_axis(const TrackSummary& summary, size_t axis, bool is_chosen) {
+  const size_t liveliest = liveliest_channel(summary);
+  const std::string name = channel_name(axis);
+  if (summary.channels[liveliest].peak == 0) return "the whole track is at rest\n";
+  if (summary.channels[axis].peak == 0) {
+    return "axis " + name + " is at rest; --axis " + channel_name(liveliest) +
+           " has the most motion\n";
+  }
+  return is_chosen ? "" : "axis " + name + ", which has the most motion; --axis chooses another\n";
+}
+
 /// What TO is for is not a grip, and has a range of its own instead of newtons.
 bool has_own_range(const std::string& to) {
   return ends_with(to, ".ahap") || ends_with(to, ".funscript");
@@ -142,10 +154,9 @@ int convert_track(const ConvertOptions& options) {
   expect_own_track(condition);
   save.notes = condition.notes;
   const TrackSummary summary = summariser.summary();
-  if (ends_with(to, ".funscript") && options.axis.empty()) {
-    save.axis = liveliest_channel(summary);
-    std::cout << "axis " << channel_name(save.axis)
-              << ", which has the most motion; --axis chooses another\n";
+  if (ends_with(to, ".funscript")) {
+    if (options.axis.empty()) save.axis = liveliest_channel(summary);
+    std::cout << about_axis(summary, save.axis, !options.axis.empty());
   }
   if (has_own_range(to)) {
     save.gain = options.gain.value_or(filling_gain(to, summary, save.axis));
