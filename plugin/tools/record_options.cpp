@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -57,6 +58,36 @@ std::string why_refused(const TypedProperty& property, size_t films) {
   }
   if (contains(kAnalysis, name)) return {};
   return "changes nothing in a track; these properties do: " + list_of_analysis();
+}
+
+/// With the properties of a preset, as it sets them after those before it, in place of its name.
+/// What they are checked for, parse_record_properties() does. Throws PropertyError for an unknown
+/// preset.
+std::vector<std::string> without_presets(GstElement* element,
+                                         const std::vector<std::string>& words) {
+  std::vector<std::string> result;
+  for (const std::string& word : words) {
+    const std::optional<std::string> preset = preset_of(word);
+    if (!preset) {
+      const TypedProperty property(G_OBJECT(element), word);
+      // Which a preset does not raise.
+      if (property.name() == "max-force")
+        g_object_set_property(G_OBJECT(element), "max-force", property.value());
+      result.push_back(word);
+      continue;
+    }
+    load_preset(element, *preset);
+    for (const std::string name : kAnalysis) {
+      if (name == "feel" || name == "pointer") continue;  // no preset has them
+      GValue value = G_VALUE_INIT;
+      g_object_get_property(G_OBJECT(element), name.c_str(), &value);
+      gchar* const text = gst_value_serialize(&value);
+      result.push_back(name + "=" + text);
+      g_free(text);
+      g_value_unset(&value);
+    }
+  }
+  return result;
 }
 
 /// One line of settings; a value with spaces is in quotes.
@@ -222,8 +253,8 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
         "GStreamer finds no spidarmotion; set GST_PLUGIN_PATH to the folder of libgstspidar.so");
   }
   std::map<std::string, std::string> settings;  // the last one of a name counts
-  for (const std::string& word : words) {
-    try {
+  try {
+    for (const std::string& word : without_presets(element.get(), words)) {
       const TypedProperty property(G_OBJECT(element.get()), word);
       const std::string refused = why_refused(property, films);
       if (!refused.empty()) throw UsageError(word + ": " + refused);
@@ -237,12 +268,18 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
         properties = with_rules(properties, "");
         settings = split(properties.settings);
       }
-    } catch (const std::runtime_error& error) {
-      throw UsageError(error.what());
     }
+  } catch (const std::runtime_error& error) {
+    throw UsageError(error.what());
   }
   properties.settings = one_line(settings);
   return properties;
+}
+
+void expect_no_property(const std::string& film, const std::string& command) {
+  if (film.find('=') == std::string::npos || fs::exists(film)) return;
+  throw UsageError(film + ": there is no such film; properties follow --: spidartrack " + command +
+                   " -- " + film);
 }
 
 FilmList list_films(const std::vector<std::string>& names) {
@@ -273,11 +310,7 @@ fs::path RecordOptions::file_of(const ListedFilm& film) const {
 
 void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
-  for (const std::string& film : names) {
-    if (film.find('=') == std::string::npos || fs::exists(film)) continue;
-    throw UsageError(
-        film + ": there is no such film; properties follow --: spidartrack record FILM -- " + film);
-  }
+  for (const std::string& film : names) expect_no_property(film, "record FILM");
   FilmList list = list_films(names);
   options.films = std::move(list.films);
   options.left_out = std::move(list.left_out);

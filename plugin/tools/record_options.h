@@ -23,10 +23,14 @@ struct RecordProperties {
 /// read.
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film);
 
-/// `words` are of the form PROPERTY=VALUE. Throws UsageError, which says what would be right, for
-/// those that do not change what a track contains, or would make it one of zeros;
+/// `words` are of the form PROPERTY=VALUE, or preset=NAME. Throws UsageError, which says what would
+/// be right, for those that do not change what a track contains, or would make it one of zeros;
 /// std::runtime_error when GStreamer has no spidarmotion.
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
+
+/// Throws UsageError for what looks like a property where a film is expected: `command` is what
+/// comes before the dashes.
+void expect_no_property(const std::string& film, const std::string& command);
 
 struct ListedFilm {
   std::string path;

@@ -85,7 +85,7 @@ A film that has a track is left out, so that a command that was interrupted goes
 is given again. A track of another film, or one that was recorded with other properties, is
 an error; --force replaces it.
 
-Properties of spidarmotion that change the force come last, after two dashes:
+Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes:
   spidartrack record FILM.mp4 -- motion=camera max-force=2)");
     app->add_option("FILM", films_, "films, and folders of films")->required()->type_name("");
     app->add_option("-j,--jobs", record_.jobs,
@@ -203,14 +203,17 @@ An existing TO is replaced when the new file is complete. Prints what TO cannot 
 of objects, the force as an arrow with its newtons, and the curve of the force over the last
 five seconds. Of several sounds, the first is kept.
 
-Properties of spidarmotion that change the force come last, after two dashes:
+Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes:
   spidartrack show FILM.mp4 SHOWN.mp4 -- motion=camera)");
     app->add_option("FILM", show_.film, "a film")->required()->type_name("");
     app->add_option("TO", show_.to, "the film to write; its name ends in .mp4 or .mkv")
         ->required()
         ->type_name("");
+    app->add_option("PROPERTY", misplaced_)->group("");
   }
   int show() {
+    for (const std::string& word : misplaced_) expect_no_property(word, "show FILM TO");
+    if (!misplaced_.empty()) throw CLI::ExtrasError(misplaced_);
     show_.properties = with_rules(parse_record_properties(properties_, 1), show_.film);
     return show_film(show_);
   }
@@ -235,7 +238,7 @@ track inside the film or beside it. Browsers do not play all films; most play H.
   CLI::App app_{"Records, inspects, checks, converts, plots and shows haptic tracks.",
                 "spidartrack"};
   RecordOptions record_;
-  std::vector<std::string> films_, properties_;
+  std::vector<std::string> films_, properties_, misplaced_;
   InfoOptions info_;
   CheckOptions check_;
   ConvertOptions convert_;

@@ -77,6 +77,19 @@ class ShownFilm(track_case.TrackCase):
         self.assertGreater(max(outlines), 100)
         self.assertEqual([orange(rows) for rows in before[10::10]], [0] * len(outlines))
 
+    def test_properties_follow_two_dashes_and_presets_are_among_them(self):
+        self.make_sounding("film.avi")
+        self.assert_said("max-force=2: there is no such film; properties follow --: spidartrack show FILM TO -- max-force=2",
+                         "show", "film.avi", "shown.mp4", "max-force=2", status=2)
+        self.assert_said("not expected: more.mp4", "show", "film.avi", "shown.mp4", "more.mp4", status=2)
+        self.assert_said('there is no preset "gentel"; known are', "show", "film.avi", "shown.mp4", "--", "preset=gentel",
+                         status=2)
+        self.spidartrack("show", "film.avi", "shown.mp4", "--", "preset=gentle")
+        self.spidartrack("record", "film.avi", "--", "preset=gentle", "motion=camera")
+        # A track with the same settings is kept, and one with others is refused.
+        self.spidartrack("record", "film.avi", "--", "max-force=1", "motion=camera")
+        self.spidartrack("record", "film.avi", "--", "motion=camera", status=1)
+
     def test_sound_that_the_container_takes_is_copied(self):
         self.make_sounding("film.mov", "! avenc_aac", "qtmux")
         for name in ("shown.mp4", "shown.mkv"):
