@@ -35,6 +35,8 @@ std::string text_of(GstMessage* message, const std::string& missing = "") {
       g_error_matches(error, GST_CORE_ERROR, GST_CORE_ERROR_MISSING_PLUGIN) ||
       g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_CODEC_NOT_FOUND);
   if (is_missing && !missing.empty()) text = "a plug-in of GStreamer is missing: " + missing;
+  if (g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_TYPE_NOT_FOUND))
+    text = "it is damaged, or of a format that GStreamer does not know";
   g_error_free(error);
   return text;
 }

@@ -53,6 +53,11 @@ class Files(track_case.TrackCase):
         # As much of each, but for what fits into the queues of GStreamer (2 MB); the whole has 245 MB more.
         self.assertLess(read["long.wav"], read["short.wav"] + 3_000_000)
 
+    def test_a_file_of_no_known_format_is_named_as_such(self):
+        self.path("broken.mp4").write_bytes(bytes(range(128, 256)) * 1000)
+        for command in (["info", "broken.mp4"], ["show", "broken.mp4", "shown.mp4"], ["export", "broken.mp4", "page.html"]):
+            self.assert_said("broken.mp4: it is damaged, or of a format that GStreamer does not know", *command)
+
     def test_what_is_printed_does_not_go_into_a_file(self):
         self.make_film()
         self.spidartrack("record", "film.avi")
