@@ -233,22 +233,6 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
   }
 }
 
-TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
-  const auto device = make_device("usb", load_profile(kUsbProfile));
-  device->open();
-  for (int times = 0; times < 3; ++times) {
-    exchange_until(*device, one_volt(), [&] { return !port.at_rest(); });
-    exchange_until(*device, {}, [&] { return port.at_rest(); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(2 * kSilence_ms));
-  }
-  DeviceReading reading;
-  wait_for([&] { return device->exchange(one_volt(), reading) != LinkFault::kTimeout; });
-  EXPECT_EQ(device->health().count(LinkFault::kUnguarded), 0u);
-  device->close();
-  clear_bus();
-}
-
 TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
   UsbPort& port = plug(0, UsbKind::kMouse);
   Victim victim("mouse", "spidar-g6x3-v1-r");
