@@ -112,5 +112,25 @@ TEST(Rest, NothingJumpsBetweenItAndAWrench) {
   }
 }
 
+// A string may have broken then, and the others pull until they are at rest.
+TEST(Rest, IsReachedAtAQuarterOfTheRampWhenThePoseIsLost) {
+  const Profile profile = load_profile("spidar-g6c");
+  TensionCommand command(profile);
+  const Wrench full{{2, 0, 0}, {0, 0, 0.01}};
+  const StringVector most_N =
+      command.solve(structure_matrix(profile.geometry, {}), full, profile.max_tension_N());
+  const StringVector rest_N = profile.min_tension_N();
+  ASSERT_GT((most_N - rest_N).norm(), 1);
+  for (const double pace : {1.0, TensionCommand::kLostPace}) {
+    for (const double gone : {0.0, 0.1, 0.25, 0.5}) {
+      const double left = std::max(0.0, 1 - pace * gone);
+      const StringVector expected_N = rest_N + left * (most_N - rest_N);
+      // Rounding of sums of some 10 N.
+      EXPECT_LE((command.fade((1 - gone) * full, pace) - expected_N).norm(), 1e-12)
+          << pace << ", " << gone;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::rest_test
