@@ -39,5 +39,22 @@ TEST_P(TensionSolverHard, IsSolvedToRounding) {
 
 INSTANTIATE_TEST_SUITE_P(All, TensionSolverHard, testing::Range(0, kTensionCases));
 
+// After a step that was rejected, one string is released, so that no set of free strings comes
+// twice. These problems are not solved when none is; they are rare.
+TEST(TensionSolverRejected, EndsWhereStepsAreRejected) {
+  constexpr struct {
+    unsigned seed;
+    int problem;
+  } kRare[] = {{1019, 100}, {1079, 344}, {1158, 1745}, {1240, 1682}};
+  for (const auto& [seed, problem] : kRare) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    for (int n = 0; n < problem; ++n) random_problem(random, TensionCase::kTinyEpsilon);
+    const TensionProblem p = random_problem(random, TensionCase::kTinyEpsilon);
+    TensionSolver solver;
+    check(p, solver.solve(p));
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::tension_hard_test
