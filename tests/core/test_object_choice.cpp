@@ -203,6 +203,29 @@ std::vector<MovingObject> objects_at(const std::vector<Disc>& discs, int n) {
   return objects;
 }
 
+TEST(ObjectChoice, OfTwoAtAPositionTheSmallerOneIsMeant) {
+  const auto here_px = [](double) { return Vector2d(0, 0); };
+  const Disc front{24, here_px}, behind{45, here_px};
+  for (const uint32_t id : {1u, 2u}) {
+    FollowedObject followed;
+    followed.begin({0, 0}, 0);
+    const auto objects = objects_at({id == 1 ? front : behind, id == 1 ? behind : front}, 0);
+    EXPECT_EQ(followed.see(objects, kHeight, kFrame_s, nullptr), &objects[id - 1]);
+  }
+}
+
+TEST(ObjectChoice, OneThatComesBackWithAnotherIdWhereItWouldBeIsTheSame) {
+  const Disc runner = {10, [](double n) { return Vector2d(-100 + 10 * n, 0); }};
+  FollowedObject followed;
+  followed.begin(runner.centre_px(0), 0);
+  for (int n = 0; n <= 8; ++n) {
+    std::vector<MovingObject> objects;
+    if (n <= 4 || n == 8) objects = objects_at({runner}, n);
+    if (n == 8) objects[0].id = 7;
+    EXPECT_EQ(followed.see(objects, kHeight, kFrame_s, nullptr) != nullptr, !objects.empty()) << n;
+  }
+}
+
 /// When somebody changes other rules of the file while the film plays.
 TEST(ObjectChoice, ARuleThatIsThereAsBeforeGoesOnWithItsObject) {
   Player player({small(), large()});
