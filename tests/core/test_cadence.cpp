@@ -68,6 +68,16 @@ TEST(Cadence, LearnsTheIntervalFromTheSecondRepetitionOn) {
   }
 }
 
+TEST(Cadence, LearnsTheIntervalAnewAtAnotherRateOfPlayback) {
+  Cadence cadence;
+  intervals_ms(cadence, 48, 120, 240);
+  const std::vector<double> found = intervals_ms(cadence, 24, 60, 60);
+  // From the fourth picture on; a line through five times, see above.
+  for (size_t i = 3; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], 1e3 / 24, 1.5 / 4 * 1e3 / 60) << i;
+  }
+}
+
 TEST(Cadence, WaitsForAsLongAsThePictureBeforeWasShown) {
   // A cartoon drawn on threes.
   constexpr int64_t kFrame_ns = 41'666'667;
