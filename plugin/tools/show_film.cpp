@@ -22,7 +22,7 @@ namespace spidar {
 namespace {
 
 /// Upright, because the arrow and the curve are drawn into pictures as they are shown.
-constexpr const char* kAnalysis =
+constexpr const char* kDrawnFilm =
     "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
     "videoflip video-direction=auto ! spidarmotion name=motion device=none overlay=curve ! ";
 
@@ -70,7 +70,7 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   FilmWatch watch;
   KeptSound sound;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
-  const FilePipeline file(kAnalysis + film_encoder(part), options.film, nullptr, kSlowShare);
+  const FilePipeline file(kDrawnFilm + film_encoder(part), options.film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, options.properties);
   const FilmEnd end = film_end(options.film);
