@@ -144,6 +144,20 @@ TEST_F(ObjectMetas, HaveTheBoxAndTheVelocityOfEachObject) {
   EXPECT_EQ(felt, 1);
 }
 
+TEST_F(ObjectMetas, OfTheFeltObjectTheMessageHasTheErrorToo) {
+  open("attach-meta=true");
+  const std::vector<Region> regions = regions_after(12);
+  double last_px_s = -1;
+  while (GstMessage* const message = gst_bus_pop(GST_ELEMENT_BUS(h_->element()))) {
+    if (gst_message_has_name(message, "spidar-motion"))
+      gst_structure_get_double(gst_message_get_structure(message), "velocity-error", &last_px_s);
+    gst_message_unref(message);
+  }
+  ASSERT_EQ(regions.size(), 3u);
+  ASSERT_NE(regions[1].error_px_s, regions[2].error_px_s);
+  EXPECT_EQ(last_px_s, regions[regions[1].felt ? 1 : 2].error_px_s);
+}
+
 TEST_F(ObjectMetas, AreThereOnlyWhenAskedFor) {
   open("");
   EXPECT_EQ(regions_after(12).size(), 2u) << "those that came with the frame";
