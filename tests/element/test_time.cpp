@@ -138,6 +138,16 @@ TEST_F(Time, AGapDoesNotStopTheFramesThatItHasOvertaken) {
   EXPECT_EQ(h.motions()[4].velocity_x, 0);
 }
 
+TEST_F(Time, AGapLastsFromTheFirstOfItsEvents) {
+  h.push_moved(0, 0, 0);
+  h.push_moved(2, 0, kFrame);
+  gst_harness_push_event(h.harness(), gst_event_new_gap(2 * kFrame, kFrame));
+  gst_harness_push_event(h.harness(), gst_event_new_gap(5 * kFrame, kFrame));
+  h.push_moved(8, 0, 4 * kFrame);
+  ASSERT_EQ(h.motions().size(), 3u);
+  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+}
+
 TEST_F(Time, FramesWithoutTimestampAreShownAndWarnedAboutOnce) {
   for (int n = 0; n < 3; ++n) {
     EXPECT_EQ(h.push_moved(2 * n, 0, GST_CLOCK_TIME_NONE), GST_FLOW_OK);
