@@ -27,8 +27,9 @@ build() {
     if [[ ! -f $top/build/build.ninja ]]; then
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
-    # The guardian is needed by real boards, and docs/start.md goes on with spidar-feel.
-    local targets=(plugin/libgstspidar{,feel}.so plugin/spidar-feel spidar/spidar-guardian examples/play/play)
+    # The guardian is needed by real boards, and docs/start.md goes on with the others.
+    local targets=(plugin/libgstspidar{,feel}.so plugin/{spidar-feel,spidartrack} spidar/{spidar-guardian,tools/spidarctl}
+        examples/play/play)
     # The debug window is a program of its own, if there are the libraries for it.
     ! grep -q '^build plugin/spidar-window:' "$top/build/build.ninja" || targets+=(plugin/spidar-window)
     if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then

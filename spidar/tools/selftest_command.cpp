@@ -79,6 +79,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   if (stick)
     std::cout << test.description << '\n'
               << stick_report(test, can, half_picture_m(chosen.profile.geometry), options.device);
+  if (stick && is_simulated(options.device))
+    std::cout << "This one is simulated, with a hand that holds it: nothing is wrong.\n";
   bool right = true;
   for (size_t axis = 0; axis < kSides.size(); ++axis) {
     if (!can.force[axis]) continue;

@@ -197,6 +197,7 @@ TEST(Spidarctl, SelftestPushesWhatTakesAForce) {
   expect_contains(held.text,
                   "emulated stick at 20 % of its strength, force feedback on two axes\n");
   expect_contains(held.text, "right    does not move: no force arrives, or ");
+  expect_contains(held.text, "with a hand that holds it: nothing is wrong.\n");
 }
 
 TEST(Spidarctl, MonitorShowsTheGrip) {
