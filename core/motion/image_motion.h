@@ -34,8 +34,8 @@ struct DeadZone {
   /// Chosen for little loss of force, not derived: on films, the part of the error that changes
   /// from frame to frame had a standard error of 1/25 of the bound against points whose noise is
   /// known. In rendered clips with noise and coding it is 0.06 to 0.85 of it, and an object that is
-  /// slower than the bound may tremble. With the whole bound as the dead zone, `adaptive` loses a
-  /// fifth of its force on films.
+  /// slower than the bound may tremble. With the whole bound as the dead zone, `adaptive` loses 16
+  /// % of its median force on films.
   static constexpr double kOfBound = kSigmas / 25;
   /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
   /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed
