@@ -76,7 +76,7 @@ std::vector<MotionRow> feel_rows() {
             "nonlinear"},
            {ControllerKind::kAdaptive,
             "Adaptive: nonlinear, with an alpha that follows the speeds of the scene (a tenth to "
-            "ten times the one that is set) and no force below the measurement's noise",
+            "ten times the one that is set) and a dead zone for slow motions",
             "adaptive"}},
           kControllable, KEPT_IN(analyzer.controller.kind)),
       with(

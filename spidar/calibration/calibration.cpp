@@ -101,8 +101,8 @@ double correlation_factor(const Fit& fit) {
 
 /// The standard deviation of the combination of parameters that the samples determine worst,
 /// relative to that of a length, if the errors of successive samples are independent. Infinite
-/// where nothing is told. The pose of each sample is eliminated by an orthogonal projection, which
-/// is the Schur complement of bundle adjustment as a square root: it stays accurate where the
+/// where they determine nothing. The pose of each sample is eliminated by an orthogonal projection,
+/// which is the Schur complement of bundle adjustment as a square root: it stays accurate where the
 /// information matrix is singular and its inverse does not exist.
 double largest_sd(const Fit& fit) {
   // Singular values below this fraction of the largest one are rounding errors.

@@ -62,12 +62,11 @@ std::string stick_report(const StickTest& test, const GripAbilities& can,
   }
   if (still)
     text +=
-        "An axis that does not move is not tested. Let go of the stick, switch on its power "
-        "supply\n"
-        "and, if it has one, its high-torque mode, and try more strength: ff:PATH,gain=50. dmesg\n"
-        "shows messages of its driver. If fftest and ffmvforce of the package joystick do not "
-        "move\n"
-        "it either, try Linux 6.15 or newer, whose hid-pidff drives more devices.\n";
+        "An axis that does not move is not tested. Let go of the stick, switch on its power\n"
+        "supply and, if it has one, its high-torque mode, and try more strength:\n"
+        "ff:PATH,gain=50. dmesg shows messages of its driver. If fftest and ffmvforce of the\n"
+        "package joystick do not move it either, try Linux 6.15 or newer, whose hid-pidff drives\n"
+        "more devices.\n";
   if (springs)
     text +=
         "A centring spring is switched off as far as the driver can. What still pulls back is a\n"
