@@ -191,7 +191,7 @@ case ${1-} in
         "a virtual machine that needs QEMU and a kernel image; suite library, which installs Slurm and takes ten" \
         "minutes; suite mpeg, which needs MPEG's reference software; suite packages, which builds the Debian packages in" \
         "a clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite subproject," \
-        "which builds all again; suite validate, which needs gst-validate; suite valgrind. CONTRIBUTING.md says when to" \
+        "which builds all again; suite validate, which needs gst-validate; suite valgrind. tests/README.md says when to" \
         "run each."
     ;;
 *)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Runs the command lines of README.md, CONTRIBUTING.md and docs/.
+"""Runs the command lines of README.md, CONTRIBUTING.md, tests/README.md and docs/.
 
 check_commands.py SOURCE BUILD: every code block of these pages is run line by line in a shell, in a folder that
 looks like SOURCE with BUILD as build/, with a short film under the names that the pages use, and its haptic
@@ -244,7 +244,7 @@ def main():
     os.environ["GST_PLUGIN_PATH"] = str(build / "plugin")
     os.environ["PATH"] = f"{build / 'spidar' / 'tools'}:{build / 'plugin'}:{os.environ['PATH']}"
 
-    pages = ["README.md", "CONTRIBUTING.md"]
+    pages = ["README.md", "CONTRIBUTING.md", "tests/README.md"]
     pages += sorted(str(page.relative_to(source)) for page in (source / "docs").rglob("*.md"))
     lines = [line for page in pages for line in commands(page, source)]
     failed = 0

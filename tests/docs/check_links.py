@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Follows the links of README.md, CONTRIBUTING.md, CHANGELOG.md, tests/README.md and docs/ within the source tree.
+"""Follows the links of README.md, CONTRIBUTING.md, CHANGELOG.md, SECURITY.md, tests/README.md and docs/ within the
+source tree.
 
 check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path in
 `code` that looks like a source file's or folder's; `core/x/y` may stand for y.h and
@@ -41,7 +42,7 @@ def anchors(text):
 def main():
     source = Path(sys.argv[1]).resolve()
     docs = source / "docs"
-    pages = [source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "tests/README.md")] + sorted(docs.rglob("*.md"))
+    pages = [source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "tests/README.md")] + sorted(docs.rglob("*.md"))
     texts = {page: page.read_text(encoding="utf-8") for page in pages}
     wrong, links, in_contents = [], 0, {docs / "README.md"}
     for page, text in texts.items():

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the rules of what is felt; CONTRIBUTING.md says how to run it under libFuzzer.
+// Fuzz target of the rules of what is felt; tests/README.md says how to run it under libFuzzer.
 // The bytes are read as a .feel file, and once more as a selection of words of such a file. The
 // result must be an error that names a line, or rules that hold no number out of its range, that do
 // not overlap, and that mean the same when they are written and read again.

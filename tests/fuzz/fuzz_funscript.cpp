@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the reader and the writer of funscripts; CONTRIBUTING.md says how to run it under
+// Fuzz target of the reader and the writer of funscripts; tests/README.md says how to run it under
 // libFuzzer. The bytes are read as a file, and once more as a selection of words of such a file.
 // The result must be an error, or a track of allowed length within the full scale, which stays the
 // same but for the tolerance when it is written and read.

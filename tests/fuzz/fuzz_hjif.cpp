@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the reader of HJIF; CONTRIBUTING.md says how to run it under libFuzzer.
+// Fuzz target of the reader of HJIF; tests/README.md says how to run it under libFuzzer.
 // The bytes are read as a file, and once more as a selection of words of such a file. The result
 // must be an error, or a track of allowed length that contains only finite numbers.
 #include <cmath>

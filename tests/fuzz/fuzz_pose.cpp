@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the pose solver; CONTRIBUTING.md says how to run it under libFuzzer.
+// Fuzz target of the pose solver; tests/README.md says how to run it under libFuzzer.
 // The bytes are read as string lengths of successive ticks, as changes from those at the centre.
 // The pose must always be finite and a rotation, and a solved pose must fit the lengths.
 #include <cmath>

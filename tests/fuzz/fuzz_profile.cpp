@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the reader and the writer of profiles; CONTRIBUTING.md says how to run it under
+// Fuzz target of the reader and the writer of profiles; tests/README.md says how to run it under
 // libFuzzer. The bytes are read as a file, and once more as a choice of values in such a file. The
 // result must be a ProfileError, or a profile of finite numbers, which is the same when it is
 // written and read.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the boards' packets; CONTRIBUTING.md says how to run it under libFuzzer.
+// Fuzz target of the boards' packets; tests/README.md says how to run it under libFuzzer.
 // The first byte chooses a decoder and its parameters, the rest is the packet. Nothing may be read
 // beyond its end, and an accepted packet must be the same after it is written and read again.
 #include <algorithm>

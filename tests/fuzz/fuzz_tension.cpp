@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of the tension solver; CONTRIBUTING.md says how to run it under libFuzzer.
+// Fuzz target of the tension solver; tests/README.md says how to run it under libFuzzer.
 // The bytes are read as the numbers of a problem. Tensions must be within valid bounds and never
 // NaN, and a solution must be optimal.
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Fuzz target of what a player and its window say to each other; CONTRIBUTING.md says how to run it
+// Fuzz target of what a player and its window say to each other; tests/README.md says how to run it
 // under libFuzzer. The first byte says who speaks, the rest is the message. Nothing may be read
 // beyond its end, and an accepted message must be accepted again after it is written.
 #include <cstddef>

@@ -4,7 +4,7 @@
 """Runs scenarios of gst-validate with spidarmotion in playbin, and with identity for comparison.
 
 gst-validate must report the same for both, and spidarmotion must not warn. Exits with 77 (skipped)
-without gst-validate-1.0; CONTRIBUTING.md explains how to build it.
+without gst-validate-1.0; tests/README.md explains how to build it.
 """
 import os
 import re
@@ -63,7 +63,7 @@ def compare(validate, scenario, film):
 def main():
     validate = shutil.which(os.environ.get("GST_VALIDATE", "gst-validate-1.0"))
     if not validate:
-        print("skipped: no gst-validate-1.0; see CONTRIBUTING.md")
+        print("skipped: no gst-validate-1.0; see tests/README.md")
         return 77
     with tempfile.TemporaryDirectory() as folder:
         film = write_film(folder)
