@@ -30,7 +30,7 @@ suite=bookworm
 base=$debian_cache/debian-12
 packages=$debian_cache/debian-12-packages
 cache=$debian_cache/debian-12-ccache
-source=/gst-spidar  # in there
+source=/root/gst-spidar  # in there: root's home, which only root may enter, as homes of users are
 archives=/var/cache/apt/archives
 
 make_debian "$suite" "$base"
@@ -46,6 +46,7 @@ chmod 755 "$root"
 cp -a "$base/." "$root"
 cp -L /etc/resolv.conf "$root/etc/"
 mkdir -p "$packages" "$root$source"
+chmod 700 "$(dirname "$root$source")"
 find "$packages" -name '*.deb' -exec cp -t "$root$archives" {} +
 tar -c --exclude=./.git --exclude='./build*' . | tar -x -C "$root$source"
 mount -t proc proc "$root/proc"

@@ -88,8 +88,9 @@ build_packages() {
     apt install -y --no-install-recommends build-essential fakeroot lintian ccache
     apt build-dep -y --no-install-recommends /build/gst-spidar
     say "dpkg-buildpackage"
-    # Nobody but root is in there, who may do more than a builder does.
+    # Nobody but root is in there, who may do more than a builder does; and only the builder may enter the folder.
     in_root useradd --create-home builder
+    chmod 700 "$root/build"
     chown -R --reference="$root/home/builder" "$root/build" "$cache"
     in_root su builder -c "cd /build/gst-spidar && env PATH=/usr/lib/ccache:\$PATH CCACHE_DIR=/ccache \
         DEB_BUILD_OPTIONS=parallel=$(nproc) dpkg-buildpackage -us -uc -b"
