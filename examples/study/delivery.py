@@ -3,66 +3,101 @@
 """Whether a hand got the force that a presentation should have had, by its traces."""
 
 import csv
-import math
 from collections import Counter
+
+import numpy as np
 
 from preview import FELT_N, WEBER
 
 AXES = "xyz"
+MS_NS = 1_000_000
+# Of a tick, whose force then stands for that millisecond. The loop runs at 1 kHz, and its ticks are late by some
+# milliseconds on a machine that is not real-time.
+MOST_AGE_MS = 10
+MOST_STALL_MS = 100
 
 
-class Ticks:
-    """The rows of a haptic trace while the clip played."""
+def rows_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
-    def __init__(self, path):
-        with open(path, encoding="utf-8", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if row["playing"] == "1"]
-        vectors = lambda name: [[float(row[f"{name}_force_{axis}_N"]) for axis in AXES] for row in rows]
-        self.wanted, self.delivered = vectors("wanted"), vectors("delivered")
-        self.devices = Counter(row["device"] for row in rows)
-        self.late = sum(row["found"] == "expired" for row in rows)  # the newest frame was too old to be felt
-        self.count = len(rows)
 
-    def root_mean_square(self, vectors):
-        return math.sqrt(sum(v * v for vector in vectors for v in vector) / self.count)
+class Hand:
+    """What a hand should have got and what it got in each millisecond of a clip's own time, from first to last frame.
+
+    `wanted`: rows of time, ns, and force, N, one for each frame. A millisecond is not `shown`, and has no force, if no tick
+    of the playing clip is for it, or one whose frame is held or too old: the picture or the device stood still. Of a
+    muted clip the trace does not tell how old a frame is.
+    """
+
+    def __init__(self, haptic_trace, wanted, is_muted):
+        playing = [row for row in rows_of(haptic_trace) if row["playing"] == "1"]
+        wanted = np.asarray(wanted, float)
+        self.device, self.count = Counter(row["device"] for row in playing), len(playing)
+        self.time_ns = np.arange(wanted[0, 0], wanted[-1, 0] + 1, MS_NS)
+        self.wanted = (0 if is_muted else 1) * np.stack(
+            [np.interp(self.time_ns, wanted[:, 0], wanted[:, 1 + n]) for n in range(3)], axis=1)
+        numbers = lambda name: np.array([float(row[name]) for row in playing] or [np.nan])
+        moves = np.array([row["found"] in ("exact", "interpolated") or is_muted for row in playing] or [False])
+        running_ns, force_N = numbers("running_ns"), [numbers(f"delivered_force_{axis}_N") for axis in AXES]
+        newest = np.maximum(np.searchsorted(running_ns, self.time_ns + MS_NS, side="left") - 1, 0)
+        self.shown = moves[newest] & (np.abs(self.time_ns - running_ns[newest]) <= MOST_AGE_MS * MS_NS)
+        self.delivered = np.where(self.shown[:, None], np.stack(force_N, axis=1)[newest], 0)
+        # How long the clip stood still before the tick of each millisecond.
+        self.waited_ms = np.diff(numbers("monotonic_ns"), prepend=np.nan)[newest] / MS_NS
+
+    def felt(self):
+        return np.linalg.norm(self.wanted, axis=1) >= FELT_N
 
     def share(self):
-        """Of the wanted force, how much was delivered in its direction."""
-        whole = sum(w * w for vector in self.wanted for w in vector)
-        return sum(w * d for pair in zip(self.wanted, self.delivered) for w, d in zip(*pair)) / whole if whole else 0.0
+        """Of the time in which something is to be felt, the part of the wanted force that came, in its direction."""
+        wanted, delivered = self.wanted[self.felt()], self.delivered[self.felt()]
+        return float(np.clip((wanted * delivered).sum(axis=1) / (wanted**2).sum(axis=1), -1, 1).mean())
+
+    def longest_stall_ms(self):
+        """Of the picture, or of a force that should be felt."""
+        is_weak = self.felt() & (np.linalg.norm(self.delivered, axis=1) < np.linalg.norm(self.wanted, axis=1) / 2)
+        longest = run = 0
+        for stands in ~self.shown | is_weak:
+            run = run + 1 if stands else 0
+            longest = max(longest, run)
+        return max(longest, np.nanmax(self.waited_ms, initial=0))
 
 
-def commonest_limit(frame_trace):
-    """Why nothing of a frame was felt in the device or the playback, or nothing."""
-    with open(frame_trace, encoding="utf-8", newline="") as file:
-        limits = Counter(row["device_no_force_reason"] for row in csv.DictReader(file))
+def root_mean_square(vectors):
+    return float(np.sqrt((vectors**2).sum(axis=1).mean()))
+
+
+def cause(haptic_trace, frame_trace):
+    """What the traces say of a force that did not come, in brackets, or nothing."""
+    found = Counter(row["found"] for row in rows_of(haptic_trace) if row["playing"] == "1")
+    reasons = [f"frames were late in {100 * found['expired'] / found.total():.0f} % of the time"] * (found["expired"] > 0)
+    limits = Counter(row["device_no_force_reason"] for row in rows_of(frame_trace))
     limits.pop("none", None)
-    return limits.most_common(1)[0][0] if limits else ""
+    reasons += [f"of the device or the playback: {limit}" for limit, _ in limits.most_common(1)]
+    return f" ({', '.join(reasons)})" if reasons else ""
 
 
-def judge(haptic_trace, frame_trace, expected_N):
+def judge(haptic_trace, frame_trace, wanted, is_muted):
     """The share of the force that was delivered, and what was wrong; nothing if the presentation was as it should be.
 
-    `expected_N`: root mean square of the clip's force with this condition; 0 if there should be none. A hand does not
-    notice less than FELT_N, nor a change by less than WEBER.
+    `wanted`: of the clip with this condition, as its preview found it (`Hand`). `is_muted`: there should be no force. A
+    hand does not notice less than FELT_N, nor a change by less than WEBER.
     """
-    ticks = Ticks(haptic_trace)
-    if ticks.count == 0:
+    hand = Hand(haptic_trace, wanted, is_muted)
+    if hand.count == 0:
         return 0.0, "the device did not run while the clip played"
-    not_running = 1 - ticks.devices["running"] / ticks.count
+    share = 0.0 if is_muted else hand.share()
+    because = cause(haptic_trace, frame_trace)
+    not_running = 1 - hand.device["running"] / hand.count
     if not_running > WEBER:
-        state = (ticks.devices - Counter(running=ticks.count)).most_common(1)[0][0]
-        return ticks.share(), f"the device was {state} in {100 * not_running:.0f} % of the time"
-    if expected_N == 0:
-        felt_N = ticks.root_mean_square(ticks.delivered)
-        return 0.0, f"there was a force of {felt_N:.2f} N, and there should be none" if felt_N >= FELT_N else ""
-    wanted_N, limit = ticks.root_mean_square(ticks.wanted), commonest_limit(frame_trace)
-    reasons = [f"frames were late in {100 * ticks.late / ticks.count:.0f} % of the time"] * (ticks.late > 0)
-    reasons += [f"of the device or the playback: {limit}"] * bool(limit)
-    because = f" ({', '.join(reasons)})" if reasons else ""
-    if abs(wanted_N - expected_N) > WEBER * expected_N:
-        return ticks.share(), (f"the film asked for {wanted_N:.3f} N rms, and for {expected_N:.3f} N when it was analysed "
-                               f"before{because}")
-    if ticks.share() < 1 - WEBER:
-        return ticks.share(), f"{100 * ticks.share():.0f} % of the force was delivered{because}"
-    return ticks.share(), ""
+        state = (hand.device - Counter(running=hand.count)).most_common(1)[0][0]
+        return share, f"the device was {state} in {100 * not_running:.0f} % of the time"
+    if share < 1 - WEBER and not is_muted:
+        return share, f"{100 * share:.0f} % of the clip's force was delivered{because}"
+    if hand.longest_stall_ms() > MOST_STALL_MS:
+        return share, f"picture or force stood still for {hand.longest_stall_ms():.0f} ms{because}"
+    delivered_N, wanted_N = root_mean_square(hand.delivered), root_mean_square(hand.wanted)
+    if delivered_N > max(FELT_N, (1 + WEBER) * wanted_N):
+        return share, f"there was a force of {delivered_N:.3f} N rms, and there should be {wanted_N:.3f} N"
+    return share, ""

@@ -6,7 +6,7 @@ import csv
 import math
 import statistics
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from clip_player import Player
@@ -39,6 +39,7 @@ class Clip:
     stronger: float  # share of these in which the nonlinear force is the larger one
     rms_N: dict
     max_force_N: dict
+    frames: dict = field(default_factory=dict)  # by force, of each frame: time, ns, and its force as it is played, N
 
 
 def root_mean_square(values):
@@ -63,16 +64,22 @@ def compare(forces_N, limit_N, is_matched):
 
 def measure(clip, properties, limit_N, is_matched):
     """Analyses a clip with each controller, without a device."""
-    forces_N = {}
+    frames = {}
     for name in FORCES:
         with tempfile.TemporaryDirectory() as folder:
             trace = Path(folder, "trace.csv")
             with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
                 player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
             with open(trace, encoding="utf-8", newline="") as file:
-                forces_N[name] = [math.hypot(*(float(row[f"force_{axis}_N"]) for axis in "xyz"))
-                                  for row in csv.DictReader(file)]
-    return compare(forces_N, limit_N, is_matched)
+                frames[name] = [[int(row["running_time_ns"]), *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
+                                for row in csv.DictReader(file)]
+    compared = compare({name: [math.hypot(*force_N) for _, *force_N in rows] for name, rows in frames.items()},
+                       limit_N, is_matched)
+    # A force is proportional to max-force.
+    gain = {name: max_N / limit_N for name, max_N in compared.max_force_N.items()}
+    compared.frames = {name: [[time_ns, *(gain[name] * each_N for each_N in force_N)] for time_ns, *force_N in rows]
+                       for name, rows in frames.items()}
+    return compared
 
 
 def table(clips):

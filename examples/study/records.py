@@ -2,8 +2,8 @@
 # Copyright 2026 the gst-spidar authors
 """The files of a study: answers, participants, presentations, and the settings that everything was made with.
 
-Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .participants, .presentations, .briefings,
-.traces/."""
+Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .preview.json, .participants,
+.presentations, .briefings, .traces/."""
 
 import csv
 import json
@@ -152,12 +152,12 @@ def differences(old, new, name=""):
         yield f"{name} was {json.dumps(old, ensure_ascii=False)}, not {json.dumps(new, ensure_ascii=False)}"
 
 
-def read_settings(answers):
-    """Nothing if the study has not begun. Raises ValueError if its settings are lost."""
-    path = Path(f"{answers}.settings.json")
+def read_settings(answers, kind="settings"):
+    """Nothing if the study has not begun. Raises ValueError if its settings are lost. `kind`: or the "preview"."""
+    path = Path(f"{answers}.{kind}.json")
     if path.exists():
         return json.loads(path.read_text(encoding="utf-8"))
-    if read_answers(answers):
+    if kind == "preview" or read_answers(answers):
         raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
     return None
 
@@ -170,5 +170,7 @@ def require_same(answers, old, new):
                          "another file")
 
 
-def write_settings(answers, settings):
+def write_settings(answers, settings, clips):
+    """`clips`: what their preview found."""
+    replace_file(f"{answers}.preview.json", json.dumps(clips, ensure_ascii=False) + "\n")
     replace_file(f"{answers}.settings.json", json.dumps(settings, ensure_ascii=False, indent=1) + "\n")

@@ -74,12 +74,11 @@ class Study:
         now, old = self.settings(), read_settings(self.options.answers)
         if old is None:
             clips = self.measure()
-            write_settings(self.options.answers, now | {"clips": {name: asdict(clip) for name, clip in clips.items()}})
+            write_settings(self.options.answers, now, {name: asdict(clip) for name, clip in clips.items()})
             return clips
-        clips = {name: self.preview.Clip(**values) for name, values in old.pop("clips").items()}
         require_same(self.options.answers, old, now)
-        print(self.preview.table(clips))
-        return clips
+        clips = read_settings(self.options.answers, "preview")
+        return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
     def player(self):
         return self.clip_player.Player(self.properties, "headless" if self.options.headless else "window")
@@ -111,9 +110,7 @@ class Study:
                           f"max-force={clip.max_force_N[force]:.6f}"]
             if not player.play(trial.clip, properties, trial.condition == "sham", ticks):
                 raise Stopped
-            scale = clip.max_force_N[force] / self.limit_N
-            expected_N = 0 if trial.condition == "without" else scale * clip.rms_N[force]
-            share, problem = judge(ticks, frames, expected_N)
+            share, problem = judge(ticks, frames, clip.frames[force], trial.condition == "without")
         except RuntimeError as error:
             problem = str(error)
             raise

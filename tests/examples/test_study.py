@@ -145,13 +145,17 @@ class File(InFolder):
     def test_settings_stay_as_they_were(self):
         settings = {"seed": 1, "clips_sha256": {"a.avi": "1f"}, "device": "sim"}
         self.assertIsNone(records.read_settings(self.path))
-        records.write_settings(self.path, settings)
+        records.write_settings(self.path, settings, {"a.avi": {}})
         records.require_same(self.path, records.read_settings(self.path), dict(settings))
         for changed, message in [({"seed": 2}, "seed was 1, not 2"), ({"device": "usb"}, 'device was "sim", not "usb"'),
                                  ({"clips_sha256": {"a.avi": "20"}}, 'clips_sha256 a.avi was "1f", not "20"'),
                                  ({"host": "x"}, 'host was null, not "x"')]:
             with self.assertRaisesRegex(ValueError, re.escape(message)):
                 records.require_same(self.path, records.read_settings(self.path), settings | changed)
+        self.assertEqual(records.read_settings(self.path, "preview"), {"a.avi": {}})
+        Path(f"{self.path}.preview.json").unlink()
+        with self.assertRaisesRegex(ValueError, "preview.json: is missing"):
+            records.read_settings(self.path, "preview")
         Path(f"{self.path}.settings.json").unlink()
         self.append("P1", trials.schedule(CLIPS, 0, 1)[0], "movement", 3)
         with self.assertRaisesRegex(ValueError, "settings.json: is missing"):
@@ -173,43 +177,87 @@ class File(InFolder):
         self.assertEqual(len(records.read_answers(self.path)), 1)
 
 
-
-
-
 class Delivery(InFolder):
-    """Traces of 2 s, in which the film asks for 0.3 N rms in x."""
-    WANTED = [0.3 * math.sqrt(2) * math.sin(2 * math.pi * n / 1000) for n in range(2000)]
+    """Traces of a clip of 2 s, 25 frames/s, which asks for 0.3 N rms in x."""
+    FRAMES = [[40_000_000 * n, 0.3 * math.sqrt(2) * math.sin(2 * math.pi * n / 25), 0, 0] for n in range(51)]
+    STALL_MS = 700  # where the film asks for much
 
-    def judge(self, delivered=lambda n, wanted: wanted, device=lambda n: "running", expected_N=0.3, count=2000,
-              found="interpolated", limit="none"):
-        header = ["playing", "device", "found", *(f"{name}_force_{axis}_N" for name in ("wanted", "delivered")
-                                                  for axis in "xyz")]
-        rows = [[1, device(n), found, wanted, 0, 0, delivered(n, wanted), 0, 0]
-                for n, wanted in enumerate(self.WANTED[:count])]
-        rows.append([0, "closing", "nothing", 9, 9, 9, 0, 0, 0])  # the clip has ended
-        for name, lines in ("ticks", [header, *rows]), ("frames", [["device_no_force_reason"], [limit], ["none"]]):
+    def judge(self, change=lambda tick: tick, is_muted=False, limit="none"):
+        """`change`: doctors a tick, or takes it out (None)."""
+        names = ["playing", "device", "found", "running_ns", "monotonic_ns",
+                 *(f"delivered_force_{axis}_N" for axis in "xyz")]
+        ticks = []
+        for ms in range(2001):
+            frame, since = divmod(ms, 40)
+            before, after = (self.FRAMES[min(n, 50)][1] for n in (frame, frame + 1))
+            ticks.append(dict(zip(names, [1, "running", "interpolated", ms * 1_000_000, 10**12 + ms * 1_000_000,
+                                          0 if is_muted else before + (after - before) * since / 40, 0, 0])))
+        ticks.append(dict(zip(names, [0, "closing", "nothing", 0, 10**12 + 2_001_000_000, 0, 0, 0])))
+        rows = [[tick[name] for name in names] for tick in map(change, ticks) if tick]
+        for name, lines in ("ticks", [names, *rows]), ("frames", [["device_no_force_reason"], [limit], ["none"]]):
             self.path.with_name(name).write_text("".join(",".join(map(str, line)) + "\n" for line in lines))
-        return delivery.judge(self.path.with_name("ticks"), self.path.with_name("frames"), expected_N)
+        return delivery.judge(self.path.with_name("ticks"), self.path.with_name("frames"), self.FRAMES, is_muted)
+
+    @staticmethod
+    def within(begin_ms, end_ms, **values):
+        """Doctors the ticks of this part of the clip's time; takes them out without `values`."""
+        return lambda tick: (tick | values if values else None) if begin_ms <= tick["running_ns"] / 1e6 < end_ms else tick
+
+    @staticmethod
+    def scaled(factor):
+        return lambda tick: tick | {"delivered_force_x_N": factor * tick["delivered_force_x_N"]}
+
+    def paused(self, ms):
+        """The clip stands still for so long, and no force of it is lost."""
+        return lambda tick: tick | {"monotonic_ns": tick["monotonic_ns"] + ms * 1_000_000 *
+                                    (tick["running_ns"] >= self.STALL_MS * 1_000_000)}
 
     def test_counts_what_a_hand_got(self):
-        self.assertEqual(self.judge(), (1, ""))
-        share, problem = self.judge(lambda n, wanted: 0.9 * wanted)
+        share, problem = self.judge()
+        self.assertEqual((round(share, 6), problem), (1, ""))
+        share, problem = self.judge(self.scaled(0.9))
         self.assertEqual((round(share, 6), problem), (0.9, ""), "less than a hand notices")
-        self.assertEqual(self.judge(lambda n, wanted: 0, expected_N=0), (0, ""), "none was to be felt")
+        self.assertEqual(self.judge(is_muted=True), (0, ""), "none was to be felt")
+        for change in self.paused(90), self.within(700, 790), self.within(700, 790, delivered_force_x_N=0):
+            self.assertEqual(self.judge(change)[1], "", "too short to void a trial")
+
+    def test_a_part_without_force_is_a_part_of_the_clip(self):
+        """Whether the device is not playing, has no frame, has no force, or has written nothing."""
+        for percent in 20, 50, 80:
+            for values in ({"playing": 0, "delivered_force_x_N": 0}, {"found": "expired", "delivered_force_x_N": 0},
+                           {"found": "held"}, {"delivered_force_x_N": 0}, {}):
+                # In pieces of half a wave, so that it does not matter where the film is strong.
+                def doctored(tick, values=values, percent=percent):
+                    is_out = tick["playing"] and tick["running_ns"] // 1_000_000 % 500 < 5 * percent
+                    return self.within(0, 2001, **values)(tick) if is_out else tick
+
+                share, problem = self.judge(doctored)
+                # Where ticks are missing, the last one stands for ten milliseconds more; of 500.
+                self.assertAlmostEqual(share, 1 - percent / 100, delta=0.01 + delivery.MOST_AGE_MS / 500)
+                self.assertRegex(problem, "of the clip's force was delivered")
+
+    def test_a_stall_voids_a_trial_that_is_otherwise_complete(self):
+        for change in (self.paused(110), self.within(700, 815), self.within(700, 815, playing=0),
+                       self.within(700, 815, found="held"), self.within(700, 815, delivered_force_x_N=0)):
+            share, problem = self.judge(change)
+            self.assertGreater(share, 0.89)
+            self.assertIn("picture or force stood still for 11", problem)
+            self.assertIn("stood still", self.judge(self.paused(110), is_muted=True)[1], "also where none is to be felt")
 
     def test_does_not_count_what_it_did_not_get(self):
-        for problem, given in [
-                ("85 % of the force was delivered", {"delivered": lambda n, wanted: 0.85 * wanted}),
-                ("50 % of the force was delivered", {"delivered": lambda n, wanted: wanted * (n < 1000)}),
-                ("-100 % of the force was delivered", {"delivered": lambda n, wanted: -wanted}),
-                ("of the device or the playback: vibration", {"delivered": lambda n, wanted: 0, "limit": "vibration"}),
-                ("frames were late in 100 %", {"delivered": lambda n, wanted: 0, "found": "expired"}),
-                ("the device was idle in 20 % of the time", {"device": lambda n: "idle" if n % 5 == 0 else "running"}),
-                ("the device was lost in 100 % of the time", {"device": lambda n: "lost"}),
-                ("the device did not run", {"count": 0}),
-                ("asked for 0.300 N rms, and for 0.350 N", {"expected_N": 0.35}),
-                ("a force of 0.30 N, and there should be none", {"expected_N": 0})]:
-            self.assertIn(problem, self.judge(**given)[1])
+        for problem, change, given in [
+                ("85 % of the clip's force", self.scaled(0.85), {}),
+                ("-100 % of the clip's force", self.scaled(-1), {}),
+                ("a force of 0.358 N rms, and there should be 0.298 N", self.scaled(1.2), {}),  # between frames: straight
+                ("of the device or the playback: vibration", self.scaled(0), {"limit": "vibration"}),
+                ("frames were late in 100 %", self.within(0, 2001, found="expired"), {}),
+                ("the device was idle in 20 % of the time",
+                 lambda tick: tick | {"device": "idle" if tick["running_ns"] // 1_000_000 % 5 == 0 else "running"}, {}),
+                ("the device was lost in 100 % of the time", lambda tick: tick | {"device": "lost"}, {}),
+                ("the device did not run", lambda tick: tick | {"playing": 0}, {}),
+                ("a force of 0.300 N rms, and there should be 0.000 N",
+                 lambda tick: tick | {"delivered_force_x_N": 0.3}, {"is_muted": True})]:
+            self.assertIn(problem, self.judge(change, **given)[1])
 
     def test_a_trial_is_repeated_and_never_asked_about_if_it_fails(self):
         options = Namespace(answers=str(self.path), participant="P1")
