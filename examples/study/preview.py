@@ -14,7 +14,8 @@ from clip_player import Player
 FELT_N, WEBER = 0.04, 0.11  # least force and just noticeable change of the hand: PubMed 24808327, docs/bibliography.md
 # Of the frames in which something is felt. Below this, the two controllers are the same for most of a clip, and an
 # answer to which is better says nothing.
-LEAST_APART = 0.1
+LEAST_APART = 0.5
+ALPHAS_S_PX = (0.0025, 0.005, 0.01, 0.02, 0.04)  # from the default of motion=object on, by factors of two
 PAPER = ["motion=mean", "filter-min-cutoff=0", "alpha=0.01"]  # docs/method.md; α is that of equation 15
 FORCES = ("linear", "nonlinear", "sham")  # the conditions with a force of their own; "with" has that of "nonlinear"
 PROPERTIES = {
@@ -62,45 +63,62 @@ def compare(forces_N, limit_N, is_matched):
                 {name: limit_N * gain[name] for name in FORCES})
 
 
-def measure(clip, properties, limit_N, is_matched):
-    """Analyses a clip with each controller, without a device."""
-    frames = {}
-    for name in FORCES:
-        with tempfile.TemporaryDirectory() as folder:
-            trace = Path(folder, "trace.csv")
-            with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
-                player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
-            with open(trace, encoding="utf-8", newline="") as file:
-                frames[name] = [[int(row["running_time_ns"]), *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
-                                for row in csv.DictReader(file)]
-    compared = compare({name: [math.hypot(*force_N) for _, *force_N in rows] for name, rows in frames.items()},
-                       limit_N, is_matched)
-    # A force is proportional to max-force.
-    gain = {name: max_N / limit_N for name, max_N in compared.max_force_N.items()}
-    compared.frames = {name: [[time_ns, *(gain[name] * each_N for each_N in force_N)] for time_ns, *force_N in rows]
-                       for name, rows in frames.items()}
-    return compared
+def frames_of(clip, properties, name, limit_N):
+    """Time, ns, and force, N, of each frame, without a device."""
+    with tempfile.TemporaryDirectory() as folder:
+        trace = Path(folder, "trace.csv")
+        with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
+            player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
+        with open(trace, encoding="utf-8", newline="") as file:
+            return [[int(row["running_time_ns"]), *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
+                    for row in csv.DictReader(file)]
+
+
+def measure(clip, properties, limit_N, is_matched, alphas):
+    """Analyses a clip with each controller: a Clip by alpha. `alphas`: None is the alpha of the properties."""
+    linear, found = frames_of(clip, properties, "linear", limit_N), {}
+    for alpha in alphas:
+        with_alpha = properties + properties_of(alpha)
+        frames = {"linear": linear} | {name: frames_of(clip, with_alpha, name, limit_N) for name in FORCES[1:]}
+        found[alpha] = compare({name: [math.hypot(*force_N) for _, *force_N in rows] for name, rows in frames.items()},
+                               limit_N, is_matched)
+        # A force is proportional to max-force.
+        gain = {name: max_N / limit_N for name, max_N in found[alpha].max_force_N.items()}
+        found[alpha].frames = {name: [[time_ns, *(gain[name] * each_N for each_N in force_N)]
+                                      for time_ns, *force_N in rows] for name, rows in frames.items()}
+    return found
+
+
+def properties_of(alpha):
+    return [] if alpha is None else [f"alpha={alpha:g}"]
+
+
+def choose(clips):
+    """The smallest alpha with which each clip has enough frames that differ, or the one with which the worst has most."""
+    worst = lambda alpha: min(by_alpha[alpha].apart for by_alpha in clips.values())
+    alphas = list(next(iter(clips.values())))
+    return next((alpha for alpha in alphas if worst(alpha) >= LEAST_APART), max(alphas, key=worst))
 
 
 def table(clips):
-    lines = ["what differs, by clip: frames in which something is felt; of these, how many a hand tells apart (11 %), "
-             "the",
-             "median difference, and how many are stronger with nonlinear; N rms as measured; N max-force as played", "",
-             "felt %  apart %  differ %  stronger %   " + "  ".join(f"{name:>16}" for name in FORCES) + "  clip"]
-    for name, clip in clips.items():
-        forces = "  ".join(f"{clip.rms_N[each]:7.3f} {clip.max_force_N[each]:8.3f}" for each in FORCES)
-        lines.append(f"{100 * clip.felt:6.0f} {100 * clip.apart:8.0f} {100 * clip.difference:9.0f} "
-                     f"{100 * clip.stronger:11.0f}   {forces}  {name}")
+    lines = ["felt: frames in which something is felt. apart: of these, how many a hand tells apart (11 %). differ: the median",
+             "difference. stronger: how many are stronger with nonlinear. N rms as measured; N max-force as played.", "",
+             "alpha    felt %  apart %  differ %  stronger %   " + "  ".join(f"{name:>16}" for name in FORCES) + "  clip"]
+    for name, by_alpha in clips.items():
+        for alpha, clip in by_alpha.items():
+            forces = "  ".join(f"{clip.rms_N[each]:7.3f} {clip.max_force_N[each]:8.3f}" for each in FORCES)
+            lines.append(f"{'given' if alpha is None else f'{alpha:g}':7}{100 * clip.felt:8.0f} {100 * clip.apart:8.0f} "
+                         f"{100 * clip.difference:9.0f} {100 * clip.stronger:11.0f}   {forces}  {name}")
     return "\n".join(lines)
 
 
-def require_told_apart(clips):
+def require_told_apart(clips, alpha, accept_alike):
     """Raises ValueError with the figure of a clip in which the controllers are the same."""
-    for name, clip in clips.items():
+    for name, clip in ((name, by_alpha[alpha]) for name, by_alpha in clips.items()):
         if clip.felt == 0:
             raise ValueError(f"{name}: no frame of it has a force that a hand feels ({FELT_N:g} N); choose another clip, "
                              "in which something moves, or other properties")
-        if clip.apart < LEAST_APART:
+        if clip.apart < LEAST_APART and not accept_alike:
             raise ValueError(f"{name}: linear and nonlinear can be told apart in {100 * clip.apart:.0f} % of the frames "
-                             f"that are felt, and at least {100 * LEAST_APART:.0f} % are needed; choose a clip with slow "
-                             "and fast motion, or a larger alpha")
+                             f"that are felt, and at least {100 * LEAST_APART:.0f} % are needed; choose a clip in which "
+                             "slow and fast motion alternate (at a steady speed both are the same), or say --accept-alike")

@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """The paper's experiment with people: which controller feels better, and what haptics add.
 
-`plan` says how many participants an effect needs, and `preview` in what the conditions differ for some clips. `run` asks
+`plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run` asks
 for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips and asks.
 It goes on where this participant stopped. `report` prints shares, means, sign tests and an ordinal model of all answers,
 and `withdraw` removes a participant. docs/study.md says more.
@@ -50,33 +50,45 @@ class Study:
         self.device, self.profile, self.limit_N = (
             filter_.get_property(name) for name in ("device", "profile", "max-force"))
 
-    def measure(self):
-        """Of each clip, what differs. Raises ValueError if nothing does."""
-        print("looking at the clips …", flush=True)
-        clips = {clip: self.preview.measure(clip, self.properties, self.limit_N, not self.options.paper)
+    def design(self):
+        """For each clip and alpha, what differs, and the alpha to take."""
+        is_given = self.options.paper or any(each.startswith("alpha=") for each in self.properties)
+        clips = {clip: self.preview.measure(clip, self.properties, self.limit_N, not self.options.paper,
+                                            [None] if is_given else self.preview.ALPHAS_S_PX)
                  for clip in self.options.clips}
-        print(self.preview.table(clips))
-        self.preview.require_told_apart(clips)
-        return clips
+        return clips, self.preview.choose(clips)
 
-    def settings(self):
+    def print_design(self):
+        """Raises ValueError if too little differs."""
+        clips, alpha = self.design()
+        print(self.preview.table(clips))
+        self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
+        print("\nrun takes " + ("the alpha that is given" if alpha is None else f"alpha={alpha:g} s/px"))
+
+    def settings(self, alpha):
         """With what the study is made; all that must stay the same."""
         profile = self.profile or ""
         return {
             "version": self.clip_player.plugin_version(), "host": platform.node(), "seed": self.options.seed,
-            "paper": self.options.paper, "properties": self.properties, "device": self.device, "profile": profile,
+            "paper": self.options.paper, "properties": self.properties, "alpha_s_px": alpha,
+            "accept_alike": self.options.accept_alike, "device": self.device, "profile": profile,
             "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
             "questions": QUESTIONS | {"every clip": self.extra},
             "clips_sha256": {clip: hash_of(clip) for clip in self.options.clips}}
 
     def begin(self):
-        """What differs in each clip: as measured when the study began."""
-        now, old = self.settings(), read_settings(self.options.answers)
+        """What differs in each clip: as measured when the study began. Prints none of it: the participant may look on."""
+        old = read_settings(self.options.answers)
         if old is None:
-            clips = self.measure()
-            write_settings(self.options.answers, now, {name: asdict(clip) for name, clip in clips.items()})
-            return clips
-        require_same(self.options.answers, old, now)
+            print("looking at the clips …", flush=True)
+            clips, alpha = self.design()
+            self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
+            write_settings(self.options.answers, self.settings(alpha),
+                           {name: asdict(by_alpha[alpha]) for name, by_alpha in clips.items()})
+        else:
+            alpha = old.get("alpha_s_px")
+            require_same(self.options.answers, old, self.settings(alpha))
+        self.properties += self.preview.properties_of(alpha)
         clips = read_settings(self.options.answers, "preview")
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
@@ -174,7 +186,8 @@ def parse(arguments):
     plan.add_argument("--power", type=float, default=0.8)
     plan.add_argument("--level", type=float, default=0.05, help="of the test")
     plan.add_argument("--simulations", type=int, default=500)
-    preview = commands.add_parser("preview", usage="study.py preview [--paper] CLIP... [-- name=value...]", epilog=end)
+    design = commands.add_parser("design", help="in what the conditions of these clips differ", epilog=end,
+                                 usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
     run = commands.add_parser(
         "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
     run.add_argument("answers", metavar="ANSWERS.csv")
@@ -183,11 +196,13 @@ def parse(arguments):
     run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
                      help="one more question after each clip, on the same five steps")
     run.add_argument("--headless", action="store_true", help="no window for the video")
-    for command in preview, run:
+    for command in design, run:
         command.add_argument("clips", metavar="CLIP", nargs="+")
         command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
                              "conditions of different strength")
-    preview.set_defaults(question=[])
+        command.add_argument("--accept-alike", action="store_true",
+                             help="also clips whose conditions are the same in most frames")
+    design.set_defaults(question=[])
     commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
     withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
     withdraw.add_argument("answers", metavar="ANSWERS.csv")
@@ -218,8 +233,8 @@ def execute(options, properties):
     elif options.command == "withdraw":
         Participants(options.answers).withdraw(options.participant)
         print(f"{options.participant} is removed; the next participant takes this place")
-    elif options.command == "preview":
-        Study(options, properties).measure()
+    elif options.command == "design":
+        Study(options, properties).print_design()
     else:
         Study(options, properties).run()
 

@@ -302,12 +302,32 @@ class Preview(unittest.TestCase):
         self.assertEqual(slow.stronger, 0)
         self.assertGreater(fast.stronger, 0.5)
 
-    def test_refuses_clips_in_which_nothing_can_be_told_apart(self):
-        preview.require_told_apart({"good.avi": self.compare([1000, 500, 200, 50] * 20)})
-        with self.assertRaisesRegex(ValueError, r"steady.avi: linear and nonlinear can be told apart in 0 % of the"):
-            preview.require_told_apart({"steady.avi": self.compare([200] * 100)})
-        with self.assertRaisesRegex(ValueError, "still.avi: no frame of it has a force"):
-            preview.require_told_apart({"still.avi": self.compare([0] * 100)})
+    def by_alpha(self, speeds_px_s):
+        return {alpha: self.compare(speeds_px_s, alpha) for alpha in preview.ALPHAS_S_PX}
+
+    def test_refuses_clips_that_are_mostly_the_same(self):
+        require = lambda name, speeds, accept=False: preview.require_told_apart({name: self.by_alpha(speeds)}, 0.0025, accept)
+        require("good.avi", [1000, 500, 200, 50] * 20)
+        # At equal strength, 0.709 and 0.705 of the limit at 800 px/s, and 0.071 and 0.126 at 80 px/s.
+        for speeds, percent in ([200] * 100, 0), ([800] * 70 + [80] * 30, 30):
+            with self.assertRaisesRegex(ValueError, f"steady.avi: linear and nonlinear can be told apart in {percent} % of"):
+                require("steady.avi", speeds)
+            require("steady.avi", speeds, True)
+        for accept in False, True:
+            with self.assertRaisesRegex(ValueError, "still.avi: no frame of it has a force"):
+                require("still.avi", [0] * 100, accept)
+
+    def test_takes_the_smallest_alpha_with_which_all_clips_differ(self):
+        sway = self.by_alpha([150 * abs(math.sin(n / 10)) for n in range(200)])
+        shares = [clip.apart for clip in sway.values()]
+        self.assertLess(shares[0], preview.LEAST_APART, "slow motion: both are proportional to speed")
+        self.assertGreaterEqual(shares[-1], preview.LEAST_APART)
+        best = preview.choose({"sway.avi": sway})
+        self.assertEqual(best, min(alpha for alpha, clip in sway.items() if clip.apart >= preview.LEAST_APART))
+        fast = self.by_alpha([1500 * abs(math.sin(n / 10)) for n in range(200)])
+        self.assertEqual(preview.choose({"fast.avi": fast}), preview.ALPHAS_S_PX[0])
+        self.assertEqual(preview.choose({"fast.avi": fast, "sway.avi": sway}), best)
+        self.assertIn("0.04 ", preview.table({"sway.avi": sway}))
 
 
 class Terminal(unittest.TestCase):
