@@ -1,25 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Shares, means, sign tests and ordinal models of the answers of a study."""
+"""Shares and means of the answers of a study, and whether they differ, as it was decided before the first participant."""
 
-import math
 from collections import Counter, defaultdict
 
-from scipy.stats import binomtest
-
-from ordinal import Model
+from inference import difference, holm
 from records import Participants, read_rows, read_settings
-from trials import CONDITIONS, PAIRS
+from trials import ANALYSIS, CONDITIONS, FIRST_GOOD, PAIRS
 
-FIRST_GOOD = 3  # the paper counts "average" as good
-
-
-def sign_test(more, less):
-    """p (two-sided) and 95 % interval (Clopper–Pearson) of the share of `more` in those that differ."""
-    if more + less == 0:
-        return 1.0, (0.0, 1.0)
-    test = binomtest(more, more + less)
-    return test.pvalue, tuple(test.proportion_ci(method="exact"))
+FAMILIES = ("primary", "secondary", "equal")
+COLUMNS = "question                   conditions             people  clips  difference (95 %)            p       Holm"
 
 
 def ratings(answers):
@@ -32,47 +22,38 @@ def ratings(answers):
             for condition in CONDITIONS[part] if (part, question, condition) in steps}
 
 
-def pairs_of(answers):
-    """By (part, question, first condition, second): lists of (participant, clip, first answer, second answer)."""
+def differences(answers):
+    """By (part, question, first condition, second): how much higher the second one is, a row for each participant who has
+    rated every clip in both, a column for each clip."""
     given = defaultdict(dict)
     for answer in answers:
-        given[answer.part, answer.question, answer.participant, answer.clip][answer.condition] = answer.answer
-    questions = dict.fromkeys((answer.part, answer.question) for answer in answers)
-    pairs = {(part, question, *pair): [] for part, question in questions for pair in PAIRS[part]}
-    for (part, question, participant, clip), by_condition in given.items():
-        for first, second in PAIRS[part]:
-            if first in by_condition and second in by_condition:
-                pairs[part, question, first, second].append(
-                    (participant, clip, by_condition[first], by_condition[second]))
-    return pairs
+        given[answer.part, answer.question, answer.participant][answer.clip, answer.condition] = answer.answer
+    rows = defaultdict(list)
+    for (part, question, _), steps in given.items():
+        clips = sorted({answer.clip for answer in answers if (answer.part, answer.question) == (part, question)})
+        for pair in PAIRS[part]:
+            if all((clip, condition) in steps for clip in clips for condition in pair):
+                rows[part, question, *pair].append([steps[clip, pair[1]] - steps[clip, pair[0]] for clip in clips])
+    order = {part: place for place, part in enumerate(PAIRS)}
+    return dict(sorted(rows.items(), key=lambda item: order[item[0][0]]))
 
 
-def comparisons(pairs):
-    """Participants who are higher, lower and equal (1, −1, 0) in the second condition.
-
-    The answers of one person are not independent: what counts is the difference of their means over the clips that were
-    seen in both conditions.
-    """
-    differences = defaultdict(int)
-    for participant, _, first, second in pairs:
-        differences[participant] += second - first
-    return Counter((difference > 0) - (difference < 0) for difference in differences.values())
-
-
-def odds_ratio(pairs):
-    """Of the ordinal model: how much the odds of a higher answer grow, in words, with its p."""
-    participants, clips, first, second = zip(*pairs)
-    model = Model([*first, *second], [False] * len(first) + [True] * len(second), participants * 2, clips * 2)
-    fit = model.fit()
-    low, high = (math.exp(min(value, 700)) for value in fit.interval())
-    if not math.isfinite(fit.standard_error):
-        return "not determined", fit.p
-    return f"{math.exp(fit.log_odds):.2f} ({low:.2f} to {high:.2f})", fit.p
+def compared(rows, analysis, family):
+    """A line for each comparison of a family."""
+    of = lambda question: ("equal" if question in analysis["equal"]
+                           else "primary" if question == analysis["primary"] else "secondary")
+    chosen = {key: difference(each) for key, each in rows.items() if of(key[1]) == family}
+    p = [each.p_of_equivalence(analysis["margin_steps"]) if family == "equal" else each.p() for each in chosen.values()]
+    for ((part, question, first, second), each), alone, corrected in zip(chosen.items(), p, holm(p)):
+        people, clips = len(rows[part, question, first, second]), len(rows[part, question, first, second][0])
+        interval = "not determined" if each.error is None else "{:.2f} to {:.2f}".format(*each.interval())
+        yield (f"{part + ': ' + question:26} {first + ', ' + second:22} {people:6} {clips:6}  "
+               f"{f'{each.mean:+.2f} ({interval})':24} {alone:8.3g}  {corrected:9.3g}")
 
 
-def describe_study(path):
+def describe_study(path, settings):
     """What the answers were made with, and what became of participants and presentations."""
-    lines, settings = [], read_settings(path)
+    lines = []
     if settings:
         lines.append(", ".join(f"{name} {settings[name]}" for name in ("version", "device", "profile", "host", "seed")
                                if settings[name] != "") + (", the paper's setting" if settings["paper"] else ""))
@@ -88,7 +69,9 @@ def describe_study(path):
 
 
 def report(answers, path=None):
-    lines = describe_study(path) if path else []
+    settings = read_settings(path) if path else None
+    analysis = settings["analysis"] if settings else ANALYSIS
+    lines = describe_study(path, settings) if path else []
     lines += ["question                   condition   answers   bad  poor   avg  good very   good %  mean"]
     for (part, question, condition), steps in ratings(answers).items():
         counts = [steps.count(step) for step in range(1, 6)]
@@ -96,19 +79,19 @@ def report(answers, path=None):
         lines.append(f"{part + ': ' + question:26} {condition:11} {len(steps):7} " +
                      " ".join(f"{count:{5 if step < 4 else 4}}" for step, count in enumerate(counts)) +
                      f"   {good:6.0f}  {sum(steps) / len(steps):4.2f}")
-    lines += ["", "good: average and better, as the paper counts. Below: participants whose mean is higher or lower with",
-              "the second condition; exact sign test, two-sided; share of those that differ. Cumulative link mixed model:",
-              "its p (likelihood ratio) and the odds ratio of a higher answer. Intervals are those of 95 %.", "",
-              "question                   conditions             higher  lower  equal        p   "
-              "share higher            p, model  odds ratio"]
-    for (part, question, first, second), pairs in pairs_of(answers).items():
-        if not pairs:
-            continue
-        count = comparisons(pairs)
-        p, (low, high) = sign_test(count[1], count[-1])
-        differ = count[1] + count[-1]
-        share = f"{count[1] / differ:.2f} ({low:.2f} to {high:.2f})" if differ else "-"
-        ratio, p_of_model = odds_ratio(pairs)
-        lines.append(f"{part + ': ' + question:26} {first + ', ' + second:22} {count[1]:6} {count[-1]:6} {count[0]:6}  "
-                     f"{p:7.3g}   {share:22}  {p_of_model:7.3g}   {ratio}")
+    margin = analysis["margin_steps"]
+    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher, for",
+              "other people and clips like these. p: of no difference; of what is expected to be equal, of a difference of",
+              f"{margin:g} steps or more (two one-sided tests). Holm: p, corrected for the number of comparisons of the family."]
+    rows = differences(answers)
+    if any(len(each[0]) == 1 for each in rows.values()):
+        lines.append("With a single clip, nothing is said of other clips.")
+    for family in FAMILIES:
+        found = list(compared(rows, analysis, family))
+        lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
+    saw = {row["participant"] for row in read_rows(f"{path}.briefings") if row["check"] == "saw-through" and row["answer"] == "yes"}
+    if saw:
+        others = differences([answer for answer in answers if answer.participant not in saw])
+        lines += ["", f"primary, without the {len(saw)} who saw through the sham", COLUMNS,
+                  *compared(others, analysis, "primary")]
     return "\n".join(lines)

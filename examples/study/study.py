@@ -5,8 +5,8 @@
 
 `plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run` asks
 for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips and asks.
-It goes on where this participant stopped. `report` prints shares, means, sign tests and an ordinal model of all answers,
-and `withdraw` removes a participant. docs/study.md says more.
+It goes on where this participant stopped. `report` prints shares, means and what differs, and `withdraw`
+removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
@@ -23,7 +23,7 @@ from pathlib import Path
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, read_line
 from records import (COLUMNS, PRESENTATION_COLUMNS, Participants, append_row, read_answers, read_settings, require_same,
                      utc_now, write_settings)
-from trials import QUESTIONS, open_questions, schedule
+from trials import ANALYSIS, QUESTIONS, open_questions, schedule
 
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
 
@@ -43,6 +43,11 @@ class Study:
 
         self.options, self.clip_player, self.preview = options, clip_player, preview
         self.extra = dict(question.split("=", 1) for question in options.question)
+        asked = {name for questions in QUESTIONS.values() for name in questions} | set(self.extra)
+        if options.primary not in asked:
+            raise ValueError(f"--primary {options.primary} is not asked: give one of {', '.join(sorted(asked))}")
+        self.analysis = ANALYSIS | {"primary": options.primary,
+                                    "equal": [name for name in ANALYSIS["equal"] if name != options.primary]}
         self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
         for clip in options.clips:  # all clips and properties are right before the first one is shown
             clip_player.uri_of(clip)
@@ -71,7 +76,7 @@ class Study:
         return {
             "version": self.clip_player.plugin_version(), "host": platform.node(), "seed": self.options.seed,
             "paper": self.options.paper, "properties": self.properties, "alpha_s_px": alpha,
-            "accept_alike": self.options.accept_alike, "device": self.device, "profile": profile,
+            "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device, "profile": profile,
             "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
             "questions": QUESTIONS | {"every clip": self.extra},
             "clips_sha256": {clip: hash_of(clip) for clip in self.options.clips}}
@@ -179,10 +184,12 @@ def parse(arguments):
     end = ("name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
            f"{GENTLE_N:g} N, and more must be confirmed.")
     plan = commands.add_parser("plan", help="how many participants an effect needs")
-    plan.add_argument("--odds-ratio", type=float, default=4, help="of a higher answer (4: the paper's 50 %% and 80 %%)")
-    plan.add_argument("--clips", type=int, default=2)
+    plan.add_argument("--odds-ratio", type=float, default=7,
+                      help="of a higher answer, for one person and one clip (7: with these spreads, the paper's 50 and 80 %%)")
+    plan.add_argument("--clips", type=int, nargs="+", default=[3, 6, 12], help="numbers of clips (3 6 12)")
     plan.add_argument("--spread", type=float, default=1,
-                      help="standard deviation between participants, of their level and of their effect, as log odds")
+                      help="standard deviation between participants, of their level and of their effect, as log odds (1)")
+    plan.add_argument("--clip-spread", type=float, default=0.8, help="the same, between clips (0.8)")
     plan.add_argument("--power", type=float, default=0.8)
     plan.add_argument("--level", type=float, default=0.05, help="of the test")
     plan.add_argument("--simulations", type=int, default=500)
@@ -202,7 +209,9 @@ def parse(arguments):
                              "conditions of different strength")
         command.add_argument("--accept-alike", action="store_true",
                              help="also clips whose conditions are the same in most frames")
-    design.set_defaults(question=[])
+    run.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
+                     help="the question of the primary outcome (movement)")
+    design.set_defaults(question=[], primary=ANALYSIS["primary"])
     commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
     withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
     withdraw.add_argument("answers", metavar="ANSWERS.csv")

@@ -17,9 +17,18 @@ QUESTIONS = {
                 "interactivity": "How much did you feel a part of the scene?",
                 "comfort": "How comfortable was it?"},
 }
+# What is decided before the first participant, and written to the settings. `equal`: questions whose answers are expected
+# to be the same, within `margin_steps`. All others but the primary one are secondary.
+ANALYSIS = {
+    "primary": "movement", "equal": ["comfort"], "margin_steps": 0.5, "level": 0.05,
+    "exclusions": [
+        "A presentation whose force was not delivered is repeated, and not asked about.",
+        "Who has not rated every clip in both conditions is left out of that comparison.",
+        "Nobody is left out for their answers; the primary comparison is repeated without those who saw through the sham."]}
 # The orders in which the conditions of a clip follow each other: all there are.
 ORDERS = {"controllers": [(0, 1), (1, 0)],
           "haptics": [(0, 1, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0), (1, 0, 2), (0, 2, 1)]}
+FIRST_GOOD = 3  # the paper counts "average" as good
 BLOCK = 12  # participants: six for each order of the parts, who together have each order of each clip equally often
 
 

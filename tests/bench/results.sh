@@ -22,6 +22,7 @@ run() { # NAME
     gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
     davis) BUILD=$build tests/bench/davis.py ${DAVIS_PUBLISHED:+--published "$DAVIS_PUBLISHED"} ${DAVIS:+"$DAVIS"} ;;
     films) BUILD=$build tests/bench/pathologies.sh ;;
+    study_errors) tests/bench/study_errors.py ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
     paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
     *) bench "$1" ;;
@@ -30,7 +31,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar
-[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films changed_films} gyroscope davis skew loop cost tension pose safety hazards touch_strings paper
+[ $# -gt 0 ] || set -- tracking films ${FILMS:+real_films changed_films} gyroscope davis skew loop cost tension pose safety hazards touch_strings study_errors paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

@@ -135,7 +135,7 @@ class Run(unittest.TestCase):
         table = study("report", answers).stdout
         self.assertIn("withdrew: 1", table)
         self.assertRegex(table, r"haptics: reality +sham +3 ")
-        self.assertRegex(table, r"(?m)^controllers: movement +linear, nonlinear +\d+ +\d+ +\d+ ")
+        self.assertRegex(table, r"(?m)^controllers: movement +linear, nonlinear +3 +1  [+-]\d")
         self.check_what_must_not_change(answers)
 
     def check_presentations(self, answers, people):
