@@ -10,7 +10,6 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
-#include "plugin/tracks/part_file.h"
 #include "spidar/as_text.h"
 #include "spidar/tools/command_line.h"
 
@@ -140,7 +139,7 @@ int convert_track(const ConvertOptions& options) {
   SaveOptions save = options.save;
   save.axis = channel_of(options.axis);
   check_format(to);
-  PartFile part(to);
+  PartFile part(to, {options.force, "spidartrack convert"});
   SampleFile samples(to);
   Summariser summariser;
   const TrackCondition condition = read_track(
@@ -166,7 +165,7 @@ int convert_track(const ConvertOptions& options) {
               << '\n';
   }
   save_track(part, samples, save);
-  part.publish();
+  publish(part);
   std::cout << lost_in(to, summary, save);
   return kDone;
 }

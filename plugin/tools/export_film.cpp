@@ -10,7 +10,6 @@
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -33,6 +32,7 @@ std::string relative_url(const fs::path& film, const fs::path& page) {
 int export_film(const ExportOptions& options) {
   const std::string &film = options.film, &to = options.to;
   if (!ends_with(to, ".html")) throw UsageError(to + ": is to end in .html");
+  PartFile part(to, {options.force, "spidartrack export"});
   FilmPage page;
   const TrackCondition condition =
       read_track(film, [&page](const TrackSample& sample) { page.add(sample); });
@@ -42,9 +42,8 @@ int export_film(const ExportOptions& options) {
   expect_own_track(condition);
   const FilmPage::Html html = page.html(relative_url(film, to), fs::path(film).filename(),
                                         1e-9 * static_cast<double>(condition.later_ns));
-  PartFile part(to);
   part.write(html.text);
-  part.publish();
+  publish(part);
   std::printf("%s: %s; %zu KB, exact to %.2f N\n", film.c_str(), to.c_str(),
               html.text.size() / 1000, html.tolerance_N);
   return kDone;

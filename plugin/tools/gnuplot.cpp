@@ -13,8 +13,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "plugin/tracks/part_file.h"
-
 namespace spidar {
 namespace {
 
@@ -89,8 +87,7 @@ bool is_whole_png(int descriptor) {
 
 }  // namespace
 
-void draw_with_gnuplot(const std::string& script, const std::string& png) {
-  PartFile picture(png);
+void draw_with_gnuplot(const std::string& script, const PartFile& picture) {
   const File commands = nameless_file(script);
   // Its warnings, of fonts for example, do not matter if it succeeds.
   const File warnings = nameless_file();
@@ -98,9 +95,9 @@ void draw_with_gnuplot(const std::string& script, const std::string& png) {
     throw std::runtime_error("gnuplot could not draw the picture" + last_line(warnings.get()));
   }
   if (!is_whole_png(picture.descriptor())) {
-    throw std::runtime_error(png + ": cannot be written as a whole; the disk may be full");
+    throw std::runtime_error(picture.target() +
+                             ": cannot be written as a whole; the disk may be full");
   }
-  picture.publish();
 }
 
 std::string gnuplot_string(const std::string& text) {

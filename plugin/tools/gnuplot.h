@@ -5,13 +5,14 @@
 
 #include <string>
 
+#include "plugin/tracks/part_file.h"
+
 namespace spidar {
 
 /// Runs gnuplot once on `script`, which sets its terminal to a kind of PNG, has its data in it and
-/// does not set an output. The picture gets the name `png` when it is whole. Throws
-/// std::runtime_error, which says why there is none: gnuplot is missing or reports an error, or the
-/// file cannot be written.
-void draw_with_gnuplot(const std::string& script, const std::string& png);
+/// does not set an output, and writes the picture into `picture`. Throws std::runtime_error, which
+/// says why there is none: gnuplot is missing or reports an error, or the file cannot be written.
+void draw_with_gnuplot(const std::string& script, const PartFile& picture);
 
 /// A text as a string of a script.
 std::string gnuplot_string(const std::string& text);

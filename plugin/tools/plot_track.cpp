@@ -79,6 +79,7 @@ int plot_track(const PlotOptions& options) {
   if (has_ending && !ends_with(options.png, ".png")) {
     throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
   }
+  PartFile picture(options.png, {options.force, "spidartrack plot"});
   size_t count = 0;
   expect_own_track(read_track(options.track, [&count](const TrackSample&) { ++count; }));
   if (count == 0) throw std::runtime_error(options.track + ": has no samples to draw");
@@ -99,7 +100,8 @@ int plot_track(const PlotOptions& options) {
   script << "set yrange [*<-1 : 1<*]\nset ylabel 'torque, mN m'\nset xlabel 'time, s'\n"
             "plot $samples using 1:(1000*$5) title 'about x', '' using 1:(1000*$6) title "
             "'about y', '' using 1:(1000*$7) title 'about z'\n";
-  draw_with_gnuplot(script.str(), options.png);
+  draw_with_gnuplot(script.str(), picture);
+  publish(picture);
   return kDone;
 }
 

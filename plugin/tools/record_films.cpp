@@ -177,15 +177,16 @@ class FilmBatch {
     const fs::path track = options_.file_of(options_.films[index]);
     if (is_done(index, track)) return true;
     make_subfolder(index);
-    const std::unique_ptr<PartFile> part = PartFile::claim(track);
+    const std::unique_ptr<PartFile> part = PartFile::claim(track, {options_.force, {}});
     if (!part) return false;
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
     const Clock::time_point begin = Clock::now();
     const auto tell = [&](int percent) { report_.progress(index, percent); };
     const FilmResult result = record_in_process(job_of(index), *part, tell);
-    part->publish(options_.force ? PartFile::Existing::kReplace : PartFile::Existing::kKeep);
-    const std::string remark = with_warning(result.remark, film, track);
+    const std::string more = part->publish();
+    const std::string remark = with_warning(
+        result.remark + (result.remark.empty() || more.empty() ? "" : "; ") + more, film, track);
     const std::chrono::duration<double> taken = Clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count(), result.summary});
     report_.done(index, Result::kRecorded,

@@ -16,7 +16,7 @@ namespace spidar {
 class SampleFile {
  public:
   /// `target` is the file that is made. Throws std::runtime_error as PartFile.
-  explicit SampleFile(const std::string& target) : part_(target + ".raw") {}
+  explicit SampleFile(const std::string& target) : part_(target + ".raw", {true, {}}) {}
 
   /// Throws std::runtime_error when it cannot be written.
   void add(const TrackSample& sample);

@@ -15,7 +15,6 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
-#include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -107,14 +106,14 @@ int show_film(const ShowOptions& options) {
   if (std::filesystem::equivalent(film, to, none)) {
     throw UsageError(to + ": is to be another file than " + film);
   }
-  PartFile part(to);
+  PartFile part(to, {options.force, "spidartrack show"});
   std::string said;
   try {
     said = show(options, part);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }
-  part.publish();
+  publish(part);
   std::cout << film << ": " << to << "; " << said << '\n';
   return kDone;
 }

@@ -124,6 +124,14 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
         ->type_name("");
   }
 
+  /// For commands that write one file.
+  static void add_force(CLI::App* app, const std::string& what, bool& force) {
+    app->add_flag("--force", force,
+                  "replace " + what +
+                      ", whatever it is; without this, a file that is there is replaced only if "
+                      "this command wrote it and nobody has changed it since");
+  }
+
   void add_info() {
     CLI::App* const app =
         add("info", "print how long and how strong a track is", &CommandLine::info);
@@ -165,9 +173,10 @@ in any case. Also prints how much of the track is felt.)");
   .hjif            MPEG's format for haptics
   .funscript       one channel as the positions of a linear device
   .ahap            a vibration as strong as the force, for telephones; not read
-An existing TO is replaced when the new file is complete. Prints what TO cannot hold.)");
+Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
     app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
+    add_force(app, "TO", convert_.force);
     app->add_option(
            "--axis", convert_.axis,
            "the channel of a funscript: fx, fy, fz, tx, ty or tz; default: that with the most "
@@ -192,6 +201,7 @@ An existing TO is replaced when the new file is complete. Prints what TO cannot 
     app->footer("Needs gnuplot.");
     add_track(app, "TRACK", plot_.track);
     app->add_option("PNG", plot_.png, "the picture to write")->required()->type_name("");
+    add_force(app, "PNG", plot_.force);
   }
   int plot() { return plot_track(plot_); }
 
@@ -209,6 +219,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     app->add_option("TO", show_.to, "the film to write; its name ends in .mp4 or .mkv")
         ->required()
         ->type_name("");
+    add_force(app, "TO", show_.force);
     app->add_option("PROPERTY", misplaced_)->group("");
   }
   int show() {
@@ -231,6 +242,7 @@ track inside the film or beside it. Browsers do not play all films; most play H.
     app->add_option("TO", export_.to, "the page to write; its name ends in .html")
         ->required()
         ->type_name("");
+    add_force(app, "TO", export_.force);
   }
   int export_page() { return export_film(export_); }
 

@@ -4,11 +4,13 @@
 /// std::runtime_error.
 #pragma once
 
+#include <iostream>
 #include <optional>
 #include <string>
 
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/tracks/part_file.h"
 
 namespace spidar {
 
@@ -25,6 +27,7 @@ struct CheckOptions {
 
 struct ConvertOptions {
   std::string from, to;
+  bool force = false;          ///< here and below: PartFile::Replaces::any
   std::string axis;            ///< the channel by its name; empty: the usual one
   std::optional<double> gain;  ///< empty: that which fills the range of `to`
   SaveOptions save;
@@ -32,16 +35,25 @@ struct ConvertOptions {
 
 struct PlotOptions {
   std::string track, png;
+  bool force = false;
 };
 
 struct ShowOptions {
   std::string film, to;
+  bool force = false;
   RecordProperties properties;
 };
 
 struct ExportOptions {
   std::string film, to;
+  bool force = false;
 };
+
+/// Gives a file its name, and prints what else is to be known of it.
+inline void publish(PartFile& part) {
+  const std::string more = part.publish();
+  if (!more.empty()) std::cerr << part.target() << ": " << more << '\n';
+}
 
 int record_films(const RecordOptions& options);
 int print_info(const InfoOptions& options);

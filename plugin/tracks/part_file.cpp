@@ -20,6 +20,9 @@
 
 #include <glib.h>
 
+#include "plugin/tracks/written_mark.h"
+#include "spidar/replaced_file.h"
+
 namespace spidar {
 namespace {
 
@@ -94,12 +97,12 @@ int make_locked(const std::string& path, const fs::path& target) {
 }
 
 /// The same in every process and on every machine.
-std::string part_name(const fs::path& target) {
-  const std::string name = target.filename().string();
+std::string part_path(const fs::path& place) {
+  const std::string name = place.filename().string();
   gchar* const hash = g_compute_checksum_for_string(G_CHECKSUM_SHA1, name.c_str(), -1);
-  const std::string part = ".part-" + std::string(hash, 16) + target.extension().string();
+  const std::string part = ".part-" + std::string(hash, 16) + place.extension().string();
   g_free(hash);
-  return part;
+  return (place.parent_path() / part).string();
 }
 
 volatile std::sig_atomic_t received_signal = 0;
@@ -125,16 +128,21 @@ void await_signal(const sigset_t& signals) {
 
 }  // namespace
 
-PartFile::PartFile(const fs::path& target) : PartFile() {
-  if (!take(target)) {
+PartFile::PartFile(const fs::path& target, const Replaces& replaces) : PartFile() {
+  if (!take(target, replaces)) {
     throw std::runtime_error(target.string() + ": another process is writing it");
   }
+  if (may_replace()) return;
+  const std::string& maker = replaces.maker;
+  throw std::runtime_error(target.string() + ": exists" +
+                           (maker.empty() ? "" : ", and is not as " + maker + " left it") +
+                           "; name another file, or replace it with --force");
 }
 
 PartFile::PartFile(const fs::path& target, int descriptor)
-    : path_((target.parent_path() / part_name(target)).string()),
-      target_(target.string()),
-      descriptor_(descriptor) {}
+    : target_(target.string()), place_(place_of_output(target).string()), descriptor_(descriptor) {
+  path_ = part_path(place_);
+}
 
 PartFile::~PartFile() {
   if (descriptor_ < 0) return;
@@ -143,19 +151,30 @@ PartFile::~PartFile() {
   close(descriptor_);
 }
 
-std::unique_ptr<PartFile> PartFile::claim(const fs::path& target) {
+std::unique_ptr<PartFile> PartFile::claim(const fs::path& target, const Replaces& replaces) {
   std::unique_ptr<PartFile> file(new PartFile);
-  if (!file->take(target)) file.reset();
+  if (!file->take(target, replaces)) file.reset();
   return file;
 }
 
-bool PartFile::take(const fs::path& target) {
+bool PartFile::may_replace() const {
+  std::error_code none;
+  return replaces_.any || !fs::exists(place_, none) ||
+         (!replaces_.maker.empty() && is_as_written(place_, replaces_.maker));
+}
+
+bool PartFile::take(const fs::path& target, const Replaces& replaces) {
   std::error_code none;
   if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
     throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
   }
   target_ = target.string();
-  path_ = (target.parent_path() / part_name(target)).string();
+  place_ = place_of_output(target).string();
+  path_ = part_path(place_);
+  replaces_ = replaces;
+  if (access(place_.c_str(), W_OK) != 0 && errno == EACCES) {
+    throw std::runtime_error(target_ + ": is protected against writing");
+  }
   const std::lock_guard<std::mutex> lock(registry().mutex);
   if (registry().paths.count(path_) > 0) return false;
   descriptor_ = make_locked(path_, target);
@@ -202,19 +221,26 @@ void PartFile::check_written() const {
   }
 }
 
-void PartFile::publish(Existing existing) {
+std::string PartFile::publish() {
+  keep_permissions(descriptor_, place_);
+  if (!replaces_.maker.empty()) mark_written(descriptor_, replaces_.maker);
   // Some file systems notice only now that the disk is full.
   if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   check_in_place();
-  const unsigned flags = existing == Existing::kKeep ? RENAME_NOREPLACE : 0;
-  int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), flags);
+  if (!may_replace()) throw failure(target_, EEXIST);
+  struct stat before {};
+  const bool is_there = stat(place_.c_str(), &before) == 0;
+  const unsigned flags = is_there ? 0 : RENAME_NOREPLACE;
+  int status = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, place_.c_str(), flags);
   if (status != 0 && errno == EINVAL) {  // not every file system knows the flag
-    if (fs::exists(target_)) throw failure(target_, EEXIST);
-    status = std::rename(path_.c_str(), target_.c_str());
+    if (!is_there && fs::exists(place_)) throw failure(target_, EEXIST);
+    status = std::rename(path_.c_str(), place_.c_str());
   }
   if (status != 0) throw failure(target_, errno);
   registry().paths.erase(path_);
+  return is_there && before.st_nlink > 1 ? "what was there stays under its other names (hard links)"
+                                         : "";
 }
 
 void remove_part_files_on_signals() {

@@ -16,20 +16,29 @@ namespace spidar {
 /// the name of that, and the same extension: however long the name of a film is, this one fits. One
 /// owner at a time, among all threads and processes: it is locked for as long as the object exists.
 /// What a killed process left is removed, never written into, and a link of that name is not
-/// followed: nobody else has the file open. It is removed with the object.
+/// followed: nobody else has the file open. It is removed with the object. A target that is a link
+/// stays one, and the file that it leads to is replaced, whose permissions the new one gets.
 class PartFile {
  public:
-  /// Makes an empty part file. Throws std::runtime_error when that is not possible, or when another
-  /// thread or process is writing the same file.
-  explicit PartFile(const std::filesystem::path& target);
+  /// What is replaced if it is there.
+  struct Replaces {
+    bool any = false;   ///< every regular file
+    std::string maker;  ///< what this command has written and nobody changed; empty: nothing
+  };
+
+  /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
+  /// thread or process is writing the same file, or when there is a file that is not replaced.
+  PartFile(const std::filesystem::path& target, const Replaces& replaces);
   /// The part file of `target` that another process owns, which has given this one the descriptor.
   PartFile(const std::filesystem::path& target, int descriptor);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// Null when another thread or process is writing the same file.
-  static std::unique_ptr<PartFile> claim(const std::filesystem::path& target);
+  /// Null when another thread or process is writing the same file. What is there shows only when
+  /// it is published.
+  static std::unique_ptr<PartFile> claim(const std::filesystem::path& target,
+                                         const Replaces& replaces);
 
   const std::string& path() const { return path_; }
   /// The name that it will have, for messages.
@@ -45,16 +54,18 @@ class PartFile {
   /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
   void check_in_place() const;
 
-  enum class Existing { kReplace, kKeep };
-  /// Gives the file its name; afterwards there is no part file. With kKeep, throws
-  /// std::runtime_error if a file of this name has appeared in the meantime.
-  void publish(Existing existing = Existing::kReplace);
+  /// Gives the file its name; afterwards there is no part file. Throws std::runtime_error if there
+  /// is a file by now that is not replaced. Returns what else is to be known; usually empty.
+  std::string publish();
 
  private:
   PartFile() = default;
-  bool take(const std::filesystem::path& target);
+  bool take(const std::filesystem::path& target, const Replaces& replaces);
+  bool may_replace() const;
 
   std::string path_, target_;
+  std::string place_;  // the target, or what it leads to
+  Replaces replaces_;
   int descriptor_ = -1;
   uint64_t written_ = 0;  // bytes
   std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),

@@ -63,9 +63,10 @@ struct ShippedProfiles {
 /// All of them, sorted by name.
 ShippedProfiles shipped_profiles() noexcept;
 
-/// Writes to a new file in the same folder, which then gets the name `file`. Follows no link at its
-/// own file's name, and replaces a link of the name `file`; does not replace a device or a folder.
+/// Writes to a new file in the same folder, which then gets the name `named_file` and the
+/// permissions of what it replaces. A link of that name stays one, and what it leads to is
+/// replaced; a device or a folder is not, and no link is followed at the new file's own name.
 /// Throws ProfileError with the system's reason; the old file is unchanged then.
-void replace_file(const std::filesystem::path& file, const std::string& text);
+void replace_file(const std::filesystem::path& named_file, const std::string& text);
 
 }  // namespace spidar

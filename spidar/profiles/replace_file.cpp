@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "spidar/profiles/profile_file.h"
+#include "spidar/replaced_file.h"
 
 namespace spidar {
 namespace {
@@ -24,17 +25,24 @@ bool write_all(int file, const std::string& text) {
 
 }  // namespace
 
-void replace_file(const std::filesystem::path& file, const std::string& text) {
+void replace_file(const std::filesystem::path& named_file, const std::string& text) {
+  std::filesystem::path file;
+  try {
+    file = place_of_output(named_file);
+  } catch (const std::runtime_error& error) {
+    throw ProfileError(error.what());
+  }
   // Its name does not depend on that of the file, which may be as long as the system allows.
   const std::string part = file.parent_path() / (".spidar-" + std::to_string(getpid()) + ".part");
   const auto fail = [&] {
     throw ProfileError(file.string() + ": cannot be written: " + std::strerror(errno));
   };
   struct stat named {};
-  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode) && !S_ISLNK(named.st_mode))
+  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode))
     throw ProfileError(file.string() + ": cannot be written: it is no regular file");
   const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0) fail();
+  keep_permissions(opened, file);
   const bool written = write_all(opened, text);
   int error = written ? 0 : errno;
   if (close(opened) != 0 && error == 0) error = errno;

@@ -74,7 +74,7 @@ std::vector<TrackSample> load(const std::string& path) {
 
 void save(const std::string& path, const std::vector<TrackSample>& samples,
           const SaveOptions& options = {}) {
-  PartFile part(path);
+  PartFile part(path, PartFile::Replaces{});
   SampleFile file(path);
   for (const TrackSample& sample : samples) file.add(sample);
   file.flush();

@@ -144,7 +144,7 @@ TEST(ProfileWriter, FailureLeavesNothingBehind) {
 }
 
 /// Of profiles, of those that were chosen for boards, and of reports: of all that is written so.
-TEST(ReplaceFile, AFileBehindALinkIsNotOverwritten) {
+TEST(ReplaceFile, ALinkStaysOneAndLeadsToTheNewFile) {
   const Folder folder;
   const std::string kept = folder.file("kept"), named = folder.file("mine.toml");
   const std::string part = folder.file(".spidar-" + std::to_string(getpid()) + ".part");
@@ -154,14 +154,20 @@ TEST(ReplaceFile, AFileBehindALinkIsNotOverwritten) {
     return text.str();
   };
   replace_file(kept, "as it was");
+  constexpr auto kOnlyOwner = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(kept, kOnlyOwner);
   fs::create_symlink(kept, named);
   replace_file(named, "new");
-  EXPECT_EQ(text_of(named), "new");
-  EXPECT_FALSE(fs::is_symlink(named));
+  EXPECT_EQ(text_of(kept), "new");
+  EXPECT_EQ(fs::status(kept).permissions(), kOnlyOwner);
+  EXPECT_TRUE(fs::is_symlink(named));
+  const std::string dangling = folder.file("dangling.toml");
+  fs::create_symlink(folder.file("gone"), dangling);
+  EXPECT_THROW(replace_file(dangling, "new"), ProfileError);
+  // At the name of the part file, a link is not followed.
   fs::create_symlink(kept, part);
   EXPECT_THROW(replace_file(named, "newer"), ProfileError);
-  EXPECT_EQ(text_of(named), "new");
-  EXPECT_EQ(text_of(kept), "as it was");
+  EXPECT_EQ(text_of(kept), "new");
   EXPECT_THROW(replace_file("/dev/null", "no device"), ProfileError);
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <stdexcept>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "plugin/tracks/part_file.h"
@@ -55,11 +54,9 @@ std::string keep_copy(const std::string& path) {
 }
 
 void replace_file(const std::string& path, const std::string& text) {
-  PartFile part{path};
+  PartFile part(path, {true, {}});
   part.write(text);
   part.check_written();
-  struct stat before {};
-  if (stat(path.c_str(), &before) == 0) fchmod(part.descriptor(), before.st_mode & 0777);
   part.publish();
 }
 
