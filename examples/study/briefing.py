@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""What is asked on the terminal: before a participant may hold the grip, and after each clip."""
+"""What is asked on the terminal: before a participant may hold the grip, after each clip, and at the end."""
 
-from records import append_row, utc_now
+from records import append_row, read_rows, utc_now
 from trials import STEPS
 
 GENTLE_N = 1.0  # the limit of the force unless the experimenter confirms more; docs/safety.md
@@ -16,6 +16,12 @@ EXCLUSIONS = [
     "Is the participant pregnant?",
     "Is the participant tired, ill, or under the influence of alcohol or drugs?",
 ]
+# Of the participant, once: what is recorded, the question, and its answers.
+PERSON = {
+    "handedness": ("Which hand do you write with?", ["right", "left", "both"]),
+    "grip-hand": ("Which hand will hold the grip?", ["right", "left"]),
+    "experience": ("How often have you held a device that pushes back?", ["never", "once or twice", "often"]),
+}
 
 
 class Stopped(Exception):
@@ -33,16 +39,16 @@ def read_line(prompt):
         raise Stopped from None
 
 
-def ask(text):
-    """Asks the participant until the answer is a step, 1 to 5."""
-    print(text + "\n  " + "  ".join(f"{number} {name}" for number, name in enumerate(STEPS, 1)))
+def ask(text, answers=STEPS):
+    """Asks the participant until there is the number of an answer, from 1 on."""
+    print(text + "\n  " + "  ".join(f"{number} {name}" for number, name in enumerate(answers, 1)))
     while True:
         line = read_line("> ")
         if line == "q":
             raise Stopped
-        if line in ("1", "2", "3", "4", "5"):
+        if line in map(str, range(1, len(answers) + 1)):
             return int(line)
-        print("a number from 1 to 5, or q to stop here and go on another time")
+        print(f"a number from 1 to {len(answers)}, or q to stop here and go on another time")
 
 
 def is_yes(text):
@@ -52,6 +58,32 @@ def is_yes(text):
             return line == "yes"
 
 
+def note_answer(record, participant, check, answer):
+    append_row(record, ["participant", "check", "answer", "time_utc"], [participant, check, answer, utc_now()])
+
+
+def still_open(record, participant, checks):
+    known = {row["check"] for row in read_rows(record) if row["participant"] == participant}
+    return [check for check in checks if check not in known]
+
+
+def describe(record, participant):
+    """Asks the participant about themselves, once."""
+    for check in still_open(record, participant, PERSON):
+        question, answers = PERSON[check]
+        note_answer(record, participant, check, answers[ask(question, answers) - 1])
+
+
+def debrief(record, participant):
+    """After the last clip: what the participant thinks it was about, before anything is said of the sham."""
+    for check in still_open(record, participant, ["guess", "saw-through"]):
+        if check == "guess":
+            answer = read_line("What do you think differed when a clip was shown again? In your own words\n> ")
+        else:
+            answer = "yes" if is_yes("Did you notice that the force sometimes went against the motion in the picture?") else "no"
+        note_answer(record, participant, check, answer)
+
+
 def brief(record, participant, force_N, while_taut):
     """Asks the experimenter what must be right before a participant holds the grip. Raises TakesNoPart.
 
@@ -59,8 +91,7 @@ def brief(record, participant, force_N, while_taut):
     are tight; it is None if nothing pulls, as with a simulated device.
     """
 
-    def note(check, answer):
-        append_row(record, ["participant", "check", "answer", "time_utc"], [participant, check, answer, utc_now()])
+    note = lambda check, answer: note_answer(record, participant, check, answer)
 
     def require(check, is_right):
         note(check, "yes" if is_right else "no")

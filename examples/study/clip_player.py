@@ -8,6 +8,7 @@ import select
 import tempfile
 import threading
 import time
+from contextlib import contextmanager
 
 import gi
 
@@ -45,6 +46,18 @@ def make_filter(properties):
 
 def plugin_version():
     return Gst.Registry.get().find_feature("spidarmotion", Gst.ElementFactory).get_plugin().get_version()
+
+
+@contextmanager
+def noise(volume, output):
+    """Pink noise, which hides the sound of the motors whatever is felt. `output`: one of SINKS. Raises RuntimeError."""
+    pipeline = Gst.parse_launch(f"audiotestsrc wave=pink-noise volume={volume} ! {SOUNDS[output]}")
+    try:
+        if volume and pipeline.set_state(Gst.State.PLAYING) == Gst.StateChangeReturn.FAILURE:
+            raise RuntimeError("the noise that hides the motors cannot be played: is there a sound card?")
+        yield pipeline
+    finally:
+        pipeline.set_state(Gst.State.NULL)
 
 
 class TickRecorder:

@@ -7,7 +7,7 @@ from collections import Counter
 
 import numpy as np
 
-from preview import FELT_N, WEBER
+from perception import FELT_N, WEBER
 
 AXES = "xyz"
 MS_NS = 1_000_000

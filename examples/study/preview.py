@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from clip_player import Player
+from perception import FELT_N, told_apart
 
-FELT_N, WEBER = 0.04, 0.11  # least force and just noticeable change of the hand: PubMed 24808327, docs/bibliography.md
 # Of the frames in which something is felt. Below this, the two controllers are the same for most of a clip, and an
 # answer to which is better says nothing.
 LEAST_APART = 0.5
@@ -54,12 +54,11 @@ def compare(forces_N, limit_N, is_matched):
     gain = {name: target_N / rms if is_matched and rms else 1.0 for name, rms in rms_N.items()}
     frames = [(gain["linear"] * linear, gain["nonlinear"] * nonlinear)
               for linear, nonlinear in zip(forces_N["linear"], forces_N["nonlinear"])]
-    felt = [frame for frame in frames if max(frame) >= FELT_N]
-    if not felt:
+    felt, differences, apart = told_apart(frames)
+    if not differences:
         return Clip(0, 0, 0, 0, rms_N, {name: limit_N for name in FORCES})
-    apart = [abs(linear - nonlinear) / max(linear, nonlinear) for linear, nonlinear in felt]
-    return Clip(len(felt) / len(frames), sum(each > WEBER for each in apart) / len(felt), statistics.median(apart),
-                sum(nonlinear > linear for linear, nonlinear in felt) / len(felt), rms_N,
+    stronger = [nonlinear > linear for linear, nonlinear in frames if max(linear, nonlinear) >= FELT_N]
+    return Clip(felt, apart, statistics.median(differences), statistics.fmean(stronger), rms_N,
                 {name: limit_N * gain[name] for name in FORCES})
 
 

@@ -3,7 +3,7 @@
 """The files of a study: answers, participants, presentations, and the settings that everything was made with.
 
 Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .preview.json, .participants,
-.presentations, .briefings, .traces/."""
+.presentations, .briefings, .thresholds, .traces/."""
 
 import csv
 import json
@@ -31,6 +31,7 @@ class Answer:
 
 COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
+THRESHOLD_COLUMNS = ["participant", "felt_N", "weber", "trials", "time_utc"]  # empty where the answers did not settle
 PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
 
 
@@ -122,7 +123,7 @@ class Participants:
         """Deletes all that is kept of a participant but that somebody has left. Raises ValueError if nothing is."""
         if not any(row["participant"] == participant for row in self.rows):
             raise ValueError(f'{self.answers}: nobody in it is called "{participant}"')
-        for name in "", ".presentations", ".briefings", ".participants":
+        for name in "", ".presentations", ".briefings", ".thresholds", ".participants":
             path = Path(f"{self.answers}{name}")
             if not path.exists():
                 continue

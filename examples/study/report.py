@@ -2,9 +2,12 @@
 # Copyright 2026 the gst-spidar authors
 """Shares and means of the answers of a study, and whether they differ, as it was decided before the first participant."""
 
+import math
+import statistics
 from collections import Counter, defaultdict
 
 from inference import difference, holm
+from perception import told_apart
 from records import Participants, read_rows, read_settings
 from trials import ANALYSIS, CONDITIONS, FIRST_GOOD, PAIRS
 
@@ -68,6 +71,20 @@ def describe_study(path, settings):
     return lines + [""] * bool(lines)
 
 
+def describe_thresholds(path):
+    """What people felt at least, and in how many frames the controllers differ for them."""
+    rows = [row for row in read_rows(f"{path}.thresholds") if row["felt_N"] and row["weber"]]
+    if not rows:
+        return []
+    felt_N, weber = (statistics.median(float(row[name]) for row in rows) for name in ("felt_N", "weber"))
+    lines = ["", f"{len(rows)} people on this device, medians: the least force that is felt {felt_N:.3f} N, and the least "
+                 f"change {100 * weber:.0f} %. With these, linear and nonlinear differ in"]
+    for name, clip in read_settings(path, "preview").items():
+        amounts = [[math.hypot(*force_N) for _, *force_N in clip["frames"][force]] for force in ("linear", "nonlinear")]
+        lines.append(f"{100 * told_apart(list(zip(*amounts)), felt_N, weber)[2]:6.0f} % of the felt frames of {name}")
+    return lines
+
+
 def report(answers, path=None):
     settings = read_settings(path) if path else None
     analysis = settings["analysis"] if settings else ANALYSIS
@@ -89,6 +106,7 @@ def report(answers, path=None):
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
+    lines += describe_thresholds(path) if path else []
     saw = {row["participant"] for row in read_rows(f"{path}.briefings") if row["check"] == "saw-through" and row["answer"] == "yes"}
     if saw:
         others = differences([answer for answer in answers if answer.participant not in saw])

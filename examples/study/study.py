@@ -20,11 +20,14 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
-from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, read_line
-from records import (COLUMNS, PRESENTATION_COLUMNS, Participants, append_row, read_answers, read_settings, require_same,
-                     utc_now, write_settings)
-from trials import ANALYSIS, QUESTIONS, open_questions, schedule
+import perception
+from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, describe, read_line
+from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_rows,
+                     read_settings, require_same, utc_now, write_settings)
+from trials import ANALYSIS, QUESTIONS, Trial, open_questions, schedule
 
+NOISE = 0.1  # volume; how loud that is, the laboratory sets at the headphones until nobody hears the motors
+PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
 
 
@@ -42,6 +45,7 @@ class Study:
         import preview
 
         self.options, self.clip_player, self.preview = options, clip_player, preview
+        self.output = "headless" if options.headless else "window"
         self.extra = dict(question.split("=", 1) for question in options.question)
         asked = {name for questions in QUESTIONS.values() for name in questions} | set(self.extra)
         if options.primary not in asked:
@@ -49,11 +53,14 @@ class Study:
         self.analysis = ANALYSIS | {"primary": options.primary,
                                     "equal": [name for name in ANALYSIS["equal"] if name != options.primary]}
         self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
-        for clip in options.clips:  # all clips and properties are right before the first one is shown
+        for clip in self.clip_files():  # all clips and properties are right before the first one is shown
             clip_player.uri_of(clip)
         filter_ = clip_player.make_filter(self.properties)
         self.device, self.profile, self.limit_N = (
             filter_.get_property(name) for name in ("device", "profile", "max-force"))
+
+    def clip_files(self):
+        return self.options.clips + ([self.options.practice] if self.options.practice else [])
 
     def design(self):
         """For each clip and alpha, what differs, and the alpha to take."""
@@ -78,8 +85,9 @@ class Study:
             "paper": self.options.paper, "properties": self.properties, "alpha_s_px": alpha,
             "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device, "profile": profile,
             "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
-            "questions": QUESTIONS | {"every clip": self.extra},
-            "clips_sha256": {clip: hash_of(clip) for clip in self.options.clips}}
+            "questions": QUESTIONS | {"every clip": self.extra}, "noise_volume": self.options.noise,
+            "practice": self.options.practice,
+            "clips_sha256": {clip: hash_of(clip) for clip in self.clip_files()}}
 
     def begin(self):
         """What differs in each clip: as measured when the study began. Prints none of it: the participant may look on."""
@@ -88,6 +96,9 @@ class Study:
             print("looking at the clips …", flush=True)
             clips, alpha = self.design()
             self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
+            if self.options.practice:
+                clips[self.options.practice] = self.preview.measure(
+                    self.options.practice, self.properties, self.limit_N, not self.options.paper, [alpha])
             write_settings(self.options.answers, self.settings(alpha),
                            {name: asdict(by_alpha[alpha]) for name, by_alpha in clips.items()})
         else:
@@ -98,7 +109,10 @@ class Study:
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
     def player(self):
-        return self.clip_player.Player(self.properties, "headless" if self.options.headless else "window")
+        return self.clip_player.Player(self.properties, self.output)
+
+    def noise(self):
+        return self.clip_player.noise(self.options.noise, self.output)
 
     @contextmanager
     def taut(self):
@@ -136,6 +150,19 @@ class Study:
                        [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, utc_now()])
         return problem
 
+    def practise(self, player, clips):
+        """With the questions, whose answers are not kept. Only before anything was shown."""
+        shown = read_rows(self.options.answers + ".presentations")
+        if not self.options.practice or any(row["participant"] == self.options.participant for row in shown):
+            return
+        print("\nto try it out; these answers are not kept")
+        for condition in PRACTISED:
+            if read_line("return: play, q: stop here and go on another time > ") == "q":
+                raise Stopped
+            self.present(player, Trial(0, "haptics", condition, "", self.options.practice), clips[self.options.practice])
+            for text in (QUESTIONS["haptics"] | self.extra).values():
+                ask(text)
+
     def run_trial(self, player, trial, clip, questions):
         for attempt in range(ATTEMPTS):
             if attempt:
@@ -146,35 +173,67 @@ class Study:
             if not problem:
                 break
         else:
-            raise RuntimeError(f"trial {trial.number} failed {ATTEMPTS} times, and its answers would say nothing: "
-                               f"{problem}. When the cause is gone, the same command goes on here")
+            raise RuntimeError(f"trial {trial.number} failed {ATTEMPTS} times, and its answers would say nothing; "
+                               f"{self.options.answers}.presentations says why. When the cause is gone, the same command goes "
+                               "on here")
         for name, text in questions.items():
             append_row(self.options.answers, COLUMNS,
                        [self.options.participant, trial.number, trial.part, trial.condition, trial.code, trial.clip,
                         name, ask(text), utc_now()])
 
-    def run(self):
-        options = self.options
+    def require_device(self):
+        """Raises ValueError, before anything is asked or written."""
         if self.device == "none":
             raise ValueError("device=none renders no force: give the device that is felt, or device=sim to rehearse")
         if self.device.startswith(("usb", "uart")) and not self.profile:
             raise ValueError(f"device={self.device} needs profile=NAME or profile=FILE.toml: it belongs to the data, and what "
                              "is remembered for a board may change")
+
+    def prepare(self):
+        """What must be right before a participant holds the grip. Raises TakesNoPart."""
+        record, is_simulated = self.options.answers + ".briefings", self.device.startswith("sim")
+        brief(record, self.options.participant, self.limit_N, None if is_simulated else self.taut)
+        describe(record, self.options.participant)
+        if not is_simulated and read_line("Hold the grip at the centre of its frame, not turned, until the first force. "
+                                          "return: open the device, q: stop here > ") == "q":
+            raise Stopped
+
+    def measure_thresholds(self):
+        """The participant's own least force and least change, in less than seven minutes."""
+        import gst_spidar
+
+        self.require_device()
+        self.prepare()
+        ask_which = lambda: ask("When was the force the larger one?", ["first", "second"])
+        stairs = [perception.Staircase(0.25 * self.limit_N, self.limit_N), perception.Staircase(0.5, 1.0)]
+        with self.noise(), gst_spidar.Device(self.device, self.profile or "") as device:
+            device.set_limits(self.limit_N, 0.0)
+            device.wait_until_running(10)
+            # A standard of half of the limit, so that twice of it is within.
+            found = [perception.measure(device, standard_N, staircase, ask_which)
+                     for standard_N, staircase in zip((0, self.limit_N / 2), stairs)]
+        Participants(self.options.answers).register(self.options.participant)
+        append_row(self.options.answers + ".thresholds", THRESHOLD_COLUMNS,
+                   [self.options.participant, *("" if each is None else f"{each:.4g}" for each in found),
+                    sum(staircase.trials for staircase in stairs), utc_now()])
+        print("thank you")
+
+    def run(self):
+        self.require_device()
+        options = self.options
         answers, participants = read_answers(options.answers), Participants(options.answers)
         trials = schedule(options.clips, participants.index_of(options.participant), options.seed)
         clips = self.begin()
         questions = open_questions(answers, options.participant, trials, self.extra)
-        is_simulated = self.device.startswith("sim")
-        brief(options.answers + ".briefings", options.participant, self.limit_N, None if is_simulated else self.taut)
-        if not is_simulated and read_line("Hold the grip at the centre of its frame, not turned, until the first clip "
-                                          "begins. return: open the device, q: stop here > ") == "q":
-            raise Stopped
-        with self.player() as player:
+        self.prepare()
+        with self.noise(), self.player() as player:
             participants.register(options.participant)
+            self.practise(player, clips)
             for trial, still_open in zip(trials, questions):
                 if still_open:
                     print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
                     self.run_trial(player, trial, clips[trial.clip], still_open)
+        debrief(options.answers + ".briefings", options.participant)
         print("\nthat was all; thank you")
 
 
@@ -197,8 +256,14 @@ def parse(arguments):
                                  usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
     run = commands.add_parser(
         "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
-    run.add_argument("answers", metavar="ANSWERS.csv")
-    run.add_argument("participant", metavar="PARTICIPANT")
+    threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
+                                    usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
+    for command in run, threshold:
+        command.add_argument("answers", metavar="ANSWERS.csv")
+        command.add_argument("participant", metavar="PARTICIPANT")
+        command.add_argument("--noise", type=float, default=NOISE, metavar="VOLUME",
+                             help=f"of pink noise that hides the sound of the motors throughout ({NOISE:g}; 0 to 1)")
+    run.add_argument("--practice", metavar="CLIP", default="", help="shown first, with and without haptics, to try it out")
     run.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
     run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
                      help="one more question after each clip, on the same five steps")
@@ -211,14 +276,16 @@ def parse(arguments):
                              help="also clips whose conditions are the same in most frames")
     run.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
                      help="the question of the primary outcome (movement)")
-    design.set_defaults(question=[], primary=ANALYSIS["primary"])
+    for command in design, threshold:
+        command.set_defaults(question=[], primary=ANALYSIS["primary"], practice="", headless=False)
+    threshold.set_defaults(clips=[], paper=False)
     commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
     withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
     withdraw.add_argument("answers", metavar="ANSWERS.csv")
     withdraw.add_argument("participant", metavar="PARTICIPANT")
     split = arguments.index("--") if "--" in arguments else len(arguments)
     options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
-    if options.command == "run":
+    if options.command in ("run", "threshold"):
         if not options.participant or "/" in options.participant:
             parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
         for question in options.question:
@@ -242,6 +309,8 @@ def execute(options, properties):
     elif options.command == "withdraw":
         Participants(options.answers).withdraw(options.participant)
         print(f"{options.participant} is removed; the next participant takes this place")
+    elif options.command == "threshold":
+        Study(options, properties).measure_thresholds()
     elif options.command == "design":
         Study(options, properties).print_design()
     else:

@@ -9,7 +9,9 @@
 import contextlib
 import io
 import math
+import random
 import re
+import statistics
 import sys
 import tempfile
 import unittest
@@ -22,7 +24,9 @@ FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import briefing  # noqa: E402
+import clip_player  # noqa: E402
 import delivery  # noqa: E402
+import perception  # noqa: E402
 import preview  # noqa: E402
 import records  # noqa: E402
 import study  # noqa: E402
@@ -270,7 +274,8 @@ class Delivery(InFolder):
                 try:
                     one.run_trial(None, trial, None, {"movement": "?"})
                 except RuntimeError as error:
-                    self.assertIn("trial 1 failed 3 times, and its answers would say nothing: weak", str(error))
+                    self.assertIn("trial 1 failed 3 times, and its answers would say nothing", str(error))
+                    self.assertNotIn("weak", str(error), "the participant may look on")
             self.assertEqual(present.call_count, len(problems))
         self.assertEqual([answer.answer for answer in records.read_answers(self.path)], [4])
 
@@ -330,6 +335,81 @@ class Preview(unittest.TestCase):
         self.assertIn("0.04 ", preview.table({"sway.avi": sway}))
 
 
+class Perception(unittest.TestCase):
+    TRUE = 0.05  # N: the threshold of the simulated person, at which 70.7 % are right
+
+    def right(self, source, level):
+        """A Weibull function of two alternatives with a slope of 3, usual for touch."""
+        chance = 1 - 0.5 * math.exp(math.log(2 * (1 - 0.5**0.5)) * (level / self.TRUE)**3)
+        return source.random() < chance
+
+    def test_a_staircase_finds_the_threshold_of_a_simulated_person(self):
+        source, found, trials = random.Random(1), [], []
+        for _ in range(200):
+            stairs = perception.Staircase(0.25, 1.0)
+            while not stairs.is_done():
+                stairs.answer(self.right(source, stairs.level))
+            trials.append(stairs.trials)
+            if stairs.threshold():
+                found.append(math.log2(stairs.threshold() / self.TRUE))
+        self.assertGreater(len(found), 190)
+        # A mean of eight turns on a grid of half an octave: half a step of bias is allowed, and a scatter of one step.
+        self.assertLess(abs(statistics.fmean(found)), 0.25)
+        self.assertLess(statistics.stdev(found), 0.5)
+        self.assertLess(statistics.fmean(trials) * 2 * 4, 7 * 60, "two of them take less than seven minutes")
+
+    def test_who_guesses_has_no_threshold_and_no_force_above_the_limit(self):
+        source, settled = random.Random(2), 0
+        for _ in range(100):
+            stairs = perception.Staircase(0.25, 1.0)
+            while not stairs.is_done():
+                self.assertLessEqual(stairs.level, 1.0)
+                stairs.answer(source.random() < 0.5)
+            settled += stairs.threshold() is not None and stairs.threshold() < 0.25
+        self.assertLess(settled, 10)
+
+    def test_a_person_is_measured_by_what_the_device_is_told(self):
+        """The simulated person feels what is pushed, and needs 20 % more of a standard."""
+        class Device:
+            def push(self, force_N):
+                pushed[-1].append(force_N[0])
+                return True
+
+        pushed, source = [[]], random.Random(3)
+
+        def ask():
+            first, second = (max(pulse) for pulse in pushed[-3:-1])
+            low, high = sorted((first, second))
+            level = (high / low - 1) / 0.2 if low else high / self.TRUE
+            is_right = self.right(source, level * self.TRUE)
+            return 1 if (first > second) == is_right else 2
+
+        sleep = lambda seconds: pushed.append([]) if seconds == perception.PAUSE_S else None
+        for standard_N, first, most, true in (0, 0.25, 1.0, self.TRUE), (0.5, 0.5, 1.0, 0.2):
+            found = [perception.measure(Device(), standard_N, perception.Staircase(first, most), ask, source, sleep)
+                     for _ in range(20)]
+            logs = [math.log2(each / true) for each in found if each]
+            self.assertGreater(len(logs), 15)
+            # Of twenty, each with a scatter of less than half an octave; and the bias as above.
+            self.assertLess(abs(statistics.fmean(logs)), 0.25 + 4 * 0.5 / math.sqrt(len(logs)))
+        steps = [abs(b - a) for pulse in pushed for a, b in zip([0, *pulse], [*pulse, 0])]
+        self.assertLess(max(steps), 1.0 * math.pi / 2 * perception.SAMPLE_S / perception.RAMP_S + 1e-9, "no tap")
+
+    def test_a_device_that_is_lost_ends_it(self):
+        device = Namespace(push=lambda force_N: False, last_fault=lambda: "unplugged")
+        with self.assertRaisesRegex(RuntimeError, "takes no force: unplugged"):
+            perception.pulse(device, 0.5, lambda seconds: None)
+
+
+class Noise(unittest.TestCase):
+    def test_plays_until_the_session_ends_unless_it_is_turned_off(self):
+        state = lambda pipeline: pipeline.get_state(5 * clip_player.Gst.SECOND)[1]
+        for volume, expected in (0.1, clip_player.Gst.State.PLAYING), (0, clip_player.Gst.State.NULL):
+            with clip_player.noise(volume, "headless") as pipeline:
+                self.assertEqual(state(pipeline), expected)
+            self.assertEqual(state(pipeline), clip_player.Gst.State.NULL)
+
+
 class Terminal(unittest.TestCase):
     def test_asks_until_there_is_an_answer(self):
         out = io.StringIO()
@@ -378,6 +458,22 @@ class Briefing(InFolder):
         # The reason itself is not recorded.
         self.assertIn("P1,eligible,no,20", self.record())
         self.assertNotIn("implant", self.record())
+
+    def test_a_participant_is_described_and_debriefed_once(self):
+        with typed(["3", "2", "q"]), self.assertRaises(briefing.Stopped):
+            briefing.describe(self.path, "P1")
+        with typed(["4", "1"]), contextlib.redirect_stdout(io.StringIO()):  # there is no fourth answer
+            briefing.describe(self.path, "P1")
+        with typed([]):
+            briefing.describe(self.path, "P1")
+        for answer in "P1,handedness,both,20", "P1,grip-hand,left,20", "P1,experience,never,20":
+            self.assertIn(answer, self.record())
+        with typed(["sometimes it went up, or down", "yes"]):
+            briefing.debrief(self.path, "P1")
+        self.assertIn('P1,guess,"sometimes it went up, or down",20', self.record())
+        self.assertIn("P1,saw-through,yes,20", self.record())
+        with typed([]):
+            briefing.debrief(self.path, "P1")
 
     def test_the_emergency_stop_is_tested_while_the_strings_are_taut(self):
         was_taut = []

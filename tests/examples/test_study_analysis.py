@@ -141,7 +141,14 @@ class Report(unittest.TestCase):
             analysis = {"primary": "mine", "equal": ["reality"], "margin_steps": 2, "level": 0.01}
             Path(f"{path}.settings.json").write_text(json.dumps(settings | {"analysis": analysis}))
             Path(f"{path}.briefings").write_text("participant,check,answer\nP1,saw-through,yes\nP2,saw-through,no\n")
+            # Frames of 0.3 N and 0.4 N, of 0.5 N and 0.56 N, and of less than is felt.
+            frames = {"linear": [[0, 0.3, 0, 0], [40, 0, 0.5, 0], [80, 0.05, 0, 0]],
+                      "nonlinear": [[0, 0.4, 0, 0], [40, 0, 0.56, 0], [80, 0, 0, 0]]}
+            Path(f"{path}.preview.json").write_text(json.dumps({"a.avi": {"frames": frames}}))
+            Path(f"{path}.thresholds").write_text("participant,felt_N,weber\nP1,0.06,0.1\nP2,0.1,0.2\nP3,,\nP4,0.2,0.3\n")
             text = report.report(answers, path)
+        self.assertIn("3 people on this device, medians: the least force that is felt 0.100 N, and the least change 20 %", text)
+        self.assertRegex(text, r"(?m)^ +50 % of the felt frames of a.avi$")
         families = dict(re.findall(r"(?m)^(\w+) \(level 0.01\)\n.*\n(haptics: \w+)", text))
         self.assertEqual(families, {"primary": "haptics: mine", "secondary": "haptics: comfort", "equal": "haptics: reality"})
         self.assertIn("of 2 steps or more", text.replace("\n", " "))

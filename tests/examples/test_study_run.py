@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -21,6 +22,8 @@ sys.path.insert(0, FOLDER)
 
 import briefing  # noqa: E402
 import clip_player  # noqa: E402
+import gst_spidar  # noqa: E402
+import perception  # noqa: E402
 import records  # noqa: E402
 import trials  # noqa: E402
 
@@ -61,6 +64,7 @@ def study(*arguments, lines=()):
 class SimulatedParticipant:
     """Reads what is asked and answers it: at random, but by one step higher where something is felt."""
     BRIEFING = ["yes", *["no"] * len(briefing.EXCLUSIONS), "yes"]
+    PERSON = ["1"] * len(briefing.PERSON)
 
     def __init__(self, answers, name, clips, *more):
         self.command = [sys.executable, "-u", FOLDER + "/study.py", "run", "--headless", answers, name, *clips, *more]
@@ -75,7 +79,7 @@ class SimulatedParticipant:
         return printed, code
 
     def session(self, trials_at_most):
-        briefed, seen, printed, line = iter(self.BRIEFING), 0, "", ""
+        briefed, seen, printed, line = iter([*self.BRIEFING, "no"]), 0, "", ""  # no: did not see through
         with subprocess.Popen(self.command, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT) as process:
             def type_(text):
@@ -127,6 +131,7 @@ class Run(unittest.TestCase):
             after = printed[printed.index("code "):]
             for word in CONDITION_WORDS:
                 self.assertNotIn(word, first[first.index("code "):] + after, "only the code is shown")
+            self.assertNotRegex(first + printed, r"\d N\b|\bapart\b|max-force|rms", "nor how strong anything is")
         self.check_presentations(answers, people)
         left = study("withdraw", answers, "P01")
         self.assertEqual(left.returncode, 0, left)
@@ -175,6 +180,34 @@ class Run(unittest.TestCase):
         refused = study("run", "--headless", answers, "P02", self.clip)
         self.assertEqual((refused.returncode, "clips_sha256" in refused.stderr), (2, True), refused)
 
+    def test_a_clip_to_practise_with_comes_first_and_is_not_an_answer(self):
+        answers, other = self.file("practice.csv"), self.file("other.avi")
+        other.write_bytes(self.clip.read_bytes())
+        lines = [*SimulatedParticipant.BRIEFING, *SimulatedParticipant.PERSON, *["", "3", "3", "3"] * 2, "q"]
+        for practised in 2, 2:  # and not again in the next session
+            done = study("run", "--headless", "--practice", other, answers, "P01", self.clip, lines=lines)
+            self.assertEqual((done.returncode, "the same command goes on here" in done.stdout), (0, True), done)
+            self.assertEqual([row["trial"] for row in records.read_rows(f"{answers}.presentations")], ["0"] * practised)
+            lines = [*SimulatedParticipant.BRIEFING, "q"]
+        self.assertEqual(records.read_answers(answers), [])
+        refused = study("run", "--headless", answers, "P01", self.clip)
+        self.assertIn("practice was", refused.stderr)
+
+    def test_thresholds_are_measured_on_the_device(self):
+        answers = self.file("thresholds.csv")
+        done = study("threshold", answers, "P01", "--noise", 0,
+                     lines=[*SimulatedParticipant.BRIEFING, *SimulatedParticipant.PERSON, "1", "2", "q"])
+        self.assertEqual((done.returncode, done.stdout.count("When was the force the larger one?")), (0, 3), done)
+        self.assertEqual(records.read_rows(f"{answers}.thresholds"), [], "not complete")
+        with gst_spidar.Device("sim") as device:
+            device.set_limits(1, 0)
+            self.assertTrue(device.wait_until_running(10))
+            felt_N = []
+            perception.pulse(device, 0.5, lambda seconds: (felt_N.append(device.felt().force_N.x), time.sleep(seconds)))
+        # The strings of the simulated device deliver what they can at its pose, at the centre nearly all.
+        self.assertAlmostEqual(max(felt_N), 0.5, delta=perception.WEBER * 0.5)
+        self.assertAlmostEqual(felt_N[0], 0, delta=perception.FELT_N)
+
     def test_the_sham_pulls_the_other_way_as_strongly(self):
         forces_N = []
         for is_turned in False, True:
@@ -204,7 +237,7 @@ class Run(unittest.TestCase):
         unnamed = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb")
         self.assertEqual((unnamed.returncode, "needs profile=NAME" in unnamed.stderr), (2, True), unnamed)
         done = study("run", "--headless", answers, "P01", self.clip, "--", "device=usb", "profile=spidar-g6x3-v2-r",
-                     lines=[*SimulatedParticipant.BRIEFING, "yes", "yes", "", *["", "3"] * 20])
+                     lines=[*SimulatedParticipant.BRIEFING, "yes", "yes", *SimulatedParticipant.PERSON, "", *["", "3"] * 20])
         self.assertEqual((done.returncode, "the device usb cannot be opened" in done.stderr), (1, True), done)
         self.assertEqual(records.read_answers(answers), [])
         none = study("run", "--headless", answers, "P01", self.clip, "--", "device=none")
@@ -214,7 +247,7 @@ class Run(unittest.TestCase):
         """By ten seconds: after the clip."""
         answers = self.file("late.csv")
         done = study("run", "--headless", answers, "P01", self.clip, "--", "ts-offset=10000000000",
-                     lines=[*SimulatedParticipant.BRIEFING, *["", "3"] * 20])
+                     lines=[*SimulatedParticipant.BRIEFING, *SimulatedParticipant.PERSON, *["", "3"] * 20])
         self.assertEqual((done.returncode, "failed 3 times" in done.stderr), (1, True), done)
         self.assertEqual([answer for answer in records.read_answers(answers) if answer.condition != "without"], [])
         problems = [row["problem"] for row in records.read_rows(f"{answers}.presentations")]

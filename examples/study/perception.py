@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What a hand can tell: the least force, the least change of it, and how a person's own are measured on the device."""
+
+import math
+import random
+import statistics
+import time
+
+FELT_N, WEBER = 0.04, 0.11  # PubMed 24808327, of forces that were attended to: docs/bibliography.md
+
+# A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right, of two
+# intervals one of which must be chosen. H. Levitt, Transformed Up-Down Methods in Psychoacoustics, 1971.
+FIRST_FACTOR, FACTOR = 2.0, 2**0.5  # of a step, until and after the second reversal
+REVERSALS = 10  # of which the first two are for finding the range
+MOST_TRIALS = 50  # of four seconds
+SAMPLE_S, RAMP_S, PULSE_S, PAUSE_S = 0.005, 0.1, 0.5, 0.4  # without a ramp, a pulse begins with a tap
+
+
+def told_apart(pairs_N, felt_N=FELT_N, weber=WEBER):
+    """`pairs_N`: two forces of each frame. The share of frames in which one is felt, of these the differences of the larger
+    one, and the share that differ by more than the Weber fraction."""
+    felt = [pair for pair in pairs_N if max(pair) >= felt_N]
+    differences = [abs(first - second) / max(first, second) for first, second in felt]
+    return (len(felt) / len(pairs_N), differences,
+            sum(each > weber for each in differences) / len(felt) if felt else 0.0)
+
+
+class Staircase:
+    """Two down, one up, by factors; `level` is what to show next."""
+
+    def __init__(self, first, most):
+        self.level, self.most = first, most
+        self.trials, self.right, self.direction, self.turns = 0, 0, -1, []
+
+    def answer(self, is_right):
+        self.trials += 1
+        self.right = self.right + 1 if is_right else 0
+        if is_right and self.right < 2:
+            return
+        self.right, direction = 0, -1 if is_right else 1
+        if direction != self.direction:
+            self.turns.append(self.level)
+        self.direction = direction
+        self.level = min(self.most, self.level * (FIRST_FACTOR if len(self.turns) < 2 else FACTOR)**direction)
+
+    def is_done(self):
+        return len(self.turns) >= REVERSALS or self.trials >= MOST_TRIALS
+
+    def threshold(self):
+        """None if the answers do not settle, as when somebody guesses."""
+        if len(self.turns) < REVERSALS:
+            return None
+        return statistics.geometric_mean(self.turns[2:])
+
+
+def pulse(device, force_N, sleep=time.sleep):
+    """To the right, with ramps. Raises RuntimeError if the device takes no force."""
+    for n in range(round((PULSE_S + 2 * RAMP_S) / SAMPLE_S) + 1):
+        edge_s = min(n * SAMPLE_S, PULSE_S + 2 * RAMP_S - n * SAMPLE_S)
+        share = 0.5 - 0.5 * math.cos(math.pi * min(1, edge_s / RAMP_S))
+        if not device.push((force_N * share, 0, 0)):
+            raise RuntimeError(f"the device takes no force: {device.last_fault()}")
+        sleep(SAMPLE_S)
+
+
+def measure(device, standard_N, staircase, ask, source=random, sleep=time.sleep):
+    """The level at which `standard_N` · (1 + level) is felt to be stronger than it, or `level` N than none if it is 0.
+
+    `ask()`: in which of two pulses the force was the larger one, 1 or 2.
+    """
+    while not staircase.is_done():
+        larger_N = standard_N * (1 + staircase.level) if standard_N else staircase.level
+        larger = source.choice((1, 2))
+        for interval in 1, 2:
+            pulse(device, larger_N if interval == larger else standard_N, sleep)
+            sleep(PAUSE_S)
+        staircase.answer(ask() == larger)
+    return staircase.threshold()
