@@ -167,8 +167,8 @@ class FilmSearch {
   /// Parts of a sentence.
   std::vector<std::string> left_out() const {
     std::vector<std::string> parts = unreadable_;
-    if (links_ > 0)
-      parts.push_back(std::to_string(links_) + (links_ == 1 ? " link" : " links") + " to folders");
+    for (const auto& [what, files] : passed_over_)
+      parts.push_back(std::to_string(files) + " " + what + (files == 1 ? "" : "s"));
     size_t count = 0;
     std::vector<std::pair<size_t, std::string>> ends;
     for (const auto& [end, files] : others_) {
@@ -202,15 +202,25 @@ class FilmSearch {
     std::error_code gone;  // it may be renamed or removed in the meantime
     const bool is_link = entry.is_symlink(gone);
     if (entry.is_directory(gone)) {
-      if (is_link) {
-        ++links_;
+      // The trash of a desktop, and what a file server keeps for Macs under the names of the films.
+      if (is_hidden(entry.path())) {
+        ++passed_over_["hidden folder"];
+      } else if (is_link) {
+        ++passed_over_["linked folder"];
       } else if (const std::error_code error = look_into(entry.path())) {
         unreadable_.push_back(entry.path().string() + ", which cannot be read (" + error.message() +
                               ")");
       }
       return;
     }
-    if (!entry.is_regular_file(gone) || is_hidden(entry.path())) return;
+    if (is_hidden(entry.path())) {
+      if (has_film_name(entry.path())) ++passed_over_["hidden film"];
+      return;
+    }
+    if (!entry.is_regular_file(gone)) {
+      ++passed_over_[entry.exists(gone) ? "special file" : "dangling link"];
+      return;
+    }
     if (!has_film_name(entry.path())) {
       if (!is_beside_film(entry.path())) ++others_[end_of(entry.path())];
       return;
@@ -224,8 +234,8 @@ class FilmSearch {
   const fs::path folder_;
   std::vector<FoundFilm> found_;
   std::vector<std::string> unreadable_;
-  size_t links_ = 0;
-  std::map<std::string, size_t> others_;  // by their ending
+  std::map<std::string, size_t> passed_over_;  // by what they are
+  std::map<std::string, size_t> others_;       // files, by their ending
 };
 
 }  // namespace

@@ -44,8 +44,9 @@ struct FilmList {
 };
 
 /// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
-/// end as those of films do (".mkv" in small or capital letters), without hidden ones: the largest
-/// first, so that a long film does not come last and alone. Links to folders are not followed.
+/// end as those of films do (".mkv" in small or capital letters), without hidden ones and hidden
+/// folders: the largest first, so that a long film does not come last and alone. Links to folders
+/// are not followed.
 /// Throws std::runtime_error if a folder has no film or cannot be read; one below it that cannot is
 /// left out.
 FilmList list_films(const std::vector<std::string>& names);

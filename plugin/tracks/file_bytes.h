@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace spidar {
 
@@ -20,6 +21,11 @@ inline uint64_t big_endian(const std::string& bytes, size_t at, size_t count) {
 inline uint64_t little_endian(std::string bytes, size_t at, size_t count) {
   std::reverse(bytes.begin() + static_cast<int>(at), bytes.begin() + static_cast<int>(at + count));
   return big_endian(bytes, at, count);
+}
+
+/// Whether `text` stands at `at`; there may be fewer bytes.
+inline bool has_at(const std::string& bytes, size_t at, std::string_view text) {
+  return bytes.size() >= at + text.size() && bytes.compare(at, text.size(), text) == 0;
 }
 
 /// Empty when it cannot be read.

@@ -25,10 +25,10 @@ class FilmFile : private FileBytes {
 
   FilmEnd end() {
     const std::string head = read(0, 12);
-    if (head.compare(0, 4, "RIFF") == 0 && head.compare(8, 4, "AVI ") == 0) return end_of_chunks();
-    if (head.compare(0, 4, "OggS") == 0) return last_page();
-    if (head.size() == 12 && head.compare(4, 4, "ftyp") == 0) return end_of_boxes();
-    if (head.compare(0, 4, "\x1a\x45\xdf\xa3") == 0) return end_of_segment();
+    if (has_at(head, 0, "RIFF") && has_at(head, 8, "AVI ")) return end_of_chunks();
+    if (has_at(head, 0, "OggS")) return last_page();
+    if (head.size() == 12 && has_at(head, 4, "ftyp")) return end_of_boxes();
+    if (has_at(head, 0, "\x1a\x45\xdf\xa3")) return end_of_segment();
     return FilmEnd::kUnknown;
   }
 
@@ -37,7 +37,7 @@ class FilmFile : private FileBytes {
   FilmEnd end_of_chunks() {
     for (uint64_t at = 0; at < size();) {
       const std::string head = read(at, 8);
-      if (head.size() < 8 || head.compare(0, 4, "RIFF") != 0) return FilmEnd::kAppended;
+      if (head.size() < 8 || !has_at(head, 0, "RIFF")) return FilmEnd::kAppended;
       const uint64_t length = little_endian(head, 4, 4);
       if (is_unknown_size(length)) return FilmEnd::kUnknown;
       if (length > size() - at - 8) return FilmEnd::kCutOff;
@@ -130,13 +130,13 @@ FileLength length_of_wav(FileBytes& file) {
     const std::string head = file.read(at, 8);
     if (head.size() < 8) break;
     const uint64_t promised = little_endian(head, 4, 4);
-    if (head.compare(0, 4, "fmt ") == 0) {
+    if (has_at(head, 0, "fmt ")) {
       const std::string format = file.read(at + 8, 16);
       if (format.size() < 16) break;
       rate_Hz = little_endian(format, 4, 4);
       sample_bytes = little_endian(format, 12, 2);
     }
-    if (head.compare(0, 4, "data") == 0) {
+    if (has_at(head, 0, "data")) {
       if (rate_Hz == 0 || sample_bytes == 0) break;
       const uint64_t there =
           std::min(file.size() - at - 8, is_unknown_size(promised) ? UINT64_MAX : promised);
@@ -172,9 +172,9 @@ FileLength file_length(const std::string& path) {
   FileBytes file(path);
   const std::string head = file.read(0, 12);
   FileLength length;
-  if (head.compare(0, 4, "fLaC") == 0) {
+  if (has_at(head, 0, "fLaC")) {
     length = length_of_flac(file);
-  } else if (head.compare(0, 4, "RIFF") == 0 && head.compare(8, 4, "WAVE") == 0) {
+  } else if (has_at(head, 0, "RIFF") && has_at(head, 8, "WAVE")) {
     length = length_of_wav(file);
   } else {
     length.is_cut_off = film_end(path) == FilmEnd::kCutOff;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -187,20 +188,29 @@ class MappedMeta : public Meta {
   }
   void TearDown() override { gst_buffer_unref(frame_); }
 
-  /// The motion of the frame that is made from that part of it by `matrix`.
-  GstSpidarFrameMotion map(const GstVideoRectangle& part, int width, int height,
-                           const std::array<std::array<float, 3>, 3>& matrix) {
+  using Matrix = std::array<std::array<float, 3>, 3>;
+
+  /// Puts into `to` the meta of the frame that is made from that part of this one by `matrix`;
+  /// returns false when there is none.
+  bool transform(GstBuffer* to, const GstVideoRectangle& part, int width, int height,
+                 const Matrix& matrix) {
     GstVideoInfo out;
     gst_video_info_set_format(&out, GST_VIDEO_FORMAT_I420, static_cast<guint>(width),
                               static_cast<guint>(height));
     MatrixTransform data{&h->info(), part, &out, {0, 0, width, height}, {}};
     for (size_t row = 0; row < 3; ++row)
       std::copy(matrix[row].begin(), matrix[row].end(), data.matrix[row]);
-    GstBuffer* const to = gst_buffer_new();
     GstCustomMeta* const meta = gst_buffer_get_custom_meta(frame_, GST_SPIDAR_MOTION_META_NAME);
     const GstMetaInfo* const info = gst_meta_get_info(GST_SPIDAR_MOTION_META_NAME);
-    EXPECT_TRUE(info->transform_func(to, reinterpret_cast<GstMeta*>(meta), frame_,
-                                     matrix_transform(), &data));
+    return info->transform_func(to, reinterpret_cast<GstMeta*>(meta), frame_, matrix_transform(),
+                                &data) != FALSE;
+  }
+
+  /// Its motion.
+  GstSpidarFrameMotion map(const GstVideoRectangle& part, int width, int height,
+                           const Matrix& matrix) {
+    GstBuffer* const to = gst_buffer_new();
+    EXPECT_TRUE(transform(to, part, width, height, matrix));
     GstSpidarFrameMotion motion{};
     EXPECT_TRUE(read_motion_in_c(to, &motion));
     EXPECT_EQ(motion.width, static_cast<guint>(width));
@@ -255,6 +265,23 @@ TEST_F(MappedMeta, TurningClockwiseTurnsTheForceAsMuch) {
   EXPECT_NEAR(after.force_x, before_.force_y, 1e-9);
   EXPECT_NEAR(after.force_y, -before_.force_x, 1e-9);
   EXPECT_NEAR(after.torque_z, before_.torque_z, 1e-9);
+}
+
+/// Such a picture has no directions; a meta of it would have numbers that are none.
+TEST_F(MappedMeta, IsNotKeptWhereTheMapIsSingularOrInfinite) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  for (const Matrix& matrix :
+       {Matrix{{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, Matrix{{{1, 0, 0}, {0, 0, 0}, {0, 0, 1}}},
+        Matrix{{{1, 2, 0}, {2, 4, 0}, {0, 0, 1}}}, Matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}},
+        Matrix{{{kNone, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        Matrix{{{kEndless, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+        Matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, kEndless}}}}) {
+    GstBuffer* const to = gst_buffer_new();
+    EXPECT_FALSE(transform(to, {0, 0, 320, 240}, 320, 240, matrix)) << matrix[0][0];
+    EXPECT_FALSE(gst_buffer_get_custom_meta(to, GST_SPIDAR_MOTION_META_NAME));
+    gst_buffer_unref(to);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """spidartrack record of films that are damaged, or have no motion."""
 import os
+import re
 import unittest
 
 import track_case
@@ -44,6 +45,19 @@ class FilmRecorder(track_case.TrackCase):
         # Only the header, of a film with sound.
         self.path("header.flv").write_bytes(b"FLV\1\5\0\0\0\t\0\0\0\0")
         self.expect_refused("header.flv", "it cannot be read to its end")
+
+    def test_a_film_that_has_just_begun_to_be_written_is_damaged(self):
+        heads = (b"RIFF\xff\xff\0\0AVI LIST", b"RIFF\xff\xff\0\0WAVEfmt ", b"OggS\0\2\0\0", b"\0\0\0\x18ftypmp42",
+                 b"\x1aE\xdf\xa3\x01\0\0\0", b"fLaC\0\0\0\"")
+        count = 0
+        for head in heads:
+            for size in (4, 7, 11):
+                self.path(f"{count}.avi").write_bytes(head[:size])
+                count += 1
+        said = self.spidartrack("record", *(f"{i}.avi" for i in range(count)), status=1)
+        self.assertIn(f"0 recorded, 0 there, {count} failed", said)
+        for why in re.findall(r"\.avi: failed: (.*)", said):
+            self.assertNotRegex(why, "basic_string|std::|vector")  # of the C++ library
 
     def test_what_is_appended_to_a_film_is_no_part_of_it(self):
         """By cameras, taggers and editors."""

@@ -123,9 +123,21 @@ class Batch(track_case.TrackCase):
         self.path("elsewhere").mkdir()
         self.path("in/link").symlink_to("../elsewhere")
         said = self.spidartrack("record", "in", "--folder", "elsewhere")
-        self.assertEqual(said.count("left out: 1 link to folders; 4 files that are no film by the name (2 .srt, "
+        self.assertEqual(said.count("left out: 1 linked folder; 4 files that are no film by the name (2 .srt, "
                                     "1 without an ending, 1 .jpg)\n"), 1, said)
         self.assertIn("5 recorded, 0 there, 0 failed", said)
+
+    def test_hidden_folders_and_what_is_no_file_are_left_out_and_named(self):
+        for name in ("in/film.avi", "in/.Trash-1000/files/deleted.avi", "in/.AppleDouble/film.avi", "in/._film.avi"):
+            self.make_film(name, 5)
+        self.path("in/gone.avi").symlink_to("nowhere.avi")
+        self.path("in/linked.avi").symlink_to("film.avi")
+        os.mkfifo(self.path("in/pipe.avi"))
+        said = self.spidartrack("record", "in")
+        self.assertEqual(said.count("left out: 1 dangling link; 1 hidden film; 2 hidden folders; 1 special file\n"), 1, said)
+        self.assertIn("2 recorded, 0 there, 0 failed", said)
+        self.assertEqual({name for name in self.files() if name.endswith(".flac")},
+                         {"in/film.avi.haptic.flac", "in/linked.avi.haptic.flac"})
 
     def test_a_folder_that_may_not_be_read_costs_no_other(self):
         """As lost+found at the root of a disk."""

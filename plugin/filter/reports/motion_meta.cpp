@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/reports/motion_meta.h"
 
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -61,22 +63,28 @@ Eigen::Matrix2d linear_at(const PictureMap& map, const Eigen::Vector2d& position
   return (map.topLeftCorner<2, 2>() - at * map.row(2).head<2>()) / to.z();
 }
 
-/// The rotation or reflection that is nearest to `linear`, which is not singular: the orthogonal
-/// factor of its polar decomposition (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
-Eigen::Matrix2d turn_in(const Eigen::Matrix2d& linear) {
-  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+/// The rotation or reflection that is nearest to `linear`: the orthogonal factor of its polar
+/// decomposition (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986). Nothing where `linear` is not
+/// finite or makes a line of the picture.
+std::optional<Eigen::Matrix2d> turn_in(const Eigen::Matrix2d& linear) {
+  if (!linear.allFinite()) return std::nullopt;
+  Eigen::JacobiSVD<Eigen::Matrix2d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(std::numeric_limits<gfloat>::epsilon());  // so exact is what the map is made of
+  if (svd.rank() < 2) return std::nullopt;
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
 /// Lengths follow the map; force and torque keep their size, and are turned and mirrored with it.
-void map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
+/// False where no direction is left.
+bool map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
   const Eigen::Matrix2d linear = linear_at(map, Eigen::Vector2d(m.width, m.height) / 2);
   const Eigen::Vector2d velocity = linear * Eigen::Vector2d(m.velocity_x, m.velocity_y);
-  const Eigen::Matrix2d turn = turn_in(linear);
+  const std::optional<Eigen::Matrix2d> turn = turn_in(linear);
+  if (!turn) return false;
   // y of force and torque points up. A torque is an axial vector.
-  const double side = turn.determinant();
-  const Eigen::Vector2d force = turn * Eigen::Vector2d(m.force_x, -m.force_y);
-  const Eigen::Vector2d torque = side * (turn * Eigen::Vector2d(m.torque_x, -m.torque_y));
+  const double side = turn->determinant();
+  const Eigen::Vector2d force = *turn * Eigen::Vector2d(m.force_x, -m.force_y);
+  const Eigen::Vector2d torque = side * (*turn * Eigen::Vector2d(m.torque_x, -m.torque_y));
   m.velocity_x = velocity.x();
   m.velocity_y = velocity.y();
   m.force_x = force.x();
@@ -85,6 +93,7 @@ void map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
   m.torque_y = -torque.y();
   m.torque_z *= side;
   m.roll *= side;
+  return true;
 }
 
 /// Copies the meta of `from` to `to`, whose picture has been made from that of `from` by `map`.
@@ -95,7 +104,10 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const Gs
     g_clear_pointer(&tracks, g_array_unref);
     return false;
   }
-  map_motion(map, motion);
+  if (!map_motion(map, motion)) {
+    g_array_unref(tracks);
+    return false;
+  }
   motion.width = static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out));
   motion.height = static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out));
   std::vector<SerialisedTrack> moved;
@@ -103,6 +115,7 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const Gs
     const GstSpidarMotionTrack& track = g_array_index(tracks, GstSpidarMotionTrack, i);
     const Eigen::Vector2d before = mapped(map, {track.from_x, track.from_y});
     const Eigen::Vector2d now = mapped(map, {track.to_x, track.to_y});
+    if (!before.allFinite() || !now.allFinite()) continue;  // at the horizon
     moved.push_back({track.id, 0, before.x(), before.y(), now.x(), now.y(), track.object, 0});
   }
   g_array_unref(tracks);
