@@ -61,9 +61,11 @@ def noise(volume, output):
 
 
 class TickRecorder:
-    """Keeps the haptic trace while a clip plays. It comes through a pipe, as most of a session is not worth keeping."""
+    """Keeps the haptic trace while a clip plays. It comes through a pipe, as most of a session is not worth keeping.
+    `streams`: takes each row, also of the time between clips (examples/lsl.py)."""
 
-    def __init__(self):
+    def __init__(self, streams=None):
+        self.streams = streams
         self.folder = tempfile.TemporaryDirectory()
         self.path = os.path.join(self.folder.name, "ticks")
         os.mkfifo(self.path)
@@ -94,6 +96,8 @@ class TickRecorder:
                         self.file.write(b"".join(line + b"\n" for line in lines))
                     self.last_ns = int(lines[-1].split(b",")[1])
                     self.changed.notify_all()
+            for line in lines if self.streams else ():
+                self.streams.add(dict(zip(self.header.decode().split(","), line.decode().split(","))))
 
     def start(self, path):
         with self.changed:
@@ -120,11 +124,11 @@ class Player:
     """A context manager: the device is opened at its beginning and closed at its end.
 
     The position of the grip is counted from where it was when the device was opened, unless the profile is calibrated.
-    Therefore one opening serves all clips. `output`: one of SINKS.
+    Therefore one opening serves all clips. `output`: one of SINKS. `streams`: of TickRecorder.
     """
 
-    def __init__(self, properties, output):
-        self.output, self.recorder = output, None
+    def __init__(self, properties, output, streams=None):
+        self.output, self.recorder, self.streams = output, None, streams
         self.filter = make_filter([*properties, "on-device-error=error"])
         self.filter.set_locked_state(True)  # it outlives the pipelines that it is in
         self.bus = Gst.Bus()
@@ -136,7 +140,7 @@ class Player:
     def __enter__(self):
         """Raises RuntimeError if the device cannot be opened."""
         if self.property("device") != "none":
-            self.recorder = TickRecorder()
+            self.recorder = TickRecorder(self.streams)
             self.filter.set_property("haptic-trace", self.recorder.path)
         self.filter.set_bus(self.bus)
         if self.filter.set_state(Gst.State.READY) == Gst.StateChangeReturn.FAILURE:

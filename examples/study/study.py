@@ -3,30 +3,30 @@
 # Copyright 2026 the gst-spidar authors
 """The paper's experiment with people: which controller feels better, and what haptics add.
 
-`plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run` asks
-for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips and asks.
-It goes on where this participant stopped. `report` prints shares, means and what differs, and `withdraw`
-removes a participant. docs/study.md says more.
+`plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run`
+asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips
+and asks. It goes on where this participant stopped. `threshold` measures what a participant feels at least. `report`
+prints shares, means and what differs, and `withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
 
-import argparse
 import hashlib
 import platform
 import signal
 import sys
+import time
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 
 import perception
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, describe, read_line
+from options import parse
 from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_rows,
                      read_settings, require_same, utc_now, write_settings)
 from trials import ANALYSIS, QUESTIONS, Trial, open_questions, schedule
 
-NOISE = 0.1  # volume; how loud that is, the laboratory sets at the headphones until nobody hears the motors
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
 
@@ -46,6 +46,7 @@ class Study:
 
         self.options, self.clip_player, self.preview = options, clip_player, preview
         self.output = "headless" if options.headless else "window"
+        self.streams = self.open_streams() if options.lsl else None
         self.extra = dict(question.split("=", 1) for question in options.question)
         asked = {name for questions in QUESTIONS.values() for name in questions} | set(self.extra)
         if options.primary not in asked:
@@ -58,6 +59,17 @@ class Study:
         filter_ = clip_player.make_filter(self.properties)
         self.device, self.profile, self.limit_N = (
             filter_.get_property(name) for name in ("device", "profile", "max-force"))
+
+    @staticmethod
+    def open_streams():
+        sys.path.append(str(Path(__file__).resolve().parents[1]))
+        import lsl
+
+        return lsl.Streams(lsl.load(), platform.node())
+
+    def mark(self, text):
+        if self.streams:
+            self.streams.mark(text, time.monotonic_ns())
 
     def clip_files(self):
         return self.options.clips + ([self.options.practice] if self.options.practice else [])
@@ -109,7 +121,7 @@ class Study:
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
     def player(self):
-        return self.clip_player.Player(self.properties, self.output)
+        return self.clip_player.Player(self.properties, self.output, self.streams)
 
     def noise(self):
         return self.clip_player.noise(self.options.noise, self.output)
@@ -139,6 +151,7 @@ class Study:
         try:
             properties = ["mute=false", *self.preview.PROPERTIES[trial.condition], f"trace={frames}",
                           f"max-force={clip.max_force_N[force]:.6f}"]
+            self.mark(f"begin trial {trial.number} code {trial.code}")
             if not player.play(trial.clip, properties, trial.condition == "sham", ticks):
                 raise Stopped
             share, problem = judge(ticks, frames, clip.frames[force], trial.condition == "without")
@@ -146,6 +159,7 @@ class Study:
             problem = str(error)
             raise
         finally:
+            self.mark(f"end trial {trial.number}")
             append_row(self.options.answers + ".presentations", PRESENTATION_COLUMNS,
                        [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, utc_now()])
         return problem
@@ -237,63 +251,6 @@ class Study:
         print("\nthat was all; thank you")
 
 
-def parse(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(dest="command", required=True)
-    end = ("name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
-           f"{GENTLE_N:g} N, and more must be confirmed.")
-    plan = commands.add_parser("plan", help="how many participants an effect needs")
-    plan.add_argument("--odds-ratio", type=float, default=7,
-                      help="of a higher answer, for one person and one clip (7: with these spreads, the paper's 50 and 80 %%)")
-    plan.add_argument("--clips", type=int, nargs="+", default=[3, 6, 12], help="numbers of clips (3 6 12)")
-    plan.add_argument("--spread", type=float, default=1,
-                      help="standard deviation between participants, of their level and of their effect, as log odds (1)")
-    plan.add_argument("--clip-spread", type=float, default=0.8, help="the same, between clips (0.8)")
-    plan.add_argument("--power", type=float, default=0.8)
-    plan.add_argument("--level", type=float, default=0.05, help="of the test")
-    plan.add_argument("--simulations", type=int, default=500)
-    design = commands.add_parser("design", help="in what the conditions of these clips differ", epilog=end,
-                                 usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
-    run = commands.add_parser(
-        "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
-    threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
-                                    usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
-    for command in run, threshold:
-        command.add_argument("answers", metavar="ANSWERS.csv")
-        command.add_argument("participant", metavar="PARTICIPANT")
-        command.add_argument("--noise", type=float, default=NOISE, metavar="VOLUME",
-                             help=f"of pink noise that hides the sound of the motors throughout ({NOISE:g}; 0 to 1)")
-    run.add_argument("--practice", metavar="CLIP", default="", help="shown first, with and without haptics, to try it out")
-    run.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
-    run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
-                     help="one more question after each clip, on the same five steps")
-    run.add_argument("--headless", action="store_true", help="no window for the video")
-    for command in design, run:
-        command.add_argument("clips", metavar="CLIP", nargs="+")
-        command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
-                             "conditions of different strength")
-        command.add_argument("--accept-alike", action="store_true",
-                             help="also clips whose conditions are the same in most frames")
-    run.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
-                     help="the question of the primary outcome (movement)")
-    for command in design, threshold:
-        command.set_defaults(question=[], primary=ANALYSIS["primary"], practice="", headless=False)
-    threshold.set_defaults(clips=[], paper=False)
-    commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
-    withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
-    withdraw.add_argument("answers", metavar="ANSWERS.csv")
-    withdraw.add_argument("participant", metavar="PARTICIPANT")
-    split = arguments.index("--") if "--" in arguments else len(arguments)
-    options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
-    if options.command in ("run", "threshold"):
-        if not options.participant or "/" in options.participant:
-            parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
-        for question in options.question:
-            if not all(question.partition("=")):
-                parser.error(f"--question {question} is not NAME=TEXT")
-    return options, properties
-
-
 def execute(options, properties):
     if options.command == "plan":
         from plan import plan  # SciPy takes a moment
@@ -319,7 +276,7 @@ def execute(options, properties):
 
 def main(arguments):
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
-    options, properties = parse(arguments)
+    options, properties = parse(__doc__, arguments)
     try:
         execute(options, properties)
     except (Stopped, KeyboardInterrupt):

@@ -8,6 +8,7 @@
 
 import json
 import math
+import os
 import random
 import re
 import subprocess
@@ -16,6 +17,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
@@ -192,6 +194,26 @@ class Run(unittest.TestCase):
         self.assertEqual(records.read_answers(answers), [])
         refused = study("run", "--headless", answers, "P01", self.clip)
         self.assertIn("practice was", refused.stderr)
+
+    def test_a_recorder_of_the_laboratory_gets_trials_and_forces(self):
+        """By a stand-in for examples/lsl.py, whose own streams test_lsl.py receives."""
+        sent = self.file("sent")
+        stand_in = self.file("lsl")
+        stand_in.mkdir()
+        (stand_in / "lsl.py").write_text(f"""
+def load(): return None
+class Streams:
+    def __init__(self, lsl, source): self.out = open({str(sent)!r}, "w", buffering=1)
+    def mark(self, text, monotonic_ns): print(monotonic_ns, text, file=self.out)
+    def add(self, row): print(row["monotonic_ns"], row["delivered_force_x_N"], file=self.out)
+""")
+        with patch.dict(os.environ, {"PYTHONPATH": f"{stand_in}:{os.environ.get('PYTHONPATH', '')}"}):
+            SimulatedParticipant(self.file("lsl.csv"), "P01", [self.clip], "--lsl").take_part(trials_at_most=2)
+        rows = [line.split(" ", 1) for line in sent.read_text().splitlines()]
+        marks = [(int(ns), text) for ns, text in rows if "trial" in text]
+        self.assertRegex(" ".join(text for _, text in marks[:2]), r"^begin trial 1 code [A-Z]\d end trial 1$")
+        during = [float(text) for ns, text in rows if "trial" not in text and marks[0][0] < int(ns) < marks[1][0]]
+        self.assertGreater(len(during), 100)
 
     def test_thresholds_are_measured_on_the_device(self):
         answers = self.file("thresholds.csv")

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""The command line of study.py."""
+
+import argparse
+
+from briefing import GENTLE_N
+from trials import ANALYSIS
+
+NOISE = 0.1  # volume; how loud that is, the laboratory sets at the headphones until nobody hears the motors
+
+
+def parse(description, arguments):
+    """The options, and what comes after --: properties."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    end = ("name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
+           f"{GENTLE_N:g} N, and more must be confirmed.")
+    plan = commands.add_parser("plan", help="how many participants an effect needs")
+    plan.add_argument("--odds-ratio", type=float, default=7,
+                      help="of a higher answer, for one person and one clip (7: with these spreads, the paper's 50 and 80 %%)")
+    plan.add_argument("--clips", type=int, nargs="+", default=[3, 6, 12], help="numbers of clips (3 6 12)")
+    plan.add_argument("--spread", type=float, default=1,
+                      help="standard deviation between participants, of their level and of their effect, as log odds (1)")
+    plan.add_argument("--clip-spread", type=float, default=0.8, help="the same, between clips (0.8)")
+    plan.add_argument("--power", type=float, default=0.8)
+    plan.add_argument("--level", type=float, default=0.05, help="of the test")
+    plan.add_argument("--simulations", type=int, default=500)
+    design = commands.add_parser("design", help="in what the conditions of these clips differ", epilog=end,
+                                 usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
+    run = commands.add_parser(
+        "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
+    threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
+                                    usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
+    for command in run, threshold:
+        command.add_argument("answers", metavar="ANSWERS.csv")
+        command.add_argument("participant", metavar="PARTICIPANT")
+        command.add_argument("--noise", type=float, default=NOISE, metavar="VOLUME",
+                             help=f"of pink noise that hides the sound of the motors throughout ({NOISE:g}; 0 to 1)")
+    run.add_argument("--practice", metavar="CLIP", default="", help="shown first, with and without haptics, to try it out")
+    run.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
+    run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
+                     help="one more question after each clip, on the same five steps")
+    run.add_argument("--headless", action="store_true", help="no window for the video")
+    for command in design, run:
+        command.add_argument("clips", metavar="CLIP", nargs="+")
+        command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
+                             "conditions of different strength")
+        command.add_argument("--accept-alike", action="store_true",
+                             help="also clips whose conditions are the same in most frames")
+    run.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
+                     help="the question of the primary outcome (movement)")
+    run.add_argument("--lsl", action="store_true",
+                     help="send force, pose, and markers of frames and trials to the Lab Streaming Layer")
+    for command in design, threshold:
+        command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="", headless=False)
+    threshold.set_defaults(clips=[], paper=False)
+    commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
+    withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
+    withdraw.add_argument("answers", metavar="ANSWERS.csv")
+    withdraw.add_argument("participant", metavar="PARTICIPANT")
+    split = arguments.index("--") if "--" in arguments else len(arguments)
+    options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
+    if options.command in ("run", "threshold"):
+        if not options.participant or "/" in options.participant:
+            parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
+        for question in options.question:
+            if not all(question.partition("=")):
+                parser.error(f"--question {question} is not NAME=TEXT")
+    return options, properties
