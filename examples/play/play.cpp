@@ -172,9 +172,9 @@ void wait_for_window(const Playing& playing) {
   gst_object_unref(bus);
 }
 
-int play(const Options& options) {
-  prepare_output(options.output);
-  GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
+/// Returns whether one of the properties says what is drawn into the video.
+bool set_properties(GstElement* filter, const Options& options) {
+  bool has_overlay = false;
   g_object_set(filter, "device", "auto", nullptr);
   for (const std::string& text : options.properties) {
     if (const auto preset = spidar::preset_of(text)) {
@@ -183,7 +183,15 @@ int play(const Options& options) {
     }
     const spidar::TypedProperty property(G_OBJECT(filter), text);
     g_object_set_property(G_OBJECT(filter), property.name().c_str(), property.value());
+    has_overlay = has_overlay || property.name() == "overlay";
   }
+  return has_overlay;
+}
+
+int play(const Options& options) {
+  prepare_output(options.output);
+  GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
+  const bool has_overlay = set_properties(filter, options);
   g_object_set(filter, "post-messages", TRUE, nullptr);
   if (options.window) g_object_set(filter, "debug-window", TRUE, nullptr);
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
@@ -216,6 +224,14 @@ int play(const Options& options) {
     const std::string before = record.track();
     record.add_frame(message);
     if (record.track() != before) std::printf("playing %s\n", record.track().c_str());
+  };
+  watch.on_device = [&](const GstStructure* message) {
+    gboolean simulated = FALSE;
+    gst_structure_get_boolean(message, "simulated", &simulated);
+    // What would be felt is to be seen. The debug window draws it itself.
+    if (simulated && !has_overlay && !options.window) {
+      gst_util_set_object_arg(G_OBJECT(filter), "overlay", "curve");
+    }
   };
   watch.on_moment = [&](double time_s) {
     now_s = time_s;

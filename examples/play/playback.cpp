@@ -167,6 +167,9 @@ gboolean on_message(GstBus*, GstMessage* message, void* data) {
       if (gst_message_has_name(message, "spidar-motion")) {
         playback.watch.on_motion(gst_message_get_structure(message));
       }
+      if (gst_message_has_name(message, "spidar-device")) {
+        playback.watch.on_device(gst_message_get_structure(message));
+      }
       break;
     default:
       break;

@@ -101,6 +101,17 @@ std::string device_line(const GstStructure* stats) {
   if (const uint64_t n = count_in(stats, "exchange-errors")) {
     add(text_of("%" PRIu64 " exchanges failed", n));
   }
+  const uint64_t ticks = count_in(stats, "ticks");
+  if (const uint64_t n = count_in(stats, "overruns")) {
+    add(text_of("%" PRIu64 " of %" PRIu64 " ticks came late", n, ticks));
+  }
+  if (const uint64_t n = count_in(stats, "missed-ticks")) {
+    add(text_of("%" PRIu64 " ticks were left out", n));
+  }
+  if (const uint64_t n = count_in(stats, "gap-ticks")) {
+    add(text_of("no force for %.2f s in all, because no frame came in time",
+                1e-3 * static_cast<double>(n)));
+  }
   int string = -1;
   if (gst_structure_get_int(stats, "faulty-string", &string) && string >= 0) {
     add(text_of("string %d is slack, broken or without encoder", string));

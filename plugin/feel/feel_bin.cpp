@@ -71,6 +71,27 @@ static void set_properties(GstElement* motion, const char* properties) {
   g_strfreev(lines);
 }
 
+static bool is_set(const char* properties, const char* name) {
+  gchar** lines = g_strsplit(properties, "\n", -1);
+  bool found = false;
+  for (gchar** line = lines; *line && !found; ++line) {
+    const size_t length = strlen(name);
+    found = strncmp(*line, name, length) == 0 && (*line)[length] == '=';
+  }
+  g_strfreev(lines);
+  return found;
+}
+
+/// Without a device, what would be felt is shown, unless the user has said what is to be drawn.
+static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstMessage* message) {
+  const GstStructure* told = gst_message_get_structure(message);
+  gboolean simulated = FALSE;
+  if (gst_structure_has_name(told, "spidar-device") &&
+      gst_structure_get_boolean(told, "simulated", &simulated) && simulated &&
+      !is_set(self->properties, "overlay"))
+    gst_util_set_object_arg(G_OBJECT(motion), "overlay", "curve");
+}
+
 /// The video continues: an error of the device becomes a warning in the player. Players may hide
 /// warnings and information, so they are also printed on standard error.
 static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
@@ -117,6 +138,8 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   const auto kinds = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING |
                                                  GST_MESSAGE_INFO | GST_MESSAGE_ELEMENT);
   while (GstMessage* message = gst_bus_pop_filtered(bus.get(), kinds)) {
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT)
+      show_without_device(self, motion.get(), message);
     pass_on(self, message);
     gst_message_unref(message);
   }

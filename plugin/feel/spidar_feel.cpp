@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// spidar-feel: runs a player so that its video is felt.
+// spidar-feel: plays a film, or runs a player, so that the video is felt.
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <system_error>
@@ -81,12 +82,15 @@ constexpr int kCannotRun = 126;
 constexpr int kNoProgram = 127;
 
 constexpr const char* kHelp =
-    R"(usage: spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
+    R"(usage: spidar-feel [PROPERTY=VALUE... --] FILM...
+       spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
 
-Runs PROGRAM, a player that uses GStreamer, so that the video it plays is felt on a SPIDAR or on a
-force-feedback joystick. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
+Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
+what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
+felt is drawn over the video. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
 preset=NAME stands for those of a preset: paper, film or gentle.
 
+  spidar-feel film.mp4
   spidar-feel totem film.mp4
   spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
 )";
@@ -101,9 +105,20 @@ struct Options {
   std::exit(status);
 }
 
+/// NAME=VALUE, and no film whose name or URI has an equals sign.
+bool is_property(const std::string& word) {
+  const size_t end = word.find('=');
+  if (end == std::string::npos || word[0] == '-') return false;
+  const bool is_name = std::all_of(word.begin(), word.begin() + static_cast<long>(end), [](char c) {
+    return g_ascii_isalnum(c) || c == '-' || c == '_';
+  });
+  std::error_code error;
+  return is_name && !fs::exists(word, error);
+}
+
 Options parse(int argc, char** argv) {
   Options options;
-  if (argc < 2) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
+  if (argc < 2) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
   if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
     std::fputs(kHelp, stdout);
     std::exit(spidar::status_after_printing("spidar-feel", 0));
@@ -113,14 +128,13 @@ Options parse(int argc, char** argv) {
     std::exit(spidar::status_after_printing("spidar-feel", 0));
   }
   int at = 1;
-  while (at < argc && argv[at][0] != '-' && std::strchr(argv[at], '='))
-    options.properties.emplace_back(argv[at++]);
+  while (at < argc && is_property(argv[at])) options.properties.emplace_back(argv[at++]);
   const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
   if (!options.properties.empty() && !separated)
     fail(kUsage, "write -- between the properties and the program: spidar-feel " +
-                     options.properties.front() + " -- PROGRAM");
+                     options.properties.front() + " -- FILM");
   if (separated) ++at;
-  if (at == argc) fail(kUsage, "no PROGRAM given; spidar-feel --help tells more");
+  if (at == argc) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
   if (argv[at][0] == '-')
     fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
   options.program = argv + at;
@@ -200,6 +214,45 @@ void set_environment(const std::vector<std::string>& properties) {
   g_setenv("GST_TRACERS", all.c_str(), TRUE);
 }
 
+/// Whether the file begins as programs do: as an ELF file, or as text.
+bool begins_as_program(const std::string& path) {
+  char begin[256] = "";
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin, sizeof begin);
+  const auto size = static_cast<size_t>(file.gcount());
+  return std::memcmp(begin, "\177ELF", 4) == 0 || std::memchr(begin, '\0', size) == nullptr;
+}
+
+/// Whether `word` is a film and not a program. Some file systems let every file be executed.
+bool is_film(const std::string& word) {
+  if (word.find("://") != std::string::npos && gst_uri_is_valid(word.c_str())) return true;
+  std::error_code error;
+  if (!fs::is_regular_file(word, error)) return false;
+  if (word.find('/') == std::string::npos) {
+    gchar* program = g_find_program_in_path(word.c_str());
+    g_free(program);
+    if (program) return false;
+  }
+  return access(word.c_str(), X_OK) != 0 || !begins_as_program(word);
+}
+
+/// Plays films with the player of GStreamer itself.
+void run_films(char** films) {
+  constexpr const char* kPlayer = "gst-play-1.0";
+  std::vector<char*> words{const_cast<char*>(kPlayer)};
+  for (char** film = films; *film; ++film) words.push_back(*film);
+  words.push_back(nullptr);
+  execvp(kPlayer, words.data());
+  const int error = errno;
+  if (error == ENOENT)
+    fail(kNoProgram,
+         std::string(kPlayer) +
+             ", which plays films, is not installed: on Debian and Ubuntu it is in the package "
+             "gstreamer1.0-plugins-base-apps; or name another player: spidar-feel totem " +
+             films[0]);
+  fail(kCannotRun, std::string(kPlayer) + ": " + std::strerror(error));
+}
+
 /// The value of the property `device`, of which the last one counts; empty: none is given.
 std::string device_of(const Options& options) {
   const std::string begin = "device=";
@@ -238,6 +291,7 @@ int main(int argc, char** argv) {
   find_plugins();
   check(options.properties);
   set_environment(options.properties);
+  if (is_film(options.program[0])) run_films(options.program);
   warn_of_nothing_felt(options);
   execvp(options.program[0], options.program);
   const int error = errno;

@@ -6,7 +6,10 @@
 
 #include "plugin/gobject/category.h"
 #include "plugin/gobject/exceptions.h"
+#include "plugin/gobject/information.h"
+#include "spidar/grip/rendered_text.h"
 #include "spidar/grip/tension_command.h"
+#include "spidar/session/device_factory.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -39,7 +42,8 @@ void DeviceWarnings::post(const char* state, const std::string& device,
   GST_INFO_OBJECT(element_, "device %s: %s: %s", device.c_str(), state, why.c_str());
   GstStructure* const what =
       gst_structure_new("spidar-device", "state", G_TYPE_STRING, state, "device", G_TYPE_STRING,
-                        device.c_str(), "reason", G_TYPE_STRING, why.c_str(), nullptr);
+                        device.c_str(), "reason", G_TYPE_STRING, why.c_str(), "simulated",
+                        G_TYPE_BOOLEAN, is_simulated(device) ? TRUE : FALSE, nullptr);
   gst_element_post_message(element_, gst_message_new_element(GST_OBJECT(element_), what));
 }
 
@@ -77,24 +81,26 @@ bool DeviceWarnings::check_refused(const std::string& device, const std::excepti
 
 void DeviceWarnings::check_opened(const HapticSession* session, const std::string& chosen) const {
   if (!session) return;
-  post("opened", session->grip().name(), chosen.empty() ? session->opened() : chosen);
-  if (!chosen.empty())
-    GST_ELEMENT_INFO(element_, RESOURCE, SETTINGS,
-                     ("%s: %s.", session->grip().name().c_str(), chosen.c_str()),
-                     ("spidarctl list names what is plugged in; device= chooses one."));
-  const GripAbilities can = session->grip().abilities();
+  const Grip& grip = session->grip();
+  post("opened", grip.name(), chosen.empty() ? session->opened() : chosen);
+  const GripAbilities can = grip.abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
-  const bool force_feedback = session->grip().name().compare(0, 2, "ff") == 0;
+  const bool force_feedback = grip.name().compare(0, 2, "ff") == 0;
   const bool whole = can.force[0] && can.force[1] && can.direction;
-  if (whole && !force_feedback) return;
-  GST_ELEMENT_INFO(
-      element_, RESOURCE, SETTINGS, ("%s.", session->opened().c_str()),
-      ("The device works%s%s.",
-       whole ? "" : ", but renders nothing else of the force and the torque",
-       force_feedback ? "; device=ff:PATH,gain=PERCENT sets how much of its strength is "
-                        "used, and spidarctl selftest ff tests its directions"
-                      : ""));
+  if (chosen.empty() && whole && !force_feedback) return;
+  std::string text;
+  if (!chosen.empty()) text = grip.name() + ": " + chosen + ". ";
+  if (force_feedback || chosen.empty()) text += session->opened() + ". ";
+  if (!force_feedback) text += "It renders " + rendered_text(can) + ". ";
+  text.pop_back();
+  std::string advice;
+  if (!chosen.empty()) advice = "spidarctl list names what is plugged in; device= chooses one.";
+  if (force_feedback)
+    advice += std::string(advice.empty() ? "" : " ") +
+              "device=ff:PATH,gain=PERCENT sets how much of its strength is used, and spidarctl "
+              "selftest ff tests its directions.";
+  post_information(element_, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_SETTINGS, text, advice);
 }
 
 void DeviceWarnings::start() {

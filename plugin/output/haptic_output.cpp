@@ -38,9 +38,10 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       G_TYPE_STRING, to_string(snapshot.last.device), "real-time", G_TYPE_BOOLEAN,
       scheduling.real_time ? TRUE : FALSE, "scheduling", G_TYPE_STRING, scheduling.detail.c_str(),
       "ticks", G_TYPE_UINT64, counters.ticks, "overruns", G_TYPE_UINT64, counters.overruns,
-      "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors", G_TYPE_UINT64,
-      counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost, "pose-trouble",
-      G_TYPE_STRING, to_string(snapshot.last.trouble), "motor-heat", G_TYPE_DOUBLE,
+      "missed-ticks", G_TYPE_UINT64, counters.missed_deadlines, "gap-ticks", G_TYPE_UINT64,
+      counters.gap_ticks, "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors",
+      G_TYPE_UINT64, counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost,
+      "pose-trouble", G_TYPE_STRING, to_string(snapshot.last.trouble), "motor-heat", G_TYPE_DOUBLE,
       snapshot.last.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.last.held_back ? TRUE : FALSE,
       "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
       snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
@@ -121,6 +122,10 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
     return trace_problem;
   };
   for (const AutoDevice& found : auto_devices()) {
+    if (!found.why_not.empty()) {
+      refused += "; not " + found.device + ": " + found.why_not;
+      continue;
+    }
     try {
       // A profile that is named for a board is not confirmed for the one that is found.
       return choose(found, "");
@@ -128,7 +133,8 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
       refused += std::string("; not ") + error.what();
     }
   }
-  return choose({"sim", "simulated, because nothing that gives a force can be used"}, profile_name);
+  return choose({"sim", "simulated, because nothing that gives a force can be used", ""},
+                profile_name);
 }
 
 std::string HapticOutput::open_named(const std::string& device, const std::string& profile_name,

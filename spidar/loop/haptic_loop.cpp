@@ -158,6 +158,17 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
   record.wanted = result.wrench;
+  count_gap(record);
+}
+
+/// What follows the last frame of a film is no gap.
+void HapticLoop::count_gap(const TickRecord& record) noexcept {
+  if (record.playing && record.found == Found::kExpired) {
+    ++gap_ticks_;
+    return;
+  }
+  if (has_frame(record)) counters_.gap_ticks += gap_ticks_;
+  gap_ticks_ = 0;
 }
 
 void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {

@@ -150,6 +150,7 @@ class HapticLoop {
   void lose() noexcept;
   void follow_limits(double dt_s) noexcept;
   void find_wanted(TickRecord& record) noexcept;
+  void count_gap(const TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
   void ask_callback(TickRecord& record, double dt_s) noexcept;
   bool is_fresh(const TickRecord& record) const noexcept;
@@ -185,6 +186,7 @@ class HapticLoop {
   double power_ = 0;               // GripCommand::power
   double acknowledged_power_ = 0;  // of the last acknowledged command, from which it continues
   int errors_in_a_row_ = 0;
+  uint64_t gap_ticks_ = 0;    // since the newest frame was over
   int64_t untrusted_ns_ = 0;  // time for which the pose has not been trusted
   int64_t unfelt_ns_ = 0;     // time for which no force has been requested
   bool ticked_ = false;

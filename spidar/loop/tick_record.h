@@ -98,6 +98,9 @@ struct LoopCounters {
   uint64_t ticks = 0;
   uint64_t overruns = 0;          ///< ticks that began more than one period late
   uint64_t missed_deadlines = 0;  ///< deadlines skipped because of that
+  /// While playing, without a force, because the frame before was over and the next one had not
+  /// come; it did.
+  uint64_t gap_ticks = 0;
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;
   uint64_t string_faults = 0;      ///< how often a string became faulty, or a different one did

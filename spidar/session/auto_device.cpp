@@ -7,6 +7,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/device_registry.h"
+#include "spidar/session/profile_choice.h"
 
 namespace spidar {
 namespace {
@@ -24,6 +25,15 @@ constexpr Rank kForces[] = {
     {"ff", false, "a gamepad that rumbles"},
 };
 
+std::string unconfirmed(const BoardInfo& board) {
+  const std::string named = "device=" + board.device + " profile=NAME";
+  const std::string once = "spidarctl choose " + board.device + " --profile NAME";
+  return "this " + board.name + " has no confirmed profile, without which its motors get no force" +
+         (board.memory_trouble.empty() ? "" : " (" + board.memory_trouble + ")") +
+         (board.serial.empty() ? "; name it each time: " + named : "; confirm it: " + once) + " (" +
+         fitting_text(board) + ")";
+}
+
 }  // namespace
 
 std::vector<AutoDevice> auto_devices() {
@@ -31,12 +41,18 @@ std::vector<AutoDevice> auto_devices() {
   const std::vector<BoardInfo> boards = list_boards();
   for (const BoardInfo& board : boards)
     if (board.has_strings && !board.profile.empty() && !is_simulated(board.device))
-      found.push_back({board.device, "a SPIDAR whose profile was confirmed"});
+      found.push_back({board.device, "a SPIDAR whose profile was confirmed", ""});
+  for (const BoardInfo& board : boards)
+    if (board.has_strings && board.profile.empty())
+      found.push_back({board.device, "", unconfirmed(board)});
   for (const Rank& rank : kForces) {
     for (const BoardInfo& board : boards)
       if (DeviceName(board.device).device == rank.device && board.directional == rank.directional)
-        found.push_back({board.device, rank.why});
+        found.push_back({board.device, rank.why, ""});
   }
+  for (const BoardInfo& board : boards)
+    if (DeviceName(board.device).device == "mouse")
+      found.push_back({board.device, "", "a " + board.name + " is used only with device=mouse"});
   return found;
 }
 

@@ -127,6 +127,19 @@ TEST(PlayReport, IsSixLinesOfWhatAPersonWants) {
             "Felt: 100.0 % of the frames.\n");
 }
 
+TEST(PlayReport, CountsTicksWithoutAForceThatWasDue) {
+  Record record;
+  add_frame(record, 1);
+  const Structure stats =
+      structure(device_stats(", ticks=(guint64)10000, overruns=(guint64)7, "
+                             "missed-ticks=(guint64)52, gap-ticks=(guint64)340"));
+  const std::string text = report_text(record, stats.get(), 1);
+  EXPECT_NE(text.find("Device: sim, 7 of 10000 ticks came late, 52 ticks were left out, no force "
+                      "for 0.34 s in all, because no frame came in time.\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(PlayReport, SaysWhyNothingWasFeltTheMostFrequentReasonFirst) {
   Record record;
   for (int number = 0; number < 1000; ++number) {

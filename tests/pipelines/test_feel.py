@@ -137,6 +137,19 @@ class NoDevice(FeelCase):
         self.assertTrue(alone.startswith("15 frames, "), alone)
         self.assertIn(alone, said)
 
+    def test_without_a_device_the_picture_shows_what_would_be_felt(self):
+        film = self.make_film("short.avi", 50)
+
+        def shown(*properties):
+            said = self.run_all([FEEL, *properties, "--", *self.player("play end", film=film)])
+            return said.splitlines()[-1].split(", ")[1]
+        alone = self.run_all(self.player("play end", film=film)).strip().split(", ")[1]
+        for device in ((), ("device=sim",), ("device=sim:sh4",)):
+            self.assertNotEqual(shown(*device), alone)
+            self.assertEqual(shown(*device, "overlay=none"), alone)
+        bus.bus_plug(0, Usb.SH4)
+        self.assertEqual(shown("device=usb", PROFILE), alone)
+
 
 if __name__ == "__main__":
     if len(sys.argv) > 1:

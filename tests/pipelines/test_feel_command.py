@@ -18,8 +18,8 @@ class Command(track_case.TrackCase):
 
     def test_wrong_usage_is_named(self):
         for arguments, status, said in (
-                ("", 2, "no PROGRAM given"), ("max-force=2", 2, "spidar-feel max-force=2 -- PROGRAM"),
-                ("max-force=2 true", 2, "spidar-feel max-force=2 -- PROGRAM"), ("max-force=2 --", 2, "no PROGRAM given"),
+                ("", 2, "no FILM or PROGRAM given"), ("max-force=2", 2, "spidar-feel max-force=2 -- FILM"),
+                ("max-force=2 true", 2, "spidar-feel max-force=2 -- FILM"), ("max-force=2 --", 2, "no FILM or PROGRAM given"),
                 ("--dance", 2, "--dance is not an option"),
                 ("max-farce=2 -- true", 2, 'spidarmotion has no property "max-farce" that can be set; did you mean max-force?'),
                 ("filter-cutof=2 -- true", 2, 'no property "filter-cutof" that can be set; gst-inspect'),
@@ -71,6 +71,38 @@ class Command(track_case.TrackCase):
     def test_without_a_device_it_takes_what_there_is(self):
         self.assertEqual(self.feel("max-force=2 -- printenv SPIDAR_FEEL"), "device=auto\nmax-force=2\n\n")
         self.assertEqual(self.feel("max-force=2 device=sim -- printenv SPIDAR_FEEL"), "max-force=2\ndevice=sim\n\n")
+
+    def write_program(self, name, text):
+        path = self.path(name)
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def test_a_film_is_played_and_a_program_is_run(self):
+        """gst-play-1.0 prints its arguments here."""
+        self.write_program("bin/gst-play-1.0", "#!/bin/sh\necho plays $*; printenv GST_TRACERS\n")
+        self.write_program("bin/film.mp4", "#!/bin/sh\necho runs\n")
+        self.write_program("without_line.sh", "echo runs\n")
+        (self.folder / "sub").mkdir()
+        for name in ("film.avi", "executable.avi", "angle=2.avi", "film.mp4", "sub/film.mp4", "empty.avi"):
+            self.path(name).write_bytes(b"" if name == "empty.avi" else b"RIFF\0\0\0\0AVI LIST")
+        # As on file systems that know no permissions.
+        self.path("executable.avi").chmod(0o755)
+        uri = "https://somewhere/film?number=1"
+        for words, said in (
+                ("film.avi", "film.avi"), ("executable.avi", "executable.avi"), ("./executable.avi", "./executable.avi"),
+                ("angle=2.avi", "angle=2.avi"), ("max-force=2 -- film.avi --quiet", "film.avi --quiet"),
+                ("film.avi executable.avi", "film.avi executable.avi"), (f"'{uri}'", uri), ("empty.avi", "empty.avi"),
+                ("sub/film.mp4", "sub/film.mp4")):
+            self.assertEqual(self.feel(words, env="PATH=$PWD/bin:$PATH"), f"plays {said}\nspidarfeel\n")
+        for program in ("film.mp4", "bin/film.mp4", "./without_line.sh"):
+            self.assertEqual(self.feel(program, env="PATH=$PWD/bin:$PATH"), "runs\n")
+        self.assertIn("film.avi: No such file or directory", self.feel("sub/film.avi", 127))
+
+    def test_the_package_of_a_player_that_is_missing_is_named(self):
+        self.path("film.avi").write_bytes(b"RIFF")
+        self.assertIn("gst-play-1.0, which plays films, is not installed: on Debian and Ubuntu it is in the package "
+                      "gstreamer1.0-plugins-base-apps", self.feel("film.avi", 127, env="PATH=/nowhere"))
 
     def test_a_player_that_does_not_use_gstreamer_is_named(self):
         """mpv is a name for the command true here."""

@@ -120,19 +120,27 @@ class Auto(Pipelines):
         element.set_state(Gst.State.NULL)
         told = element.get_bus().pop_filtered(Gst.MessageType.ELEMENT).get_structure()
         self.assertEqual((told.get_value("state"), told.get_value("device")), ("opened", name))
-        said = element.get_bus().pop_filtered(Gst.MessageType.INFO).parse_info()[0].message
-        self.assertEqual(said, f"{name}: {told.get_value('reason')}.")
+        self.assertEqual(told.get_value("simulated"), name.startswith("sim"))
+        information, debug = element.get_bus().pop_filtered(Gst.MessageType.INFO).parse_info()
+        self.assertIsNone(element.get_bus().pop_filtered(Gst.MessageType.INFO))
+        begin = f"{name}: {told.get_value('reason')}. "
+        self.assertTrue(information.message.startswith(begin), information.message)
+        # What it renders. gst-launch-1.0 prints nothing but the debug text.
+        self.renders = information.message[len(begin):]
+        self.assertIn(information.message, debug)
         self.assertEqual(element.get_property("device"), "auto")
         return name, told.get_value("reason")
 
     def test_without_anything_it_is_simulated(self):
         self.assertEqual(self.chosen(),
                          ("sim", "simulated, because nothing that gives a force can be used (device=auto)"))
+        self.assertRegex(self.renders, r"^It renders force in every direction, up to \d+\.\d N, and torque\.$")
 
     def test_what_has_a_direction_comes_before_what_rumbles(self):
         bus.evdev_plug(0, Evdev.KEYBOARD)
         bus.evdev_plug(1, Evdev.PAD)
         self.assertEqual(self.chosen(), ("ff:/dev/input/event1", "a gamepad that rumbles (device=auto)"))
+        self.assertEqual(self.renders, "Emulated Pad, rumble only: the strength of the force is felt, not its direction.")
         # A Falcon comes before it, but this one has no firmware.
         bus.bus_plug(0, Usb.FALCON)
         device, why = self.chosen()
@@ -146,8 +154,14 @@ class Auto(Pipelines):
         bus.bus_plug_named(0, Usb.SH4, b"A1")
         bus.bus_plug(1, Usb.MOUSE)
         with unittest.mock.patch.dict(os.environ, XDG_CONFIG_HOME=str(self.folder)):
-            self.assertEqual(self.chosen("profile=spidar-g")[0], "sim")
+            device, why = self.chosen("profile=spidar-g")
+            self.assertEqual(device, "sim")
             self.assertEqual(bus.bus_updates(0), 0)
+            self.assertIn("; not usb:1-1: this CyVerse USB 2.0 SH4 has no confirmed profile, without which its motors get no "
+                          "force; confirm it: spidarctl choose usb:1-1 --profile NAME (Profiles that fit it: spidar-g", why)
+            self.assertIn("; not mouse:1-2: a SPIDAR-mouse is used only with device=mouse", why)
+            bus.bus_plug(2, Usb.SH4)  # has no serial number
+            self.assertIn("name it each time: device=usb:1-3 profile=NAME", self.chosen()[1])
             self.path("gst-spidar").mkdir()
             self.path("gst-spidar/boards.toml").write_text('"0cec:0205 A1" = "spidar-g6x3-v2-l"\n')
             bus.evdev_plug(0, Evdev.STICK)

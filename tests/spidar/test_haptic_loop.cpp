@@ -310,6 +310,29 @@ TEST(HapticLoop, CountsLateTicksAndMissedDeadlines) {
   EXPECT_EQ(driver.counters().missed_deadlines, 3u);
 }
 
+// A frame is held for 100 ms at most. What follows the last one, or is before a seek, is no gap.
+TEST(HapticLoop, CountsTicksForWhichNoFrameCameInTime) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop->schedule(frame(0, push_right(1)));
+  driver.play(0);
+  driver.run(400 * kMs);
+  EXPECT_EQ(driver.counters().gap_ticks, 0u) << "it may be the end";
+  driver.loop->schedule(frame(450 * kMs, push_right(1)));
+  driver.run(100 * kMs);
+  // The next one rises in the 40 ms before it.
+  EXPECT_GE(driver.counters().gap_ticks, 450u - 100 - 40);
+  EXPECT_LT(driver.counters().gap_ticks, 450u - 40);
+  const uint64_t before = driver.counters().gap_ticks;
+  driver.run(400 * kMs);
+  driver.pause();
+  driver.run(10 * kMs);
+  driver.play(1000 * kMs);
+  driver.loop->schedule(frame(1000 * kMs, push_right(1)));
+  driver.run(50 * kMs);
+  EXPECT_EQ(driver.counters().gap_ticks, before);
+}
+
 TEST(HapticLoop, StallDoesNotEndInAStep) {
   Playing driver;
   const double before_N = driver.run(4 * kMs).commanded.force_N.x();

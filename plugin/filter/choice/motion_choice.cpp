@@ -2,11 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/choice/motion_choice.h"
 
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "plugin/frame/object_metas.h"
 #include "plugin/gobject/category.h"
+#include "plugin/gobject/information.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -151,15 +153,17 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
 void MotionChoice::tell_of_click(const KeptObject& kept, ChoiceState state) {
   if (state == ChoiceState::kGood) return;
   mouse_.let_go(kept.click);
+  const auto inform = [this](const std::string& text, const char* advice) {
+    post_information(element_, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED, text, advice);
+  };
   if (state == ChoiceState::kLost) {
-    GST_ELEMENT_INFO(element_, STREAM, FAILED,
-                     ("The object that was clicked is lost at %s.", seen_text().c_str()),
-                     ("What 'motion' and 'feel' say is felt again."));
+    inform("The object that was clicked is lost at " + seen_text() + ".",
+           "What 'motion' and 'feel' say is felt again.");
   } else {
-    GST_ELEMENT_INFO(element_, STREAM, FAILED,
-                     ("No object is at %.2f,%.2f, where the mouse was clicked.", kept.position.x(),
-                      kept.position.y()),
-                     ("An object moves by itself."));
+    char text[80];
+    std::snprintf(text, sizeof text, "No object is at %.2f,%.2f, where the mouse was clicked.",
+                  kept.position.x(), kept.position.y());
+    inform(text, "An object moves by itself.");
   }
 }
 
