@@ -17,6 +17,7 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_bin.h"
+#include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"
@@ -84,10 +85,13 @@ constexpr int kNoProgram = 127;
 constexpr const char* kHelp =
     R"(usage: spidar-feel [PROPERTY=VALUE... --] FILM...
        spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
+       spidar-feel [PROPERTY=VALUE...] --follow [NAME]
 
 Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
 what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
-felt is drawn over the video. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
+felt is drawn over the video. With --follow, what VLC, mpv (with its package mpv-mpris) or another
+player plays that NAME is called by on the session bus (MPRIS) is felt; without NAME, the player
+that plays. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
 preset=NAME stands for those of a preset: paper, film or gentle.
 
   spidar-feel film.mp4
@@ -97,7 +101,8 @@ preset=NAME stands for those of a preset: paper, film or gentle.
 
 struct Options {
   std::vector<std::string> properties;  ///< NAME=VALUE
-  char** program = nullptr;             ///< and its arguments
+  char** program = nullptr;             ///< and its arguments; null: follow
+  std::string followed;                 ///< name of the player; empty: any
 };
 
 [[noreturn]] void fail(int status, const std::string& what) {
@@ -130,6 +135,14 @@ Options parse(int argc, char** argv) {
   int at = 1;
   while (at < argc && is_property(argv[at])) options.properties.emplace_back(argv[at++]);
   const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
+  const int follow = separated ? at + 1 : at;
+  if (follow < argc && std::strcmp(argv[follow], "--follow") == 0) {
+    if (follow + 2 < argc)
+      fail(kUsage, std::string("--follow takes one NAME, and properties come before it: ") +
+                       argv[follow + 2]);
+    if (follow + 1 < argc) options.followed = argv[follow + 1];
+    return options;
+  }
   if (!options.properties.empty() && !separated)
     fail(kUsage, "write -- between the properties and the program: spidar-feel " +
                      options.properties.front() + " -- FILM");
@@ -276,8 +289,8 @@ void warn_of_nothing_felt(const Options& options) {
   if (is_without_gstreamer(options.program[0]))
     std::fprintf(
         stderr,
-        "spidar-feel: %s does not use GStreamer, so nothing of it is felt: play the film with "
-        "gst-play-1.0, Totem, Parole, Clapper or Showtime\n",
+        "spidar-feel: %s does not use GStreamer, so nothing of it is felt: follow VLC or mpv with "
+        "spidar-feel --follow, or play the film with spidar-feel FILM\n",
         options.program[0]);
 }
 
@@ -290,6 +303,7 @@ int main(int argc, char** argv) {
     options.properties.insert(options.properties.begin(), "device=auto");
   find_plugins();
   check(options.properties);
+  if (!options.program) return spidar::follow_player(options.followed, options.properties);
   set_environment(options.properties);
   if (is_film(options.program[0])) run_films(options.program);
   warn_of_nothing_felt(options);

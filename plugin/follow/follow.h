@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// spidar-feel --follow.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace spidar {
+
+/// Feels what a player plays that does not use GStreamer, until it is interrupted. `name` is that
+/// of a player in MPRIS, "vlc"; empty: the one that plays. `properties` are of spidarmotion,
+/// NAME=VALUE. Returns the exit status.
+int follow_player(const std::string& name, const std::vector<std::string>& properties);
+
+}  // namespace spidar

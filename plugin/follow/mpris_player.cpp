@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/follow/mpris_player.h"
+
+#include <utility>
+
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar {
+namespace {
+
+constexpr const char* kPrefix = "org.mpris.MediaPlayer2.";
+constexpr const char* kPath = "/org/mpris/MediaPlayer2";
+constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
+constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
+constexpr const char* kBus = "org.freedesktop.DBus";
+
+struct Unref {
+  void operator()(GVariant* value) const { g_variant_unref(value); }
+  void operator()(GError* error) const { g_error_free(error); }
+};
+using Variant = std::unique_ptr<GVariant, Unref>;
+
+/// Null instead of an error.
+Variant finish(GObject* bus, GAsyncResult* result, bool& cancelled) {
+  GError* error = nullptr;
+  Variant reply(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &error));
+  const std::unique_ptr<GError, Unref> owned(error);
+  cancelled = error && g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED);
+  return reply;
+}
+
+Variant call_now(GDBusConnection* bus, const char* name, const char* path, const char* interface,
+                 const char* method, GVariant* parameters, int limit_ms) {
+  return Variant(g_dbus_connection_call_sync(bus, name, path, interface, method, parameters,
+                                             nullptr, G_DBUS_CALL_FLAGS_NO_AUTO_START, limit_ms,
+                                             nullptr, nullptr));
+}
+
+GVariant* all_of_player() {
+  return g_variant_new("(s)", kPlayer);
+}
+
+/// Of a dictionary of properties.
+PlayerState state_of(GVariant* properties) {
+  PlayerState state;
+  const gchar* text = nullptr;
+  if (g_variant_lookup(properties, "PlaybackStatus", "&s", &text)) {
+    if (g_str_equal(text, "Playing")) state.status = PlayerState::Status::kPlaying;
+    if (g_str_equal(text, "Paused")) state.status = PlayerState::Status::kPaused;
+  }
+  double rate = 0;
+  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate > 0) state.rate = rate;
+  const Variant metadata(g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
+  if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text)) state.uri = text;
+  return state;
+}
+
+/// Of the reply to Properties.GetAll.
+std::optional<PlayerState> state_in(GVariant* reply) {
+  if (!reply || !g_variant_is_of_type(reply, G_VARIANT_TYPE("(a{sv})"))) return std::nullopt;
+  const Variant properties(g_variant_get_child_value(reply, 0));
+  return state_of(properties.get());
+}
+
+}  // namespace
+
+std::string short_name(const std::string& bus_name) {
+  const std::string name = bus_name.substr(std::string(kPrefix).size());
+  const size_t instance = name.find(".instance");
+  return name.substr(0, instance);
+}
+
+std::vector<std::string> list_players(GDBusConnection* bus, const std::string& name) {
+  constexpr int kLimit_ms = 1000;
+  std::vector<std::string> found;
+  const Variant reply =
+      call_now(bus, kBus, "/org/freedesktop/DBus", kBus, "ListNames", nullptr, kLimit_ms);
+  if (!reply || !g_variant_is_of_type(reply.get(), G_VARIANT_TYPE("(as)"))) return found;
+  GVariantIter* names = nullptr;
+  g_variant_get(reply.get(), "(as)", &names);
+  const std::string wanted = kPrefix + name;
+  for (const gchar* each = nullptr; g_variant_iter_next(names, "&s", &each);) {
+    const std::string player = each;
+    const bool is_wanted = name.empty()
+                               ? g_str_has_prefix(each, kPrefix)
+                               : player == wanted || g_str_has_prefix(each, (wanted + ".").c_str());
+    if (is_wanted) found.push_back(player);
+  }
+  g_variant_iter_free(names);
+  return found;
+}
+
+std::optional<PlayerState> ask_state(GDBusConnection* bus, const std::string& bus_name) {
+  constexpr int kLimit_ms = 200;
+  return state_in(
+      call_now(bus, bus_name.c_str(), kPath, kProperties, "GetAll", all_of_player(), kLimit_ms)
+          .get());
+}
+
+MprisPlayer::MprisPlayer(GDBusConnection* bus, const std::string& bus_name, Told told)
+    : bus_(bus), bus_name_(bus_name), told_(std::move(told)), ended_(g_cancellable_new()) {
+  const auto subscribe = [this](const char* sender, const char* interface, const char* signal,
+                                const char* path, const char* argument, GDBusSignalCallback take) {
+    signals_.push_back(g_dbus_connection_signal_subscribe(bus_, sender, interface, signal, path,
+                                                          argument, G_DBUS_SIGNAL_FLAGS_NONE, take,
+                                                          this, nullptr));
+  };
+  subscribe(bus_name_.c_str(), kProperties, "PropertiesChanged", kPath, kPlayer, take_signal);
+  subscribe(bus_name_.c_str(), kPlayer, "Seeked", kPath, nullptr, take_signal);
+  subscribe(kBus, kBus, "NameOwnerChanged", nullptr, bus_name_.c_str(), take_owner);
+  timer_ = g_timeout_add(kPoll_ms, poll, this);
+  ask_state_now();
+}
+
+MprisPlayer::~MprisPlayer() {
+  g_source_remove(timer_);
+  for (const guint signal : signals_) g_dbus_connection_signal_unsubscribe(bus_, signal);
+  g_cancellable_cancel(ended_);
+  g_object_unref(ended_);
+}
+
+int64_t MprisPlayer::silent_ns() const {
+  return asked_ns_ == 0 ? 0 : monotonic_now_ns() - asked_ns_;
+}
+
+gboolean MprisPlayer::poll(gpointer user) {
+  auto& self = *static_cast<MprisPlayer*>(user);
+  if (self.asked_ns_ == 0) self.ask_position();
+  if (monotonic_now_ns() - self.state_asked_ns_ > kAskState_ns) self.ask_state_now();
+  return G_SOURCE_CONTINUE;
+}
+
+void MprisPlayer::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
+  g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kProperties, method, parameters, nullptr,
+                         G_DBUS_CALL_FLAGS_NO_AUTO_START, -1, ended_, take, this);
+}
+
+void MprisPlayer::ask_position() {
+  asked_ns_ = monotonic_now_ns();
+  ask("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
+}
+
+void MprisPlayer::ask_state_now() {
+  state_asked_ns_ = monotonic_now_ns();
+  ask("GetAll", all_of_player(), take_state);
+}
+
+/// A player that reads its position and then answers is late, never early.
+void MprisPlayer::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
+  bool cancelled = false;
+  const Variant reply = finish(bus, result, cancelled);
+  if (cancelled) return;  // it is destroyed
+  auto& self = *static_cast<MprisPlayer*>(user);
+  self.asked_ns_ = 0;
+  if (!reply || !g_variant_is_of_type(reply.get(), G_VARIANT_TYPE("(v)"))) return;
+  GVariant* inner = nullptr;
+  g_variant_get(reply.get(), "(v)", &inner);
+  const Variant position(inner);
+  if (g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64))
+    self.told_.position(monotonic_now_ns(), 1000 * g_variant_get_int64(inner));
+}
+
+void MprisPlayer::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
+  bool cancelled = false;
+  const Variant reply = finish(bus, result, cancelled);
+  if (cancelled) return;
+  if (const auto state = state_in(reply.get()))
+    static_cast<MprisPlayer*>(user)->told_.state(*state);
+}
+
+void MprisPlayer::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                              const gchar* name, GVariant* parameters, gpointer user) {
+  auto& self = *static_cast<MprisPlayer*>(user);
+  if (!g_str_equal(name, "Seeked")) {
+    self.ask_state_now();  // what changed is only a part
+  } else if (g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
+    gint64 position_us = 0;
+    g_variant_get(parameters, "(x)", &position_us);
+    self.told_.jump(monotonic_now_ns(), 1000 * position_us);
+  }
+}
+
+void MprisPlayer::take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                             const gchar*, GVariant* parameters, gpointer user) {
+  const gchar* owner = nullptr;
+  g_variant_get(parameters, "(&s&s&s)", nullptr, nullptr, &owner);
+  if (*owner == '\0') static_cast<MprisPlayer*>(user)->told_.gone();
+}
+
+}  // namespace spidar

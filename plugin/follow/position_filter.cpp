@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/follow/position_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace spidar {
+
+int64_t PositionFilter::begin_of(int64_t now_ns, int64_t position_ns) const {
+  return now_ns - std::llround(static_cast<double>(position_ns) / rate_);
+}
+
+int64_t PositionFilter::earliest_ns() const {
+  const auto end = begin_ns_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kKept));
+  return *std::min_element(begin_ns_.begin(), end);
+}
+
+void PositionFilter::keep(int64_t begin_ns) {
+  begin_ns_[count_++ % kKept] = begin_ns;
+}
+
+void PositionFilter::restart(int64_t now_ns, int64_t position_ns, double rate) {
+  count_ = 0;
+  rate_ = rate;
+  position_ns_ = position_ns;
+  newest_ns_ = now_ns;
+  jumped_ = is_goal_ = false;
+  keep(begin_of(now_ns, position_ns));
+}
+
+/// Players tell where they jump to before they are there.
+void PositionFilter::restart_after_jump(int64_t now_ns, int64_t position_ns) {
+  restart(now_ns, position_ns, rate_);
+  is_goal_ = true;
+}
+
+void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
+  if (!has_begun() || position_ns == position_ns_) return;
+  position_ns_ = position_ns;
+  newest_ns_ = now_ns;
+  const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
+  const bool jumped = std::abs(late_ns) > kLatest_ns;
+  // One alone may be of a moment in which the player, or this process, was held up.
+  if (jumped && (jumped_ || late_ns < 0 || count_ == 1))
+    return restart_after_jump(now_ns, position_ns);
+  jumped_ = jumped;
+  if (jumped) return;
+  if (std::exchange(is_goal_, false)) count_ = 0;
+  keep(begin_of(now_ns, position_ns));
+}
+
+void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
+  if (!has_begun()) return;
+  const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
+  if (std::abs(late_ns) > kLatest_ns) restart_after_jump(now_ns, position_ns);
+}
+
+int64_t PositionFilter::position_at(int64_t now_ns) const {
+  return std::llround(static_cast<double>(now_ns - earliest_ns()) * rate_);
+}
+
+int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns) {
+  constexpr double kMost = 0.02;
+  // So that what the filter jitters by is smoothed.
+  constexpr double kTime_ns = 0.5e9;
+  const auto passed = static_cast<double>(passed_ns);
+  const double wanted = static_cast<double>(error_ns) * passed / kTime_ns;
+  return std::llround(std::clamp(wanted, -kMost * passed, kMost * passed));
+}
+
+}  // namespace spidar

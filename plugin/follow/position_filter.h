@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Where a player is, from what it tells of it: seldom, and nearly always late.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace spidar {
+
+/// A player cannot tell a position before it has reached it, but may tell it late: mpv tells 24
+/// positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114 ms
+/// late. So the earliest of the last ones is trusted. Times are of CLOCK_MONOTONIC.
+class PositionFilter {
+ public:
+  /// VLC tells so many in 3 s.
+  static constexpr size_t kKept = 8;
+  /// More than any player was seen to be late: such a position is one after a jump.
+  static constexpr int64_t kLatest_ns = 150'000'000;
+
+  /// It plays at `rate` from this position on; what it told before counts no more.
+  void restart(int64_t now_ns, int64_t position_ns, double rate);
+  /// It tells this position, which is no news if it is the same as before.
+  void tell(int64_t now_ns, int64_t position_ns);
+  /// It says that it has jumped to this position. VLC also says so when it has not.
+  void tell_jump(int64_t now_ns, int64_t position_ns);
+
+  bool has_begun() const { return count_ > 0; }
+  /// When it told the newest position; 0 before.
+  int64_t newest_ns() const { return newest_ns_; }
+  /// After restart().
+  int64_t position_at(int64_t now_ns) const;
+
+ private:
+  /// The time at which a position of 0 would have been reached.
+  int64_t begin_of(int64_t now_ns, int64_t position_ns) const;
+  int64_t earliest_ns() const;
+  void keep(int64_t begin_ns);
+  void restart_after_jump(int64_t now_ns, int64_t position_ns);
+
+  std::array<int64_t, kKept> begin_ns_{};
+  size_t count_ = 0;  ///< since restart(); the last kKept are there
+  double rate_ = 1;
+  int64_t position_ns_ = 0;  ///< the newest that it told
+  int64_t newest_ns_ = 0;
+  bool jumped_ = false;   ///< the newest was too late for one of this playback
+  bool is_goal_ = false;  ///< all that is known is where a jump was to lead
+};
+
+/// How far to shift what follows a player, which is `error_ns` behind it, after `passed_ns`: by at
+/// most 2 % of the time, which is not felt.
+int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns);
+
+}  // namespace spidar

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""spidar-feel --follow with a player that tells exactly where it is. The haptic track of its film is a force that rises with
+the position, so that each tick of the loop tells which position is felt."""
+
+import os
+import signal
+import statistics
+import subprocess
+import time
+import unittest
+
+import bus_case
+import track_case
+from mpris_player import Bus, MockPlayer
+
+FEEL = os.environ["SPIDAR_FEEL"]
+LENGTH_S = 60
+# Newtons at the beginning, and more each second: within the default max-force, and above what is too weak to be felt.
+FORCE_N, SLOPE_N_S = .5, 2 / LENGTH_S
+RAMP_S = .1  # to rest, and from it; twice SafetyLimits::ramp_s
+# The goal of docs/players.md.
+MEDIAN_S, MOST_S = .015, .04
+
+
+def write_track(path):
+    full_N = track_case.FULL_SCALE[0]
+    track_case.write_wav(path, [((FORCE_N + SLOPE_N_S * ms / 1000) / full_N, 0, 0, 0, 0, 0)
+                                for ms in range(1000 * LENGTH_S)])
+
+
+def felt_position_s(force_N):
+    return (force_N - FORCE_N) / SLOPE_N_S
+
+
+@unittest.skipUnless(Bus.is_there(), "dbus-daemon is not installed (package dbus-daemon)")
+class FollowCase(track_case.TrackCase):
+    def setUp(self):
+        super().setUp()
+        self.bus = Bus()
+        self.addCleanup(self.bus.stop)
+        self.film, self.trace, self.log = (self.path(name) for name in ("film.avi", "trace.csv", "log"))
+        self.gst(f"videotestsrc num-buffers={10 * LENGTH_S} ! video/x-raw,width=32,height=32,framerate=10/1 ! jpegenc ! "
+                 "avimux ! filesink location=film.avi")
+        write_track(self.path("film.avi.haptic.wav"))
+
+    def follow(self, *words):
+        with open(self.log, "w", encoding="utf-8") as log:
+            process = subprocess.Popen([FEEL, "device=sim", f"haptic-trace={self.trace}", "--follow", *words],
+                                       stdout=log, stderr=log, cwd=self.folder,
+                                       env=dict(os.environ, DBUS_SESSION_BUS_ADDRESS=self.bus.address))
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def said(self):
+        return self.log.read_text(encoding="utf-8")
+
+    def wait_until(self, condition):
+        """The test has a limit."""
+        while not condition():
+            time.sleep(.02)
+
+    def ticks(self, from_s=0, to_s=float("inf")):
+        """(monotonic s, N) of what the trace has between two times, when it has it."""
+        self.wait_until(lambda: any(tick[0] > min(to_s, time.monotonic()) for tick in bus_case.read_trace(self.trace)))
+        return [(now_s, force) for now_s, _, force, _ in bus_case.read_trace(self.trace) if from_s <= now_s <= to_s]
+
+    def force_N(self):
+        ticks = bus_case.read_trace(self.trace)
+        return ticks[-1][2] if ticks else 0
+
+    def expect_followed(self, player, from_s, to_s):
+        late_s = [player.position_s(now_s) - felt_position_s(force) for now_s, force in self.ticks(from_s, to_s)]
+        sizes = sorted(map(abs, late_s))
+        self.assertGreater(len(sizes), 100)
+        self.assertLess(statistics.median(sizes), MEDIAN_S, self.said())
+        self.assertLess(sizes[int(.95 * len(sizes))], MOST_S, self.said())
+
+    def expect_rest(self, from_s, to_s):
+        ticks = self.ticks(from_s, to_s)
+        self.assertTrue(ticks)
+        self.assertEqual(max(force for _, force in ticks), 0, self.said())
+
+    def play(self, *words, name="mock"):
+        """A player that plays, and is felt."""
+        player = MockPlayer(self.bus, name)
+        player.change("Playing", uri=self.film.as_uri(), position_s=2)
+        process = self.follow(*words)
+        self.wait_until(lambda: self.force_N() > FORCE_N)
+        return player, process
+
+
+class Follow(FollowCase):
+    def test_position_pause_seek_and_rate_are_followed(self):
+        player, process = self.play()
+        self.assertIn("the haptic track", self.said())
+        begin_s = time.monotonic() + .5
+        time.sleep(2)
+        self.expect_followed(player, begin_s, time.monotonic() - .1)
+
+        paused_s = time.monotonic()
+        player.change("Paused")
+        time.sleep(.6)
+        self.expect_rest(paused_s + RAMP_S, time.monotonic())
+        player.change("Playing")
+        played_s = time.monotonic()
+        time.sleep(1.5)
+        self.expect_followed(player, played_s + .5, time.monotonic() - .1)
+
+        for position_s in (30, 12):
+            player.change(position_s=position_s)
+            sought_s = time.monotonic()
+            time.sleep(1.5)
+            self.expect_followed(player, sought_s + .5, time.monotonic() - .1)
+
+        player.change(rate=1.5)
+        changed_s = time.monotonic()
+        time.sleep(1.5)
+        self.expect_followed(player, changed_s + .5, time.monotonic() - .1)
+
+        died_s = time.monotonic()
+        player.die()
+        time.sleep(.5)
+        self.wait_until(lambda: "mock has ended" in self.said())
+        self.assertEqual([force for now_s, _, force, _ in bus_case.read_trace(self.trace) if now_s > died_s + RAMP_S
+                          and force], [])
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 0)
+
+    def test_without_a_track_the_film_is_analysed(self):
+        self.path("film.avi.haptic.wav").unlink()
+        self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,"
+                 "framerate=25/1 ! jpegenc ! avimux ! filesink location=film.avi")
+        player, _ = self.play_analysed()
+        paused_s = time.monotonic()
+        player.change("Paused")
+        time.sleep(.5)
+        self.expect_rest(paused_s + RAMP_S, time.monotonic())
+
+    def play_analysed(self):
+        player = MockPlayer(self.bus, "mock")
+        player.change("Playing", uri=self.film.as_uri(), position_s=2)
+        process = self.follow()
+        self.wait_until(lambda: self.force_N() > .1)
+        self.assertIn("is analysed", self.said())
+        return player, process
+
+    def test_the_next_film_is_felt_too(self):
+        player, _ = self.play()
+        second = self.path("second.avi")
+        second.write_bytes(self.film.read_bytes())
+        write_track(self.path("second.avi.haptic.wav"))
+        self.trace.unlink()
+        player.change(uri=second.as_uri(), position_s=5)
+        self.wait_until(lambda: self.trace.exists() and self.force_N() > FORCE_N)
+        begin_s = time.monotonic() + .5
+        time.sleep(1.5)
+        self.expect_followed(player, begin_s, time.monotonic() - .1)
+
+    def test_one_that_stands_still_is_at_rest(self):
+        """It says that it plays."""
+        player, _ = self.play()
+        still_s = time.monotonic()
+        player.at_s, player.since_s, player.delay = player.position_s(), still_s, 1e6
+        player.rate = 1e-9
+        time.sleep(2)
+        self.expect_rest(still_s + 1.5, time.monotonic())
+
+
+class Which(FollowCase):
+    def test_without_a_player_it_waits_and_takes_the_one_that_plays(self):
+        process = self.follow()
+        self.wait_until(lambda: "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris" in self.said())
+        paused = MockPlayer(self.bus, "paused")
+        paused.change("Paused", uri=self.film.as_uri())
+        plays = MockPlayer(self.bus, "plays.instance12")
+        plays.change("Playing", uri=self.film.as_uri(), position_s=2)
+        self.wait_until(lambda: "follows plays\n" in self.said())
+        plays.die()
+        self.wait_until(lambda: "plays has ended" in self.said())
+        paused.change("Playing")
+        self.wait_until(lambda: "follows paused\n" in self.said())
+        self.assertIsNone(process.poll())
+
+    def test_the_one_that_is_named_is_taken(self):
+        for name in ("first", "second"):
+            MockPlayer(self.bus, name).change("Playing", uri=self.film.as_uri())
+        self.follow("second")
+        self.wait_until(lambda: "follows second\n" in self.said())
+
+    def test_a_film_that_cannot_be_read_is_named(self):
+        MockPlayer(self.bus, "mock").change("Playing", uri=self.path("nothing.avi").as_uri())
+        self.follow()
+        self.wait_until(lambda: "without force until the next film" in self.said())
+        self.assertIn("nothing.avi", self.said())
+
+    def test_without_a_bus_it_ends(self):
+        said = self.run_in_folder(f"DBUS_SESSION_BUS_ADDRESS=unix:path=/nowhere {FEEL} --follow", 1)
+        self.assertIn("there is no session bus, by which players are followed", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
