@@ -26,6 +26,7 @@
 #include "examples/play/report.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/tools/gnuplot.h"
+#include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace fs = std::filesystem;
@@ -131,7 +132,9 @@ gboolean print_field(GQuark name, const GValue* value, void*) {
 void draw(const Record& record, const Options& options, const std::string& title,
           double max_force_N) {
   const std::string png = fs::path(options.output) / "spidar-play.png";
-  spidar::draw_with_gnuplot(picture_script(record, max_force_N, title), png);
+  spidar::PartFile picture(png, {true, ""});
+  spidar::draw_with_gnuplot(picture_script(record, max_force_N, title), picture);
+  picture.publish();
   std::printf("picture: %s\n", png.c_str());
 }
 

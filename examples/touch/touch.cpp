@@ -22,6 +22,7 @@
 #include "examples/touch/first_picture.h"
 #include "plugin/frame/touch_view.h"
 #include "plugin/tools/gnuplot.h"
+#include "plugin/tracks/part_file.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
@@ -179,9 +180,11 @@ void touch(const std::string& image, bool is_depth, const fs::path& folder) {
               1e-3 * (kApproach_ticks + kStroke_ticks));
   std::printf("deepest:            %.1f mm below the surface\n", 1e3 * felt.deepest_m);
   std::printf("largest force:      %.2f N\n", felt.largest_N);
+  PartFile drawing(png, {true, ""});
   draw_with_gnuplot("title = " + gnuplot_string(fs::path(image).filename()) + "\n$relief << END\n" +
                         relief + "END\n$ticks << END\n" + felt.csv + "END\n" + kScript,
-                    png);
+                    drawing);
+  drawing.publish();
   std::printf("drawn:              %s\n", png.c_str());
 }
 

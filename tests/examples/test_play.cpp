@@ -17,6 +17,7 @@
 #include "examples/play/record.h"
 #include "examples/play/report.h"
 #include "plugin/tools/gnuplot.h"
+#include "plugin/tracks/part_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -275,7 +276,9 @@ TEST(PlayPicture, IsDrawnOfAnyPlayback) {
   const spidar::test::TemporaryFolder folder;
   const std::string png = folder.path / "play.png";
   const auto height = [&](const Record& record, double max_force_N) {
-    spidar::draw_with_gnuplot(picture_script(record, max_force_N, "it's | a 'film'"), png);
+    spidar::PartFile picture(png, {true, ""});
+    spidar::draw_with_gnuplot(picture_script(record, max_force_N, "it's | a 'film'"), picture);
+    picture.publish();
     std::ifstream file(png, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     return bytes.size() < 24 ? 0 : GST_READ_UINT32_BE(bytes.data() + 20);
