@@ -18,6 +18,9 @@ true motion, of a frame 480 lines high, not the first two. false: frames of film
 motion is felt. felt: more than 2.1 px/s of a frame 480 lines high. jitter: root mean square of the second
 difference of the motion, px of a frame 480 lines high, median over the films, beside that of the truth.
 
+mean of films: of right %, each film counting once; below half: how many films are. truth: of the frames of films with an
+object, how many have a truth. Truths rest on brightness that stays as it is, as the measured motion does.
+
 In brackets, the 95 % interval of a share over films (shares.py). The second table has the share of right frames
 for other angles and factors than these.
 
@@ -41,7 +44,7 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from shares import CURVE_COLUMNS, curve, share
+from shares import CURVE_COLUMNS, curve, mean_of_films, share
 
 REFERENCE_LINES = 480
 FELT_PX_S = 2.1
@@ -53,7 +56,7 @@ UNSEEN = 2  # frames at the beginning of a film
 METHODS = {"dis": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
 CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
-COLUMNS = ["", "right %", "wrong %", "any force %", "false %", "listed %", "not right: " + ", ".join(CAUSES),
+COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %", "not right: " + ", ".join(CAUSES),
            "changes, turns, starts a minute", "jitter (true), px", "ms"]
 
 
@@ -150,7 +153,7 @@ class Tally:
 
     def __init__(self):
         self.counted = self.right = self.wrong = self.felt = self.listed = 0
-        self.without_object = self.false = 0
+        self.without_object = self.false = self.with_object = self.known = 0
         self.causes = Counter()
         self.jitters, self.true_jitters, self.times_ms = [], [], []
         self.changes = self.turns = self.starts = 0
@@ -161,7 +164,8 @@ class Tally:
 
     def sums(self):
         return Counter(right=self.right, wrong=self.wrong, felt=self.felt, listed=self.listed, counted=self.counted,
-                       false=self.false, without_object=self.without_object, **self.causes)
+                       false=self.false, without_object=self.without_object, with_object=self.with_object, known=self.known,
+                       **self.causes)
 
     def add(self, frames, truth, times_ms=()):
         before = self.sums()
@@ -178,6 +182,8 @@ class Tally:
             return []
         unit = frames[0].height / REFERENCE_LINES
         known = [n for n in truth if UNSEEN <= n < len(frames)]
+        self.with_object += len(frames) - UNSEEN
+        self.known += len(known)
         verdicts, ever_listed = [], False
         self.apart.append([])
         for n in known:
@@ -226,7 +232,8 @@ class Tally:
         causes = ", ".join(of(cause) for cause in CAUSES) if self.has_force else "-"
         times = sorted(self.times_ms)
         ms = f"{times[len(times) // 2]:.2f}, {times[len(times) * 99 // 100]:.2f}, {times[-1]:.2f}" if times else "-"
-        return (f"| {name} | {of('right')} | {of('wrong')} | {of('felt')} | {of('false', 'without_object')} "
+        by_film = mean_of_films([(film.get("right", 0), film["counted"]) for film in self.films])
+        return (f"| {name} | {of('right')} | {by_film} | {of('known', 'with_object')} | {of('wrong')} | {of('felt')} | {of('false', 'without_object')} "
                 f"| {of('listed') if self.has_force else '-'} | {causes} | {calm} "
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) | {ms} |")
 

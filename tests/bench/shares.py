@@ -36,6 +36,12 @@ def share(counts):
     return f"{100 * part / whole:.1f}" + (f" ({100 * bounds[0]:.0f} to {100 * bounds[1]:.0f})" if bounds else "")
 
 
+def mean_of_films(counts):
+    """In per cent, each film counting once however long it is, and how many films are below half: 75.2, 6 of 35."""
+    each = [part / whole for part, whole in counts if whole]
+    return f"{100 * sum(each) / len(each):.1f}, {sum(share < 0.5 for share in each)} of {len(each)}" if each else "-"
+
+
 ANGLES_DEG = (5, 10, 15, 20, 30, 45, 60)
 FACTORS = (1.1, 1.25, 1.5, 2, 3)
 

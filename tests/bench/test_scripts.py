@@ -48,6 +48,10 @@ class Shares(unittest.TestCase):
     def test_a_film_counts_with_its_frames(self):
         self.assertTrue(shares.share([(90, 90), (0, 10)]).startswith("90.0 ("))
 
+    def test_the_mean_of_films_counts_each_film_once(self):
+        self.assertEqual(shares.mean_of_films([(90, 90), (0, 10), (2, 10), (0, 0)]), "40.0, 2 of 3")
+        self.assertEqual(shares.mean_of_films([]), "-")
+
     def test_the_curve_counts_what_is_within_an_angle_and_a_factor(self):
         films = [[(7, 1), (25, 1.9), (40, 1), None], [(7, 0.45), (3, 1.05), (7, 1), (7, 1)]]
         self.assertTrue(shares.within(films, 10, 2).startswith("50.0"))  # 4 of 8
@@ -62,8 +66,9 @@ class Shares(unittest.TestCase):
             tally.add([frame] * 6, {n: (4, 0) for n in range(6)})
         tally.add([right] * 6, None)
         cells = [cell.strip() for cell in tally.row("x").split("|")]
-        self.assertEqual(cells[2:5], ["50.0 (0 to 100)", "50.0 (0 to 100)", "100.0 (100 to 100)"])
-        self.assertEqual(cells[5], "100.0", "of one film without an object")
+        self.assertEqual(cells[2:7], ["50.0 (0 to 100)", "50.0, 1 of 2", "100.0 (100 to 100)", "50.0 (0 to 100)",
+                                      "100.0 (100 to 100)"])
+        self.assertEqual(cells[7], "100.0", "of one film without an object")
         self.assertEqual([round(frame[0]) for film in tally.apart for frame in film], [0] * 4 + [90] * 4)
 
 
