@@ -80,7 +80,8 @@ def debrief(record, participant):
         if check == "guess":
             answer = read_line("What do you think differed when a clip was shown again? In your own words\n> ")
         else:
-            answer = "yes" if is_yes("Did you notice that the force sometimes went against the motion in the picture?") else "no"
+            noticed = is_yes("Did you notice that the force sometimes went against the motion in the picture?")
+            answer = "yes" if noticed else "no"
         note_answer(record, participant, check, answer)
 
 

@@ -9,17 +9,17 @@ import time
 
 FELT_N, WEBER = 0.04, 0.11  # PubMed 24808327, of forces that were attended to: docs/bibliography.md
 
-# A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right, of two
-# intervals one of which must be chosen. H. Levitt, Transformed Up-Down Methods in Psychoacoustics, 1971.
-FIRST_FACTOR, FACTOR = 2.0, 2**0.5  # of a step, until and after the second reversal
-REVERSALS = 10  # of which the first two are for finding the range
-MOST_TRIALS = 50  # of four seconds
+# A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right.
+# H. Levitt, Transformed Up-Down Methods in Psychoacoustics, 1971.
+FIRST_FACTOR, FACTOR = 2.0, 2**(1 / 3)  # of a step, until and after the second reversal
+REVERSALS = 8  # of which the first two are for finding the range
+MOST_TRIALS = 50  # of three seconds
 SAMPLE_S, RAMP_S, PULSE_S, PAUSE_S = 0.005, 0.1, 0.5, 0.4  # without a ramp, a pulse begins with a tap
 
 
 def told_apart(pairs_N, felt_N=FELT_N, weber=WEBER):
-    """`pairs_N`: two forces of each frame. The share of frames in which one is felt, of these the differences of the larger
-    one, and the share that differ by more than the Weber fraction."""
+    """`pairs_N`: two forces of each frame. The share of frames in which one is felt, of these the differences as parts of
+    the larger one, and the share that differ by more than the Weber fraction."""
     felt = [pair for pair in pairs_N if max(pair) >= felt_N]
     differences = [abs(first - second) / max(first, second) for first, second in felt]
     return (len(felt) / len(pairs_N), differences,

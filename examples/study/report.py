@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Shares and means of the answers of a study, and whether they differ, as it was decided before the first participant."""
+"""Shares and means of the answers, and whether they differ, as it was decided before the first participant."""
 
 import math
 import statistics
@@ -26,8 +26,8 @@ def ratings(answers):
 
 
 def differences(answers):
-    """By (part, question, first condition, second): how much higher the second one is, a row for each participant who has
-    rated every clip in both, a column for each clip."""
+    """By (part, question, first condition, second): how much higher the second one is, a row for each participant who
+    has rated every clip in both, a column for each clip."""
     given = defaultdict(dict)
     for answer in answers:
         given[answer.part, answer.question, answer.participant][answer.clip, answer.condition] = answer.answer
@@ -97,9 +97,9 @@ def report(answers, path=None):
                      " ".join(f"{count:{5 if step < 4 else 4}}" for step, count in enumerate(counts)) +
                      f"   {good:6.0f}  {sum(steps) / len(steps):4.2f}")
     margin = analysis["margin_steps"]
-    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher, for",
-              "other people and clips like these. p: of no difference; of what is expected to be equal, of a difference of",
-              f"{margin:g} steps or more (two one-sided tests). Holm: p, corrected for the number of comparisons of the family."]
+    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher,",
+              "for other people and clips like these. p: of no difference; of what is expected to be equal, of a difference",
+              f"of {margin:g} steps or more (two one-sided tests). Holm: p, corrected for the number of comparisons of the family."]
     rows = differences(answers)
     if any(len(each[0]) == 1 for each in rows.values()):
         lines.append("With a single clip, nothing is said of other clips.")
@@ -107,7 +107,8 @@ def report(answers, path=None):
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
     lines += describe_thresholds(path) if path else []
-    saw = {row["participant"] for row in read_rows(f"{path}.briefings") if row["check"] == "saw-through" and row["answer"] == "yes"}
+    saw = {row["participant"] for row in read_rows(f"{path}.briefings")
+           if (row["check"], row["answer"]) == ("saw-through", "yes")}
     if saw:
         others = differences([answer for answer in answers if answer.participant not in saw])
         lines += ["", f"primary, without the {len(saw)} who saw through the sham", COLUMNS,

@@ -213,7 +213,7 @@ class Study:
             raise Stopped
 
     def measure_thresholds(self):
-        """The participant's own least force and least change, in less than seven minutes."""
+        """The participant's own least force and least change of it, in five minutes."""
         import gst_spidar
 
         self.require_device()

@@ -172,7 +172,9 @@ class Run(unittest.TestCase):
 
     def check_what_must_not_change(self, answers):
         for more, message in ([["--seed", "2"], "seed was 1, not 2"], [["--", "device=sim", "alpha=0.01"], "properties was"],
-                              [["--paper"], "paper was false, not true"]):
+                              [["--paper"], "paper was false, not true"],
+                              [["--primary", "reality"], 'analysis primary was "movement", not "reality"'],
+                              [["--accept-alike"], "accept_alike was false, not true"]):
             split = more.index("--") if "--" in more else len(more)
             refused = study("run", "--headless", *more[:split], answers, "P02", self.clip, *more[split:])
             self.assertEqual((refused.returncode, message in refused.stderr), (2, True), refused)
