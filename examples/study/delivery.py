@@ -52,6 +52,8 @@ class Hand:
     def share(self):
         """Of the time in which something is to be felt, the part of the wanted force that came, in its direction."""
         wanted, delivered = self.wanted[self.felt()], self.delivered[self.felt()]
+        if not len(wanted):
+            return 1.0
         return float(np.clip((wanted * delivered).sum(axis=1) / (wanted**2).sum(axis=1), -1, 1).mean())
 
     def longest_stall_ms(self):
@@ -95,6 +97,8 @@ def judge(haptic_trace, frame_trace, wanted, is_muted):
         return share, f"the device was {state} in {100 * not_running:.0f} % of the time"
     if share < 1 - WEBER and not is_muted:
         return share, f"{100 * share:.0f} % of the clip's force was delivered{because}"
+    if hand.shown.mean() < 1 - WEBER:
+        return share, f"{100 * hand.shown.mean():.0f} % of the clip was shown{because}"
     if hand.longest_stall_ms() > MOST_STALL_MS:
         return share, f"picture or force stood still for {hand.longest_stall_ms():.0f} ms{because}"
     delivered_N, wanted_N = root_mean_square(hand.delivered), root_mean_square(hand.wanted)

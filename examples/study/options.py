@@ -64,6 +64,10 @@ def parse(description, arguments):
     if options.command in ("run", "threshold"):
         if not options.participant or "/" in options.participant:
             parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
+        if not 0 <= options.noise <= 1:
+            parser.error(f"--noise {options.noise:g} is no volume: give 0 to 1")
+        if options.practice in options.clips:
+            parser.error(f"--practice {options.practice} is a clip of the study: give another one")
         for question in options.question:
             if not all(question.partition("=")):
                 parser.error(f"--question {question} is not NAME=TEXT")

@@ -218,11 +218,12 @@ class Study:
 
         self.require_device()
         self.prepare()
-        ask_which = lambda: ask("When was the force the larger one?", ["first", "second"])
+        ask_which = lambda: ask("When was the force larger?", ["first", "second"])
         stairs = [perception.Staircase(0.25 * self.limit_N, self.limit_N), perception.Staircase(0.5, 1.0)]
         with self.noise(), gst_spidar.Device(self.device, self.profile or "") as device:
             device.set_limits(self.limit_N, 0.0)
             device.wait_until_running(10)
+            print("Keep the hand where it is. A force to the right comes twice; at times one of them is none.")
             # A standard of half of the limit, so that twice of it is within.
             found = [perception.measure(device, standard_N, staircase, ask_which)
                      for standard_N, staircase in zip((0, self.limit_N / 2), stairs)]

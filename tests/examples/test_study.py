@@ -239,6 +239,14 @@ class Delivery(InFolder):
                 # Where ticks are missing, the last one stands for ten milliseconds more; of 500.
                 self.assertAlmostEqual(share, 1 - percent / 100, delta=0.01 + delivery.MOST_AGE_MS / 500)
                 self.assertRegex(problem, "of the clip's force was delivered")
+        # Where no force is to be felt, of a picture that stands still in between.
+        in_pieces = lambda tick: None if tick["playing"] and tick["running_ns"] // 1_000_000 % 100 < 50 else tick
+        self.assertEqual(self.judge(in_pieces, is_muted=True), (0, "60 % of the clip was shown"))  # 50 ms, and 10 more
+
+    def test_a_condition_too_weak_to_be_felt_counts(self):
+        weak = [[time_ns, 0.03, 0, 0] for time_ns, *_ in self.FRAMES]
+        with patch.object(Delivery, "FRAMES", weak):
+            self.assertEqual(self.judge(), (1, ""))
 
     def test_a_stall_voids_a_trial_that_is_otherwise_complete(self):
         for change in (self.paused(110), self.within(700, 815), self.within(700, 815, playing=0),

@@ -221,7 +221,7 @@ class Streams:
         answers = self.file("thresholds.csv")
         done = study("threshold", answers, "P01", "--noise", 0,
                      lines=[*SimulatedParticipant.BRIEFING, *SimulatedParticipant.PERSON, "1", "2", "q"])
-        self.assertEqual((done.returncode, done.stdout.count("When was the force the larger one?")), (0, 3), done)
+        self.assertEqual((done.returncode, done.stdout.count("When was the force larger?")), (0, 3), done)
         self.assertEqual(records.read_rows(f"{answers}.thresholds"), [], "not complete")
         with gst_spidar.Device("sim") as device:
             device.set_limits(1, 0)
@@ -279,7 +279,9 @@ class Streams:
 
     def test_mistakes_are_named(self):
         answers = self.file("mistakes.csv")
-        for arguments, message in ([[self.clip, "--", "max-force=much"], "max-force"], [["none.avi"], "none.avi"]):
+        for arguments, message in ([[self.clip, "--", "max-force=much"], "max-force"], [["none.avi"], "none.avi"],
+                                   [["--noise", "5", self.clip], "0 to 1"], [["--primary", "joy", self.clip], "movement"],
+                                   [["--practice", self.clip, self.clip], "give another one"]):
             done = study("run", "--headless", answers, "P01", *arguments)
             self.assertEqual((done.returncode, message in done.stderr), (2, True), done)
 
