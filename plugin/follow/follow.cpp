@@ -12,15 +12,12 @@
 #include "plugin/follow/followed_film.h"
 #include "plugin/follow/mpris_player.h"
 #include "plugin/follow/position_filter.h"
+#include "plugin/follow/tell.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {
 namespace {
-
-void tell(const std::string& text) {
-  g_printerr("spidar-feel: %s\n", text.c_str());
-}
 
 class Follower {
  public:
@@ -108,6 +105,8 @@ class Follower {
                         (state_.status != state.status || state_.rate != state.rate);
     state_ = state;
     if (begins) is_beginning_ = true;
+    if (begins && state.uri.empty())
+      tell(short_name(player_->bus_name()) + " does not say which file it plays");
     if (state.status != PlayerState::Status::kPlaying) {
       is_beginning_ = false;
       filter_ = PositionFilter();

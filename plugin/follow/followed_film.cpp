@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 
+#include <gst/pbutils/pbutils.h>
+
 #include "plugin/follow/position_filter.h"
+#include "plugin/follow/tell.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
@@ -45,10 +47,6 @@ FilmTrack track_of(const std::string& path, const Film& film) {
   return {beside, match.later_ns};
 }
 
-void tell(const std::string& text) {
-  g_printerr("spidar-feel: %s\n", text.c_str());
-}
-
 GstElement* parse(const char* line) {
   GError* error = nullptr;
   GstElement* const pipeline = gst_parse_launch(line, &error);
@@ -66,6 +64,14 @@ void link_track(GstElement*, GstPad* pad, gpointer decode) {
     gst_pad_link(pad, sink.get());
 }
 
+void print_missing(GstMessage* message) {
+  if (!gst_is_missing_plugin_message(message)) return;
+  gchar* const what = gst_missing_plugin_message_get_description(message);
+  tell(std::string("not installed for GStreamer: ") + what +
+       "; Debian has most decoders in gstreamer1.0-libav");
+  g_free(what);
+}
+
 /// Prints the text of a message, if it is for people.
 void print(GstMessage* message) {
   GError* error = nullptr;
@@ -80,7 +86,7 @@ void print(GstMessage* message) {
       gst_message_parse_info(message, &error, nullptr);
       break;
     default:
-      return;
+      return print_missing(message);
   }
   tell(error->message);
   g_clear_error(&error);
@@ -175,7 +181,7 @@ bool FollowedFilm::check() {
   while (GstMessage* const message = gst_bus_pop(bus.get())) {
     print(message);
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
-    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE && !playing_) read_segment();
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE) read_segment();
     gst_message_unref(message);
   }
   return !failed_;

@@ -44,9 +44,9 @@ class FollowCase(track_case.TrackCase):
                  "avimux ! filesink location=film.avi")
         write_track(self.path("film.avi.haptic.wav"))
 
-    def follow(self, *words):
+    def follow(self, *words, properties=()):
         with open(self.log, "w", encoding="utf-8") as log:
-            process = subprocess.Popen([FEEL, "device=sim", f"haptic-trace={self.trace}", "--follow", *words],
+            process = subprocess.Popen([FEEL, "device=sim", f"haptic-trace={self.trace}", *properties, "--follow", *words],
                                        stdout=log, stderr=log, cwd=self.folder,
                                        env=dict(os.environ, DBUS_SESSION_BUS_ADDRESS=self.bus.address))
         self.addCleanup(process.wait)

@@ -4,6 +4,7 @@
 white, and its haptic track is a force that rises with the position: so both what is seen and what is felt tell where they
 are. Players that are not installed are skipped."""
 
+import csv
 import os
 import shutil
 import statistics
@@ -93,7 +94,7 @@ class Real:
 
     def make_film(self):
         command = (f"ffmpeg -v error -f rawvideo -pix_fmt yuv420p -s {WIDTH}x{HEIGHT} -r {RATE_HZ} -i - -f lavfi -i "
-                   "sine=frequency=300 -shortest -c:v mpeg4 -q:v 2 -g 25 -c:a libvorbis film.mkv")
+                   "sine=frequency=300 -shortest -c:v mjpeg -q:v 2 -c:a libvorbis film.mkv")
         with subprocess.Popen(command.split(), cwd=self.folder, stdin=subprocess.PIPE) as encoder:
             for number in range(RATE_HZ * test_follow.LENGTH_S):
                 encoder.stdin.write(picture(number))
@@ -117,19 +118,31 @@ class Real:
         name = next(name for name in names if name.startswith("org.mpris.MediaPlayer2." + self.NAME))
         return self.connection.call_sync(name, PATH, PLAYER, method, arguments, None, 0, -1)
 
-    def lags_s(self, from_s, to_s):
-        """What is felt later than what is seen, while both are there."""
-        ticks = self.ticks(from_s, to_s)
+    def lags_s(self, felt, from_s, to_s):
+        """What is felt later than what is seen, while both are there. `felt`: (monotonic s, position s)."""
         lags, at = [], 0
         for now_s, position_s in self.watched.seen:
-            while at < len(ticks) and ticks[at][0] < now_s:
+            while at < len(felt) and felt[at][0] < now_s:
                 at += 1
-            if from_s <= now_s <= to_s and at < len(ticks):
-                lags.append(position_s - test_follow.felt_position_s(ticks[at][1]))
+            if from_s <= now_s <= to_s and at < len(felt):
+                lags.append(position_s - felt[at][1])
         return lags
 
-    def expect_in_time(self, from_s, to_s, when):
-        lags = self.lags_s(from_s, to_s)
+    def felt_of_track(self, from_s, to_s):
+        return [(now_s, test_follow.felt_position_s(force)) for now_s, force in self.ticks(from_s, to_s)]
+
+    def felt_of_film(self, from_s, to_s):
+        """By the running time of the loop, and by that of a frame, from the newest seek on."""
+        with open(self.path("frames.csv"), newline="", encoding="ascii") as file:
+            whole = file.read().rpartition("\n")[0].splitlines()
+        newest = list(csv.DictReader(whole))[-1]
+        later_s = 1e-9 * (int(newest["stream_time_ns"]) - int(newest["running_time_ns"]))
+        self.ticks(from_s, to_s)  # until they are there
+        return [(now_s, running_s + later_s) for now_s, running_s, _, playing in bus_case.read_trace(self.trace)
+                if playing and from_s <= now_s <= to_s]
+
+    def expect_in_time(self, from_s, to_s, when, felt=None):
+        lags = self.lags_s((felt or self.felt_of_track)(from_s, to_s), from_s, to_s)
         sizes = sorted(map(abs, lags))
         self.assertGreater(len(sizes), .5 * RATE_HZ * (to_s - from_s), "too few pictures were seen")
         median_s, most_s = statistics.median(sizes), sizes[int(.95 * len(sizes))]
@@ -164,6 +177,18 @@ class Real:
         self.wait_until(lambda: "has ended" in self.said())
         self.assertEqual([force for now_s, _, force, _ in bus_case.read_trace(self.trace)
                           if now_s > died_s + test_follow.RAMP_S and force], [])
+
+
+    def test_a_film_that_is_analysed_is_in_time(self):
+        self.path("film.mkv.haptic.wav").unlink()
+        self.start_player()
+        self.follow(properties=[f"trace={self.path('frames.csv')}"])
+        self.wait_until(lambda: any(playing for _, _, _, playing in bus_case.read_trace(self.trace)))
+        for by_s in (0, 20):
+            self.call("Seek", GLib.Variant("(x)", (int(1e6 * by_s),)))
+            begin_s = time.monotonic() + .5
+            time.sleep(5)
+            self.expect_in_time(begin_s, time.monotonic() - .1, f"analysed, after a seek by {by_s} s", self.felt_of_film)
 
 
 class Mpv(Real, screen.ScreenCase, test_follow.FollowCase):
