@@ -18,7 +18,7 @@ def parse(description, arguments):
            f"{GENTLE_N:g} N, and more must be confirmed.")
     plan = commands.add_parser("plan", help="how many participants an effect needs")
     plan.add_argument("--odds-ratio", type=float, default=7,
-                      help="of a higher answer, for one person and one clip (7: with these spreads, the paper's 50 and 80 %%)")
+                      help="of a higher answer, for one person and one clip (7: the paper's 50 and 80 %%, over all)")
     plan.add_argument("--clips", type=int, nargs="+", default=[3, 6, 12], help="numbers of clips (3 6 12)")
     plan.add_argument("--spread", type=float, default=1,
                       help="standard deviation between participants, of their level and of their effect, as log odds (1)")

@@ -56,8 +56,8 @@ def finds(steps, level):
 def effect_in_words(log_odds, spread, clip_spread):
     first, second = (side[FIRST_GOOD - 2] for side in shares_above(log_odds, spread, clip_spread))
     marginal = second / (1 - second) / (first / (1 - first))
-    return (f"odds ratio {math.exp(log_odds):.3g} of a higher answer for one person and one clip; over all people and clips "
-            f"{marginal:.2g}: {100 * first:.0f} % and {100 * second:.0f} % are average or better, and the means differ by "
+    return (f"odds ratio {math.exp(log_odds):.3g} of a higher answer for one person and one clip; over all people and "
+            f"clips {marginal:.2g}: {100 * first:.0f} % and {100 * second:.0f} % are average or better, and the means differ by "
             f"{true_difference(log_odds, spread, clip_spread):.2f} steps")
 
 
@@ -67,8 +67,8 @@ def plan(options):
         raise ValueError(f"--odds-ratio {options.odds_ratio:g} is no effect to be found: give more than 1")
     if (not 0 < options.power < 1 or options.simulations < 1 or min(options.clips) < 1
             or min(options.spread, options.clip_spread) < 0):
-        raise ValueError("--power is between 0 and 1, --spread and --clip-spread not negative, --clips and --simulations at "
-                         "least 1")
+        raise ValueError("--power is between 0 and 1, --spread and --clip-spread not negative, --clips and --simulations "
+                         "at least 1")
     effect = np.log(options.odds_ratio), options.spread, options.clip_spread
     print(f"{effect_in_words(*effect)}\n\npower by participants and clips, {options.simulations} simulations each\n\n"
           "participants" + "".join(f"{clips:8} clips" for clips in options.clips))

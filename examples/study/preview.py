@@ -100,8 +100,8 @@ def choose(clips):
 
 
 def table(clips):
-    lines = ["felt: frames in which something is felt. apart: of these, how many a hand tells apart (11 %). differ: the median",
-             "difference. stronger: how many are stronger with nonlinear. N rms as measured; N max-force as played.", "",
+    lines = ["felt: frames in which something is felt. apart: of these, how many a hand tells apart (11 %). differ: the",
+             "median difference. stronger: how many are stronger with nonlinear. N rms as measured; N max-force as played.", "",
              "alpha    felt %  apart %  differ %  stronger %   " + "  ".join(f"{name:>16}" for name in FORCES) + "  clip"]
     for name, by_alpha in clips.items():
         for alpha, clip in by_alpha.items():

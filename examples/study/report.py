@@ -97,9 +97,10 @@ def report(answers, path=None):
                      " ".join(f"{count:{5 if step < 4 else 4}}" for step, count in enumerate(counts)) +
                      f"   {good:6.0f}  {sum(steps) / len(steps):4.2f}")
     margin = analysis["margin_steps"]
-    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher,",
-              "for other people and clips like these. p: of no difference; of what is expected to be equal, of a difference",
-              f"of {margin:g} steps or more (two one-sided tests). Holm: p, corrected for the number of comparisons of the family."]
+    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is",
+              "higher, for other people and clips like these. p: of no difference; of what is expected to be equal, of a",
+              f"difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected for the comparisons of the",
+              "family."]
     rows = differences(answers)
     if any(len(each[0]) == 1 for each in rows.values()):
         lines.append("With a single clip, nothing is said of other clips.")

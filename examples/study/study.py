@@ -95,8 +95,8 @@ class Study:
         return {
             "version": self.clip_player.plugin_version(), "host": platform.node(), "seed": self.options.seed,
             "paper": self.options.paper, "properties": self.properties, "alpha_s_px": alpha,
-            "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device, "profile": profile,
-            "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
+            "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device,
+            "profile": profile, "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
             "questions": QUESTIONS | {"every clip": self.extra}, "noise_volume": self.options.noise,
             "practice": self.options.practice,
             "clips_sha256": {clip: hash_of(clip) for clip in self.clip_files()}}
@@ -188,8 +188,8 @@ class Study:
                 break
         else:
             raise RuntimeError(f"trial {trial.number} failed {ATTEMPTS} times, and its answers would say nothing; "
-                               f"{self.options.answers}.presentations says why. When the cause is gone, the same command goes "
-                               "on here")
+                               f"{self.options.answers}.presentations says why. When the cause is gone, the same command "
+                               "goes on here")
         for name, text in questions.items():
             append_row(self.options.answers, COLUMNS,
                        [self.options.participant, trial.number, trial.part, trial.condition, trial.code, trial.clip,
@@ -200,8 +200,8 @@ class Study:
         if self.device == "none":
             raise ValueError("device=none renders no force: give the device that is felt, or device=sim to rehearse")
         if self.device.startswith(("usb", "uart")) and not self.profile:
-            raise ValueError(f"device={self.device} needs profile=NAME or profile=FILE.toml: it belongs to the data, and what "
-                             "is remembered for a board may change")
+            raise ValueError(f"device={self.device} needs profile=NAME or profile=FILE.toml: it belongs to the data, and "
+                             "what is remembered for a board may change")
 
     def prepare(self):
         """What must be right before a participant holds the grip. Raises TakesNoPart."""

@@ -56,7 +56,8 @@ UNSEEN = 2  # frames at the beginning of a film
 METHODS = {"dis": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
 CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
-COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %", "not right: " + ", ".join(CAUSES),
+COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %",
+           "not right: " + ", ".join(CAUSES),
            "changes, turns, starts a minute", "jitter (true), px", "ms"]
 
 
@@ -233,7 +234,8 @@ class Tally:
         times = sorted(self.times_ms)
         ms = f"{times[len(times) // 2]:.2f}, {times[len(times) * 99 // 100]:.2f}, {times[-1]:.2f}" if times else "-"
         by_film = mean_of_films([(film.get("right", 0), film["counted"]) for film in self.films])
-        return (f"| {name} | {of('right')} | {by_film} | {of('known', 'with_object')} | {of('wrong')} | {of('felt')} | {of('false', 'without_object')} "
+        return (f"| {name} | {of('right')} | {by_film} | {of('known', 'with_object')} | {of('wrong')} | {of('felt')} "
+                f"| {of('false', 'without_object')} "
                 f"| {of('listed') if self.has_force else '-'} | {causes} | {calm} "
                 f"| {middle(self.jitters)} ({middle(self.true_jitters)}) | {ms} |")
 

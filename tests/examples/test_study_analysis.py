@@ -115,7 +115,7 @@ class Report(unittest.TestCase):
         self.assertEqual(p, holm, "the only one of its family")
         p, holm = map(float, found["haptics: reality", "without, with"][3:])
         self.assertLess(abs(holm / p - 2), 0.02, "the smaller one of two")
-        self.assertGreater(float(found["haptics: comfort", "without, with"][3]), 0.05, "answers by ten people differ too much")
+        self.assertGreater(float(found["haptics: comfort", "without, with"][3]), 0.05, "ten people differ too much")
         self.assertLess(float(found["haptics: comfort", "sham, with"][3]), 0.05, "equal")
 
     def test_uses_only_who_has_rated_everything(self):
@@ -123,7 +123,8 @@ class Report(unittest.TestCase):
                                      for condition, step in zip(("linear", "nonlinear"), both)]
         answers = steps(1, ("a", 3, 4), ("b", 3, 4), ("c", 5, 1)) + steps(2, ("a", 1, 2), ("c", 2, 2), ("b", 2, 5))
         answers += steps(3, ("a", 1, 5), ("b", 1, 5), ("c", 1))
-        self.assertEqual(report.differences(answers), {("controllers", "movement", "linear", "nonlinear"): [[1, 1, -4], [1, 3, 0]]})
+        self.assertEqual(report.differences(answers),
+                         {("controllers", "movement", "linear", "nonlinear"): [[1, 1, -4], [1, 3, 0]]})
 
     def test_answers_without_any_difference_are_no_error(self):
         same = [answer(n, "controllers", condition, "movement", 3) for n in range(3)
