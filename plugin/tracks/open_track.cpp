@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <gst/gst.h>
@@ -86,6 +88,7 @@ class TrackOfFile : public OpenTrack {
     if (is_chosen_ && !only_notes_ && first_ns_ == INT64_MAX)
       throw std::runtime_error("there are no samples in it.");
     read_tags(pad_.get(), notes_);
+    bytes_ = file_bytes();
     length_ = file_length(path_);
     gint64 length_ns = 0;
     // For a film this is the duration of its longest stream.
@@ -96,6 +99,7 @@ class TrackOfFile : public OpenTrack {
       length_.promised_ns = length_ns;
       if (!length_.is_cut_off) length_.there_ns = length_ns;
     }
+    is_open_ = true;
   }
   ~TrackOfFile() override {
     blocks_->stop();  // before what its streaming threads use
@@ -133,6 +137,7 @@ class TrackOfFile : public OpenTrack {
   }
 
   void seek(int64_t time_ns) override {
+    sought_ns_ = time_ns;
     GstEvent* const event =
         gst_event_new_seek(1, GST_FORMAT_TIME,
                            static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
@@ -193,14 +198,35 @@ class TrackOfFile : public OpenTrack {
       case GST_EVENT_FLUSH_STOP:
         self.input_.restart();
         self.blocks_->begin_pass();
+        self.end_ns_ = self.sought_ns_;
         break;
       case GST_EVENT_EOS:
-        self.blocks_->end();
+        self.blocks_->end_pass(self.why_short());
         break;
       default:
         break;
     }
     return GST_PAD_PROBE_OK;
+  }
+
+  uint64_t file_bytes() const {
+    std::error_code gone;
+    const uintmax_t bytes = std::filesystem::file_size(path_, gone);
+    return gone ? 0 : bytes;
+  }
+
+  /// Of a pass that has ended: why that is not the end that the file had when it was opened, or
+  /// empty. The elements that take files apart say nothing of it.
+  std::string why_short() const {
+    if (!is_open_) return {};  // as missing() finds
+    const int64_t end_ns = end_ns_ + static_cast<int64_t>(GST_MSECOND);
+    const bool is_early = length_.there_ns && end_ns < *length_.there_ns;
+    const bool has_shrunk = file_bytes() < bytes_;
+    if (!has_shrunk && !(is_early && length_.by_samples)) return {};
+    const std::string was =
+        length_.there_ns ? seconds_text(*length_.there_ns) : std::to_string(bytes_) + " bytes";
+    return "its file was cut off while it was played: it ends at " + seconds_text(end_ns_) +
+           ", and was " + was + " long";
   }
 
   /// Runs in the streaming thread of the pipeline that reads the file.
@@ -241,6 +267,7 @@ class TrackOfFile : public OpenTrack {
         has_begun_ = true;
         give_up(GST_PAD_PARENT(pad));
       }
+      end_ns_ = std::max(end_ns_, end_of(block));
       return blocks_->put(block, input_.faults()) ? GST_FLOW_OK : GST_FLOW_EOS;
     });
   }
@@ -248,7 +275,11 @@ class TrackOfFile : public OpenTrack {
   const std::string path_;
   const bool only_notes_;
   const Wanted wanted_;
+  // When it was opened.
   FileLength length_;
+  uint64_t bytes_ = 0;
+  std::atomic<bool> is_open_{false};
+  std::atomic<int64_t> sought_ns_{0};
   const std::shared_ptr<ReadAhead> blocks_ = std::make_shared<ReadAhead>();
   FilePipeline file_;
   GstElement* const parser_;
@@ -260,6 +291,7 @@ class TrackOfFile : public OpenTrack {
   TrackInput input_;
   Ref<GstCaps> caps_;
   int64_t first_ns_ = INT64_MAX;
+  int64_t end_ns_ = 0;  // of what has been read in this pass
   bool has_begun_ = false;
 };
 

@@ -21,9 +21,17 @@ bool ReadAhead::put(const TrackBlock& block, const TrackFaults& faults) {
   return true;
 }
 
+void ReadAhead::end_pass(const std::string& problem) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_wanted()) set_end(problem);
+}
+
 void ReadAhead::end(const std::string& problem) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (problem.empty() && !is_wanted()) return;  // the end of what is not wanted any more
+  set_end(problem);
+}
+
+void ReadAhead::set_end(const std::string& problem) {
   if (problem_.empty()) problem_ = problem;
   ended_ = true;
   changed_.notify_all();

@@ -35,9 +35,11 @@ class ReadAhead {
   /// Waits for room. Blocks before the position that was sought, and such as do not rise, are left
   /// out. False when nothing more of this pass is wanted.
   bool put(const TrackBlock& block, const TrackFaults& faults);
-  /// The file ends here; `problem` says why it cannot be read further, if that is not its end. What
-  /// has ended with a problem stays so.
-  void end(const std::string& problem = "");
+  /// The file ends here; `problem` says so if it should not. Nothing, when nothing more of this
+  /// pass was wanted.
+  void end_pass(const std::string& problem);
+  /// It cannot be read further. What has ended with a problem stays so.
+  void end(const std::string& problem);
   /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
   /// What comes from now on is read from the position that await_seek() returned last.
@@ -76,6 +78,7 @@ class ReadAhead {
 
  private:
   void set(bool& flag, bool value);
+  void set_end(const std::string& problem);  // while it is locked
   bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
   bool is_full() const;
 

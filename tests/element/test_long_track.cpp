@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 
 #include <gst/gst.h>
@@ -42,7 +44,8 @@ class LongTrack : public testing::TestWithParam<const char*> {
     ASSERT_TRUE(loaded);
     ASSERT_EQ(loaded->problem, "");
     EXPECT_EQ(loaded->duration_ns, kLength_ms * kMs_ns);
-    replay.set_track(loaded->blocks);
+    blocks = loaded->blocks;
+    replay.set_track(blocks);
   }
 
   void encode(const std::string& wav) const {
@@ -104,11 +107,30 @@ class LongTrack : public testing::TestWithParam<const char*> {
   const TemporaryFolder folder;
   std::string path;
   TrackLoader loader;
+  std::shared_ptr<ReadAhead> blocks;
   TrackReplay replay;
 };
 
 TEST_P(LongTrack, IsFeltFromOneEndToTheOther) {
   play(0, kLength_ms);
+}
+
+/// A copy over the network that fails, or a disk that is full: what takes files apart takes it for
+/// the end.
+TEST_P(LongTrack, ThatIsCutOffWhileItIsPlayedSaysWhereItEnds) {
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  TrackBlock block;
+  int64_t end_ns = 0;
+  const auto deadline = std::chrono::steady_clock::now() + kLongest;
+  while (blocks->take(block, deadline) == ReadAhead::Found::kBlock) end_ns = end_of(block);
+  EXPECT_LT(end_ns, kLength_ms * kMs_ns);
+  const std::string problem = blocks->problem();
+  EXPECT_NE(problem.find("cut off while it was played: it ends at "), std::string::npos) << problem;
+  EXPECT_NE(problem.find("was 60.000 s long"), std::string::npos) << problem;
+  // A jump to what is not there any more changes nothing of that.
+  blocks->seek(50'000 * kMs_ns);
+  EXPECT_EQ(blocks->take(block, deadline), ReadAhead::Found::kEnd);
+  EXPECT_EQ(blocks->problem(), problem);
 }
 
 TEST_P(LongTrack, IsFeltWhereTheFilmJumps) {
