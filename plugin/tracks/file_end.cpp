@@ -152,13 +152,17 @@ FileLength length_of_wav(FileBytes& file) {
   return {};
 }
 
+/// What trims a file copies whole frames, and leaves the length in its head as it was: only where a
+/// frame is incomplete is it cut off.
 FileLength length_of_flac(FileBytes& file) {
   const FlacLength flac = flac_length(file);
-  if (flac.rate_Hz == 0 || !flac.end) return {};
+  if (flac.rate_Hz == 0 || !flac.end || *flac.end < flac.begin) return {};
   FileLength length;
   length.by_samples = true;
-  length.there_ns = time_ns(*flac.end, flac.rate_Hz);
-  length.promised_ns = time_ns(flac.promised, flac.rate_Hz);
+  length.there_ns = time_ns(*flac.end - flac.begin, flac.rate_Hz);
+  length.is_cut_off = flac.is_cut_off;
+  if (flac.is_cut_off && flac.promised > *flac.end)
+    length.promised_ns = time_ns(flac.promised - flac.begin, flac.rate_Hz);
   return length;
 }
 

@@ -26,7 +26,7 @@ struct FileLength {
   std::optional<int64_t> there_ns;  ///< nothing when it is not known without decoding
   int64_t promised_ns = 0;          ///< by its header; 0: not stated
   bool by_samples = false;          ///< both are exact: of WAV and FLAC
-  bool is_cut_off = false;          ///< as film_end() finds
+  bool is_cut_off = false;          ///< as film_end() finds, or within a frame of FLAC
 };
 
 FileLength file_length(const std::string& path);

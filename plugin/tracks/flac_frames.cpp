@@ -7,6 +7,8 @@
 namespace spidar {
 namespace {
 
+constexpr size_t kLongestHead = 16;  // of a frame, in bytes
+
 /// What the header states for all frames.
 struct StreamInfo {
   uint64_t block_samples = 0;  ///< of all frames but the last, where they are equally long
@@ -28,15 +30,24 @@ uint8_t crc8(const std::string& bytes, size_t from, size_t to) {
   return static_cast<uint8_t>(crc);
 }
 
-/// Whether a whole frame begins there: its checksum comes last, so that it becomes 0.
-bool is_whole(const std::string& bytes, size_t from) {
+/// Where the frame ends that begins there: its checksum comes last, so that it becomes 0. Nothing
+/// when it is not whole.
+std::optional<size_t> end_of_frame(const std::string& bytes, size_t from) {
   unsigned crc = 0;
   for (size_t i = from; i < bytes.size(); ++i) {
     crc ^= static_cast<unsigned>(static_cast<uint8_t>(bytes[i])) << 8U;
     for (int bit = 0; bit < 8; ++bit) crc = (crc << 1U ^ (crc & 0x8000U ? 0x8005U : 0)) & 0xffffU;
-    if (crc == 0 && i > from) return true;
+    if (crc == 0 && i > from) return i + 1;
   }
-  return false;
+  return std::nullopt;
+}
+
+/// Whether another frame begins there, of which there may be a single byte; what taggers append
+/// does not begin like one.
+bool begins_frame(const std::string& bytes, size_t from) {
+  const auto byte = [&bytes](size_t i) { return static_cast<uint8_t>(bytes[i]); };
+  return from < bytes.size() && byte(from) == 0xff &&
+         (from + 1 == bytes.size() || (byte(from + 1) & 0xfeU) == 0xf8);
 }
 
 /// The number of a frame or a sample, coded like a character in UTF-8 but up to 36 bits long.
@@ -58,7 +69,6 @@ std::optional<uint64_t> coded_number(const std::string& bytes, size_t& at) {
 
 /// Section 9.1: a frame whose head is at `from`.
 std::optional<Frame> frame_at(const std::string& bytes, size_t from, const StreamInfo& info) {
-  constexpr size_t kLongestHead = 16;
   if (bytes.size() - from < 6) return std::nullopt;
   const auto byte = [&](size_t i) {
     return static_cast<unsigned>(static_cast<uint8_t>(bytes[from + i]));
@@ -117,11 +127,14 @@ FlacLength flac_length(FileBytes& file) {
   constexpr uint64_t kEnd = uint64_t{1} << 18U;
   const uint64_t from = file.size() > first + kEnd ? file.size() - kEnd : first;
   const std::string end = file.read(from, kEnd);
+  if (const auto frame = frame_at(file.read(first, kLongestHead + 1), 0, *info))
+    length.begin = frame->begin;
   for (size_t at = end.size(); at-- > 0;) {
     const std::optional<Frame> frame = frame_at(end, at, *info);
-    if (!frame) continue;
-    if (!is_whole(end, at)) continue;
+    const std::optional<size_t> after = frame ? end_of_frame(end, at) : std::nullopt;
+    if (!after) continue;
     length.end = frame->begin + frame->samples;
+    length.is_cut_off = begins_frame(end, *after);
     return length;
   }
   return length;

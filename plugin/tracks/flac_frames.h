@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the last frame of a FLAC file ends (RFC 9639).
+/// Where the first frame of a FLAC file begins and the last one ends (RFC 9639).
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,13 @@
 
 namespace spidar {
 
-/// In samples.
+/// In samples of the stream, whose first frame is a later one where its begin was trimmed.
 struct FlacLength {
   uint64_t rate_Hz = 0;         ///< 0: there is no head
   uint64_t promised = 0;        ///< by the head; 0: its writer did not know
+  uint64_t begin = 0;           ///< of the first frame
   std::optional<uint64_t> end;  ///< of the last whole frame; nothing when none was found
+  bool is_cut_off = false;      ///< within the frame after that
 };
 
 FlacLength flac_length(FileBytes& file);

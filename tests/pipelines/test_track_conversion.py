@@ -141,6 +141,27 @@ class Conversion(track_case.TrackCase):
         self.spidartrack("convert", "a.wav", "a.ahap")
         self.assert_said("written, but not read", "info", "a.ahap")
 
+    @track_case.needs("ffmpeg")
+    def test_a_trimmed_flac_is_whole(self):
+        """What trims copies frames, and leaves the length in the head as it was."""
+        self.make_track(count=2000)
+        self.spidartrack("convert", "a.wav", "a.flac")
+        whole = self.samples("a.flac")
+        for name, cut, first, count in (("begin", "-ss 0.8", 800, 1200), ("end", "-t 0.8", 0, 800),
+                                        ("both", "-ss 0.4 -t 0.8", 400, 800)):
+            self.run_in_folder(f"ffmpeg -nostdin -v error {cut} -i a.flac -c copy {name}.flac")
+            self.assertIn(f"{name}.flac: {count} samples", self.spidartrack("info", f"{name}.flac"))
+            self.assertIn("ok\n", self.spidartrack("check", f"{name}.flac"))
+            self.assertEqual(self.samples(f"{name}.flac"), whole[first:first + count])
+            self.path("read back.wav").unlink()
+            # Also what a tagger appends is no frame, and the beginning of one is.
+            content = self.path(f"{name}.flac").read_bytes()
+            self.path("tagged.flac").write_bytes(content + b"TAG" + bytes(125))
+            self.assertIn("ok\n", self.spidartrack("check", "tagged.flac"))
+            for byte in (1, 2, 5, 20):
+                self.path("cut.flac").write_bytes(content[:-byte])
+                self.assert_said("it is cut off", "check", "cut.flac")
+
     def test_a_size_that_its_writer_could_not_know_is_judged_by_what_is_there(self):
         """sox writes 0x7ffff000 less a remainder into a pipe, others the largest number or its first bit."""
         self.make_track(count=2000)
