@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// How far the grip is to move from the workspace's centre to each side: half of the way to the box
-/// that holds the exits of the strings. There it can still be held (docs/workspace.md).
+/// that holds the exits of the strings. There it can still be held (docs/strings.md).
 inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();

@@ -16,7 +16,7 @@ namespace spidar {
 /// Maps the grip's position to a position of the picture. The picture is upright in the device's xy
 /// plane, its middle at the workspace's centre, and its edges half of the way to the frame, that
 /// is, to the box that holds the exits of the strings: there the grip can still be held
-/// (docs/workspace.md). Right is right, up is up, depth does not matter; turning the grip does not
+/// (docs/strings.md). Right is right, up is up, depth does not matter; turning the grip does not
 /// move the pointer.
 class GripPointer {
  public:

@@ -63,7 +63,7 @@ class MotorHeat {
 
 /// Bounds the change of tensions per second. At the border of the wrench-closure workspace, the
 /// solution moves nearly the whole tension from some strings to others within a tick
-/// (docs/workspace.md). A hand would feel that as a jerk, and a motor cannot follow it.
+/// (docs/strings.md). A hand would feel that as a jerk, and a motor cannot follow it.
 class TensionSlew {
  public:
   /// Shortest time in which a string passes through its whole range, …
