@@ -2,14 +2,20 @@
 // Copyright 2026 the gst-spidar authors
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <glib.h>
 
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
+#include "plugin/tools/web_film.h"
+#include "plugin/tracks/file_bytes.h"
+#include "plugin/tracks/film_reader.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
@@ -27,25 +33,145 @@ std::string relative_url(const fs::path& film, const fs::path& page) {
   return url;
 }
 
+constexpr const char* kMaker = "spidartrack export";
+
+/// The bytes of a file, some at a time, from its beginning.
+void read_file(const std::string& path, size_t at_once,
+               const std::function<void(const std::string&)>& take) {
+  FileBytes file(path);
+  for (uint64_t at = 0; at < file.size();) {
+    const std::string bytes = file.read(at, at_once);
+    if (bytes.empty()) throw std::runtime_error(path + ": cannot be read");
+    take(bytes);
+    at += bytes.size();
+  }
+}
+
+/// What an exported film consists of.
+class ExportedFilm {
+ public:
+  explicit ExportedFilm(const ExportOptions& options)
+      : film_(options.film),
+        replaces_{options.force, kMaker},
+        condition_(read_track(film_, [this](const TrackSample& sample) { page_.add(sample); })) {
+    if (condition_.film.empty())
+      throw UsageError(film_ + ": is a track; give the film that it is for");
+    expect_own_track(condition_);
+    unplayed_ = why_no_browser(film_);
+  }
+
+  /// A page that plays the film from where it is.
+  void write_page(PartFile& page) {
+    const FilmPage::Html html = this->html(relative_url(film_, page.target()), 0);
+    page.write(html.text);
+    publish(page);
+    tell(page.target(), html,
+         unplayed_.empty()
+             ? ""
+             : "; browsers do not play it: " + unplayed_ +
+                   "; export it to a folder, FOLDER/, or with --embed, and it is converted");
+  }
+
+  /// A page that has the film in it.
+  void write_all_in_one(PartFile& page) {
+    std::unique_ptr<PartFile> converted;
+    std::string missing;
+    if (!unplayed_.empty()) {  // never published
+      converted = std::make_unique<PartFile>(page.target() + ".mp4", PartFile::Replaces{true, {}});
+      missing = convert(*converted);
+    }
+    const std::string path = converted ? converted->path() : film_;
+    const FilmPage::Html html = this->html("", later_s(path));
+    constexpr const char* kTrack = "<script type=\"application/json\" id=\"track\">";
+    const size_t at = html.text.find(kTrack);
+    page.write(html.text.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
+    constexpr size_t kAtOnce = 3 << 20;  // a multiple of 3, so that no padding comes in between
+    read_file(path, kAtOnce, [&page](const std::string& bytes) {
+      gchar* const text =
+          g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
+      page.write(text);
+      g_free(text);
+    });
+    page.write("</script>\n" + html.text.substr(at));
+    publish(page);
+    tell(page.target(), html, "; with the film in it" + missing);
+  }
+
+  /// A folder of the page and the film, which need nothing else.
+  void write_folder(const fs::path& folder) {
+    fs::create_directories(folder);
+    const fs::path source = film_;
+    const fs::path copy =
+        folder / (unplayed_.empty() ? source.filename() : source.stem().concat(".mp4"));
+    PartFile page(folder / "index.html", replaces_), film(copy, replaces_);
+    std::string missing;
+    if (unplayed_.empty()) {
+      constexpr size_t kAtOnce = 1 << 20;
+      read_file(film_, kAtOnce, [&film](const std::string& bytes) { film.write(bytes); });
+    } else {
+      missing = convert(film);
+    }
+    const FilmPage::Html html = this->html(relative_url(copy, page.target()), later_s(film.path()));
+    page.write(html.text);
+    publish(film);
+    publish(page);
+    tell(page.target(), html, missing);
+  }
+
+ private:
+  FilmPage::Html html(const std::string& url, double more_s) const {
+    return page_.html(url, fs::path(film_).filename(),
+                      1e-9 * static_cast<double>(condition_.later_ns) + more_s);
+  }
+
+  /// Returns what is missing, for the end of the line.
+  std::string convert(const PartFile& part) const {
+    try {
+      const std::string missing = convert_for_browsers(film_, part);
+      return "; converted, because " + unplayed_ + (missing.empty() ? "" : "; " + missing);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(film_ + ": browsers do not play it, because " + unplayed_ +
+                               ", and it cannot be converted: " + error.what());
+    }
+  }
+
+  /// By how much the pictures of a copy come later than those of the film.
+  double later_s(const std::string& copy) const {
+    if (unplayed_.empty()) return 0;
+    return 1e-9 * static_cast<double>(read_film(copy).begin_ns - read_film(film_).begin_ns);
+  }
+
+  void tell(const std::string& to, const FilmPage::Html& html, const std::string& more) const {
+    std::printf("%s: %s; %zu KB, exact to %.2f N%s\n", film_.c_str(), to.c_str(),
+                html.text.size() / 1000, html.tolerance_N, more.c_str());
+  }
+
+  const std::string film_;
+  const PartFile::Replaces replaces_;
+  FilmPage page_;
+  TrackCondition condition_;
+  std::string unplayed_;  // why browsers do not play it
+};
+
 }  // namespace
 
 int export_film(const ExportOptions& options) {
-  const std::string &film = options.film, &to = options.to;
-  if (!ends_with(to, ".html")) throw UsageError(to + ": is to end in .html");
-  PartFile part(to, {options.force, "spidartrack export"});
-  FilmPage page;
-  const TrackCondition condition =
-      read_track(film, [&page](const TrackSample& sample) { page.add(sample); });
-  if (condition.film.empty()) {
-    throw UsageError(film + ": is a track; give the film that it is for");
+  const std::string& to = options.to;
+  std::error_code none;
+  const bool is_folder = !to.empty() && (to.back() == '/' || fs::is_directory(to, none));
+  if (!is_folder && !ends_with(to, ".html"))
+    throw UsageError(to + ": is to end in .html, or in / as a folder does");
+  if (is_folder && options.embed) throw UsageError("--embed is for a page, not for a folder");
+  if (is_folder) {
+    ExportedFilm(options).write_folder(to);
+    return kDone;
   }
-  expect_own_track(condition);
-  const FilmPage::Html html = page.html(relative_url(film, to), fs::path(film).filename(),
-                                        1e-9 * static_cast<double>(condition.later_ns));
-  part.write(html.text);
-  publish(part);
-  std::printf("%s: %s; %zu KB, exact to %.2f N\n", film.c_str(), to.c_str(),
-              html.text.size() / 1000, html.tolerance_N);
+  PartFile page(to, {options.force, kMaker});
+  ExportedFilm film(options);
+  if (options.embed)
+    film.write_all_in_one(page);
+  else
+    film.write_page(page);
   return kDone;
 }
 

@@ -60,6 +60,19 @@ std::string film_encoder(const PartFile& part) {
          " name=mux ! fdsink sync=false fd=" + std::to_string(part.descriptor());
 }
 
+GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
+  GstClockTime& last = *static_cast<GstClockTime*>(user);
+  auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
+  if (GST_CLOCK_TIME_IS_VALID(last) && GST_BUFFER_PTS(frame) <= last) {
+    const GstClockTime duration =
+        GST_BUFFER_DURATION_IS_VALID(frame) ? GST_BUFFER_DURATION(frame) : GST_MSECOND;
+    info->data = frame = gst_buffer_make_writable(frame);
+    GST_BUFFER_PTS(frame) = last + duration;
+  }
+  last = GST_BUFFER_PTS(frame);
+  return GST_PAD_PROBE_OK;
+}
+
 void KeptSound::begin(GstElement* pipeline) {
   pipeline_ = pipeline;
   const Ref<GstElement> decoder(gst_bin_get_by_name(GST_BIN(pipeline), "decode"));

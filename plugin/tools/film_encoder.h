@@ -16,6 +16,11 @@ namespace spidar {
 /// no encoder of H.264.
 std::string film_encoder(const PartFile& part);
 
+/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
+/// are stored in another order; MP4 takes none such. The later one follows when the other one ends.
+/// A probe for buffers, whose user data is the time of the last frame.
+GstPadProbeReturn order_frame(GstPad* pad, GstPadProbeInfo* info, gpointer last_frame);
+
 /// Keeps the sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
 /// Outlives the pipeline.
 class KeptSound {

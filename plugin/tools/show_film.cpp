@@ -47,21 +47,6 @@ class ProgressLine {
   const bool shown_;
 };
 
-/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
-/// are stored in another order; MP4 takes none such. The later one follows when the other one ends.
-GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
-  GstClockTime& last = *static_cast<GstClockTime*>(user);
-  auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
-  if (GST_CLOCK_TIME_IS_VALID(last) && GST_BUFFER_PTS(frame) <= last) {
-    const GstClockTime duration =
-        GST_BUFFER_DURATION_IS_VALID(frame) ? GST_BUFFER_DURATION(frame) : GST_MSECOND;
-    info->data = frame = gst_buffer_make_writable(frame);
-    GST_BUFFER_PTS(frame) = last + duration;
-  }
-  last = GST_BUFFER_PTS(frame);
-  return GST_PAD_PROBE_OK;
-}
-
 /// Returns what is to be reported of it. Throws std::runtime_error, without the name of the film.
 std::string show(const ShowOptions& options, const PartFile& part) {
   const ProgressLine line(options.film);

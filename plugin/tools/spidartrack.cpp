@@ -233,15 +233,20 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     CLI::App* const app = add("export", "make a web page that plays a film with its force",
                               &CommandLine::export_page);
     app->footer(
-        R"(The page plays FILM from where it is, with an arrow of the force, and vibrates a gamepad, or a
-telephone. It is one file of less than 100 KB, and needs no network. The force is that of the
-track inside the film or beside it. Browsers do not play all films; most play H.264 in MP4.)");
+        R"(The page plays FILM with an arrow and a curve of the force, and vibrates a gamepad, or a
+telephone. It needs no network. The force is that of the track inside the film or beside it.
+
+A page PAGE.html plays FILM from where it is, and has less than 100 KB; with --embed, the film
+is in it. A folder FOLDER/ gets the page, index.html, and the film. There and with --embed, a
+film that browsers do not play becomes H.264 and AAC in MP4.)");
     app->add_option("FILM", export_.film, "a film with a track inside it or beside it")
         ->required()
         ->type_name("");
-    app->add_option("TO", export_.to, "the page to write; its name ends in .html")
+    app->add_option("TO", export_.to,
+                    "the page to write, whose name ends in .html, or a folder, which ends in /")
         ->required()
         ->type_name("");
+    app->add_flag("--embed", export_.embed, "put the film into the page");
     add_force(app, "TO", export_.force);
   }
   int export_page() { return export_film(export_); }

@@ -47,6 +47,7 @@ struct ShowOptions {
 struct ExportOptions {
   std::string film, to;
   bool force = false;
+  bool embed = false;  ///< the film into the page
 };
 
 /// Gives a file its name, and prints what else is to be known of it.

@@ -21,9 +21,9 @@ const pen = {
   closePath() {}, stroke() {},
 };
 const part = (more) => ({ addEventListener() {}, ...more });
-const film = part({ clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0 });
+const film = part({ clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0, readyState: 4 });
 const parts = {
-  track: { textContent: data }, film, said: part(), wide: part(), rumble: part({ checked: true }),
+  track: { textContent: data }, film, said: part(), wide: part(), pad: part(), rumble: part({ checked: true }),
   arrow: { getContext: () => pen },
 };
 const actuator = { playEffect(kind, effect) { pulses.push(effect.strongMagnitude); return Promise.resolve(); } };

@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """spidartrack export: test_film_page.py FILM_PAGE_JS. The scripts of the page run in node, and in Chromium with a
 film, as far as these are installed."""
+import base64
 import json
 import math
 import pathlib
@@ -32,7 +33,24 @@ film.addEventListener("error", () => console.log("probe: " + film.error.message)
 film.addEventListener("ended", () => console.log("probe: " + JSON.stringify(pulses)));
 </script>
 """
+# Tells what a film that plays by itself looks like in the page.
+LAYOUT_PROBE = """<script>
+"use strict";
+film.muted = true;
+film.play().catch(() => {});
+const look = setInterval(() => {
+  if (film.currentTime < .2) return;
+  clearInterval(look);
+  const page = document.documentElement, picture = film.getBoundingClientRect();
+  console.log("probe: " + JSON.stringify({ width: film.videoWidth, said: said.textContent,
+    about: part("pad").textContent, wider: page.scrollWidth - innerWidth, higher: page.scrollHeight - innerHeight,
+    picture: [picture.width, picture.height], drawn: [canvas.width, canvas.height] }));
+}, 50);
+</script>
+"""
 LONGEST_S = 60
+HAS_ENCODER = any(subprocess.run(["gst-inspect-1.0", "--exists", element], check=False).returncode == 0
+                  for element in ("x264enc", "openh264enc"))
 
 
 def mean_force(samples, step):
@@ -45,7 +63,7 @@ class FilmPage(track_case.TrackCase):
     def export(self, film, page="page.html"):
         """The tolerance in newtons that the command prints."""
         said = self.spidartrack("export", film, page)
-        found = re.search(r"; (\d+) KB, exact to (\S+) N$", said, re.MULTILINE)
+        found = re.search(r"; (\d+) KB, exact to (\S+) N(?:;|$)", said, re.MULTILINE)
         self.assertTrue(found, said)
         self.assertLess(self.path(page).stat().st_size, MOST_BYTES)
         return float(found.group(2)) + .005  # as it is rounded
@@ -129,8 +147,8 @@ class FilmPage(track_case.TrackCase):
         self.make_track("film.avi.haptic.wav")
         self.export("film.avi")
         text = self.path("page.html").read_text(encoding="utf-8")
-        self.assertIn("default-src 'none'; media-src 'self' file:", text)
-        self.assertEqual(re.findall(r"https?:|//\w|\bsrc *=|\bhref|@import|url\(", text.replace("film.src = ", "")), [])
+        self.assertIn("default-src 'none'; media-src 'self' file: blob:", text)
+        self.assertEqual(re.findall(r"https?:|//\w|\bsrc *=|\bhref|@import|url\(", text.replace("film.src = ", "").replace(" src = ", "")), [])
 
     @track_case.needs("node")
     def test_a_long_track_fits_by_being_less_exact(self):
@@ -153,15 +171,16 @@ class FilmPage(track_case.TrackCase):
         self.make_track()
         self.assert_said("a.wav: is a track; give the film that it is for", "export", "a.wav", "a.html", status=2)
         self.make_track("film.avi.haptic.wav")
-        self.assert_said("a.htm: is to end in .html", "export", "film.avi", "a.htm", status=2)
+        self.assert_said("a.htm: is to end in .html, or in / as a folder does", "export", "film.avi", "a.htm", status=2)
         self.make_track("film.avi.haptic.wav", count=1500)
         self.assert_said("is that of another film", "export", "film.avi", "a.html")
         self.assertEqual(self.files(), {"film.avi", "film.avi.haptic.wav", "a.wav"})
 
-    def probe(self, page):
-        """What CHROMIUM_PROBE tells."""
+    def probe(self, page, size="800,600"):
+        """What the probe in it tells."""
         with subprocess.Popen(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
                                "--autoplay-policy=no-user-gesture-required", "--enable-logging=stderr",
+                               f"--window-size={size}",
                                f"--user-data-dir={self.path('profile')}", page.as_uri()],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as browser:
             watchdog = threading.Timer(LONGEST_S, browser.kill)
@@ -176,6 +195,53 @@ class FilmPage(track_case.TrackCase):
             finally:
                 watchdog.cancel()
                 browser.terminate()
+
+    def layout(self, page, size="800,600"):
+        path = self.path(page)
+        path.write_text(path.read_text(encoding="utf-8") + LAYOUT_PROBE, encoding="utf-8")
+        return self.probe(path, size)
+
+    def make_mpeg4(self, name="film.mp4"):
+        """Of which browsers play the sound, and not the picture."""
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=160x120:rate=25:duration=4 "
+                           f"-f lavfi -i sine=d=4 -c:v mpeg4 -c:a aac {name}")
+        self.spidartrack("record", name)
+
+    @track_case.needs("chromium", "ffmpeg")
+    def test_a_page_says_that_the_picture_does_not_play(self):
+        self.make_mpeg4()
+        self.assertIn("; browsers do not play it: its picture is video/mpeg simple; export it to a folder",
+                      self.spidartrack("export", "film.mp4", "page.html"))
+        seen = self.layout("page.html")
+        self.assertEqual(seen["width"], 0)
+        self.assertIn("The picture of film.mp4 does not play", seen["said"])
+
+    @unittest.skipUnless(HAS_ENCODER, "needs an encoder of H.264")
+    @track_case.needs("chromium", "ffmpeg")
+    def test_a_folder_and_a_page_have_all_in_them_and_fit_any_screen(self):
+        self.make_mpeg4()
+        self.assertIn("; converted, because its picture is video/mpeg", self.spidartrack("export", "film.mp4", "out/"))
+        self.assertIn("; with the film in it; converted", self.spidartrack("export", "film.mp4", "one.html", "--embed"))
+        self.path("film.mp4").unlink()
+        self.assertEqual({name for name in self.files() if name.startswith("out/")}, {"out/index.html", "out/film.mp4"})
+        for page, size in (("out/index.html", "1000,600"), ("one.html", "500,900")):
+            seen = self.layout(page, size)
+            self.assertEqual((seen["width"], seen["wider"], seen["higher"]), (160, 0, 0), page)
+            self.assertEqual(seen["drawn"], [round(length) for length in seen["picture"]])
+            self.assertRegex(seen["said"], r"^\d\.\d N$")
+            self.assertIn("press a button of a gamepad", seen["about"])
+
+    @track_case.needs("ffmpeg")
+    def test_a_film_that_browsers_play_is_copied_as_it_is(self):
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=160x120:rate=25:duration=2 -c:v libvpx film.webm")
+        self.spidartrack("record", "film.webm")
+        self.assertNotIn("converted", self.spidartrack("export", "film.webm", "out/"))
+        self.assertEqual(self.path("out/film.webm").read_bytes(), self.path("film.webm").read_bytes())
+        self.assert_said("--embed is for a page, not for a folder", "export", "film.webm", "out/", "--embed", status=2)
+        text = self.path("film.webm").read_bytes()
+        self.spidartrack("export", "film.webm", "one.html", "--embed")
+        kept = re.search('id="bytes">([^<]*)<', self.path("one.html").read_text(encoding="utf-8")).group(1)
+        self.assertEqual(base64.b64decode(kept), text)
 
     @track_case.needs("chromium")
     def test_a_browser_plays_the_film_in_time_with_the_force(self):
