@@ -2,7 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/tools/film_encoder.h"
 
+#include <fcntl.h>
 #include <stdexcept>
+#include <unistd.h>
+#include <utility>
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/track_samples.h"
@@ -20,7 +23,7 @@ struct Encoder {
 /// and 26 hardly differs from its source. The fastest settings that still do.
 constexpr Encoder kVideo[] = {
     {"x264enc", "x264enc speed-preset=veryfast pass=qual quantizer=22"},
-    {"openh264enc", "openh264enc rate-control=off complexity=low ! h264parse"},
+    {"openh264enc", "openh264enc name=encoder rate-control=off complexity=low ! h264parse"},
 };
 constexpr const char* kNoVideo =
     "GStreamer has no encoder of H.264: install gstreamer1.0-plugins-ugly (x264enc)";
@@ -73,6 +76,38 @@ GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   return GST_PAD_PROBE_OK;
 }
 
+QuietEnd::~QuietEnd() {
+  speak();
+}
+
+void QuietEnd::begin(GstElement* pipeline) {
+  const Ref<GstElement> encoder(gst_bin_get_by_name(GST_BIN(pipeline), "encoder"));
+  if (!encoder) return;
+  const Ref<GstPad> sink(gst_element_get_static_pad(encoder.get(), "sink"));
+  const Ref<GstPad> src(gst_element_get_static_pad(encoder.get(), "src"));
+  for (GstPad* const pad : {sink.get(), src.get()})
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, pass, this, nullptr);
+}
+
+GstPadProbeReturn QuietEnd::pass(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  auto& self = *static_cast<QuietEnd*>(user);
+  if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
+  self.speak();
+  if (GST_PAD_IS_SRC(pad)) return GST_PAD_PROBE_OK;
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return GST_PAD_PROBE_OK;
+  self.errors_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (self.errors_ >= 0) dup2(nowhere, STDERR_FILENO);
+  close(nowhere);
+  return GST_PAD_PROBE_OK;
+}
+
+void QuietEnd::speak() {
+  if (errors_ < 0) return;
+  dup2(errors_, STDERR_FILENO);
+  close(std::exchange(errors_, -1));
+}
+
 void KeptSound::begin(GstElement* pipeline) {
   pipeline_ = pipeline;
   const Ref<GstElement> decoder(gst_bin_get_by_name(GST_BIN(pipeline), "decode"));
@@ -89,18 +124,17 @@ void KeptSound::begin(GstElement* pipeline) {
 void KeptSound::hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
   auto& self = *static_cast<KeptSound*>(user);
   if (kind_of(caps) != StreamKind::kSound) return;
-  self.missing_ = "its sound is left out: GStreamer has no decoder of " +
+  self.missing_ = "a sound of it is left out: GStreamer has no decoder of " +
                   std::string(gst_structure_get_name(gst_caps_get_structure(caps, 0)));
 }
 
 /// All streams are known, and none of them flows yet.
 void KeptSound::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<KeptSound*>(user);
-  for (GList* i = decoder->srcpads; i && !self.is_kept_; i = i->next) {
+  for (GList* i = decoder->srcpads; i; i = i->next) {
     auto* const pad = static_cast<GstPad*>(i->data);
     if (kind_of(pad) == StreamKind::kSound) self.keep(pad);
   }
-  if (self.is_kept_) self.missing_.clear();
 }
 
 void KeptSound::keep(GstPad* sound) {
@@ -124,7 +158,7 @@ void KeptSound::keep(GstPad* sound) {
   const Ref<GstPad> first(gst_element_get_static_pad(branch, "sink"));
   gst_pad_link(from.get(), into.get());
   gst_element_sync_state_with_parent(branch);
-  is_kept_ = gst_pad_link(sound, first.get()) == GST_PAD_LINK_OK;
+  gst_pad_link(sound, first.get());
 }
 
 }  // namespace spidar

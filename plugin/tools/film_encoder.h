@@ -21,7 +21,26 @@ std::string film_encoder(const PartFile& part);
 /// A probe for buffers, whose user data is the time of the last frame.
 GstPadProbeReturn order_frame(GstPad* pad, GstPadProbeInfo* info, gpointer last_frame);
 
-/// Keeps the sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
+/// OpenH264 prints "Error: cmInitParaError" when GStreamer asks for its last pictures, although
+/// nothing is wrong: as long as that takes, the standard error goes nowhere. Outlives the pipeline.
+class QuietEnd {
+ public:
+  QuietEnd() = default;
+  ~QuietEnd();
+  QuietEnd(const QuietEnd&) = delete;
+  QuietEnd& operator=(const QuietEnd&) = delete;
+
+  /// `pipeline` has been made with film_encoder(), and has not started.
+  void begin(GstElement* pipeline);
+
+ private:
+  static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+  void speak();
+
+  int errors_ = -1;  // where the standard error goes otherwise
+};
+
+/// Keeps every sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
 /// Outlives the pipeline.
 class KeptSound {
  public:
@@ -32,7 +51,7 @@ class KeptSound {
   /// `pipeline` has a decodebin "decode" and a muxer "mux", and has not started.
   void begin(GstElement* pipeline);
 
-  /// After the end: why the sound of the film is missing, as a sentence; empty if it is not.
+  /// After the end: why a sound of the film is missing, as a sentence; empty if none is.
   const std::string& missing() const { return missing_; }
 
  private:
@@ -41,7 +60,6 @@ class KeptSound {
   void keep(GstPad* sound);
 
   GstElement* pipeline_ = nullptr;
-  bool is_kept_ = false;
   std::string missing_;
 };
 

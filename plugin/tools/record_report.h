@@ -21,6 +21,9 @@ namespace spidar {
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
+  ~RecordReport() { erase(); }
+  RecordReport(const RecordReport&) = delete;
+  RecordReport& operator=(const RecordReport&) = delete;
 
   enum class Result { kRecorded, kThere, kTwice, kError };
 

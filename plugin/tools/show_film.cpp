@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
+#include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_end.h"
@@ -25,34 +24,13 @@ constexpr const char* kDrawnFilm =
     "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
     "videoflip video-direction=auto ! spidarmotion name=motion device=none overlay=curve ! ";
 
-/// On a terminal, in one line that is gone at the end.
-class ProgressLine {
- public:
-  explicit ProgressLine(const std::string& film) : film_(film), shown_(isatty(STDOUT_FILENO)) {}
-  ~ProgressLine() {
-    if (shown_) std::printf("\r\033[K");
-    std::fflush(stdout);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void tell(int percent) const {
-    if (!shown_) return;
-    std::printf("\r%s: %d %%", film_.c_str(), percent);
-    std::fflush(stdout);
-  }
-
- private:
-  const std::string& film_;
-  const bool shown_;
-};
-
 /// Returns what is to be reported of it. Throws std::runtime_error, without the name of the film.
 std::string show(const ShowOptions& options, const PartFile& part) {
-  const ProgressLine line(options.film);
-  FilmProgress progress([&line](int percent) { line.tell(percent); });
+  RecordReport report({options.film});
+  FilmProgress progress([&report](int percent) { report.progress(0, percent); });
   FilmWatch watch;
   KeptSound sound;
+  QuietEnd quiet;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
   const FilePipeline file(kDrawnFilm + film_encoder(part), options.film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
@@ -60,6 +38,7 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   const FilmEnd end = film_end(options.film);
   watch.begin(file.pipeline(), end == FilmEnd::kAppended);
   sound.begin(file.pipeline());
+  quiet.begin(file.pipeline());
   progress.watch(motion);
   const Ref<GstPad> drawn(gst_element_get_static_pad(motion, "src"));
   gst_pad_add_probe(drawn.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);

@@ -211,7 +211,7 @@ Prints what TO cannot hold.)");
     app->footer(
         R"(Analyses FILM, and writes a film of its pictures and sound into which are drawn the outlines
 of objects, the force as an arrow with its newtons, and the curve of the force over the last
-five seconds. Of several sounds, the first is kept.
+five seconds.
 
 Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes:
   spidartrack show FILM.mp4 SHOWN.mp4 -- motion=camera)");

@@ -77,6 +77,7 @@ std::string why_no_browser(const std::string& film) {
 std::string convert_for_browsers(const std::string& film, const PartFile& part) {
   FilmWatch watch;
   KeptSound sound;
+  QuietEnd quiet;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
@@ -85,6 +86,7 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part) 
       film, nullptr, kSlowShare);
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
   sound.begin(file.pipeline());
+  quiet.begin(file.pipeline());
   const Ref<GstPad> pictures(gst_element_get_static_pad(file.find("flip"), "src"));
   gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
   std::string error;

@@ -109,6 +109,16 @@ class ShownFilm(track_case.TrackCase):
         # Two blocks of AAC: an encoder delays by one, and hears the tick one before it.
         self.assertAlmostEqual(tick / SOUND_HZ, 1, delta=2 * 1024 / SOUND_HZ)
 
+    def test_every_sound_is_kept_and_its_encoder_says_nothing(self):
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=320x240:rate=25:duration=2 -f lavfi -i "
+                           "sine=d=2:f=400 -f lavfi -i sine=d=2:f=800 -map 0 -map 1 -map 2 -c:v mpeg4 -c:a:0 aac "
+                           "-c:a:1 flac film.mkv")
+        for name in ("shown.mp4", "shown.mkv"):
+            said = self.spidartrack("show", "film.mkv", name)
+            self.assertNotIn("OpenH264", said)
+            kinds = self.run_in_folder(["ffprobe", "-v", "error", "-show_entries", "stream=codec_name", "-of", "csv=p=0", name])
+            self.assertEqual(sorted(kinds.split()), ["aac", "aac", "h264"])
+
     def test_films_of_every_kind(self):
         self.make_film("silent.avi")
         self.spidartrack("show", "silent.avi", "silent.mp4")
