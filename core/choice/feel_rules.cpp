@@ -3,10 +3,11 @@
 #include "core/choice/feel_rules.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
+
+#include "core/number_text.h"
 
 namespace spidar {
 namespace {
@@ -43,21 +44,13 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_all = end == text.data() + text.size() && !text.empty();
-  if (error != std::errc() || !is_all || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Seconds, minutes and hours, the last with colons before them.
 std::optional<int64_t> time_ns(std::string_view text) {
   double seconds = 0;
   for (int parts = 0;; ++parts) {
     const size_t colon = text.find(':');
     const bool is_last = colon == std::string_view::npos;
-    const std::optional<double> part = number(text.substr(0, colon));
+    const std::optional<double> part = number_of(text.substr(0, colon));
     if (!part || *part < 0 || parts > 2) return std::nullopt;
     if (parts > 0 && *part >= 60) return std::nullopt;
     if (!is_last && *part != std::floor(*part)) return std::nullopt;
@@ -71,8 +64,8 @@ std::optional<int64_t> time_ns(std::string_view text) {
 std::optional<Eigen::Vector2d> position_of(std::string_view text) {
   const size_t comma = text.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
-  const std::optional<double> x = number(text.substr(0, comma));
-  const std::optional<double> y = number(text.substr(comma + 1));
+  const std::optional<double> x = number_of(text.substr(0, comma));
+  const std::optional<double> y = number_of(text.substr(comma + 1));
   if (!x || !y || *x < 0 || *x > 1 || *y < 0 || *y > 1) return std::nullopt;
   return Eigen::Vector2d(*x, *y);
 }
@@ -212,7 +205,7 @@ class RuleParser {
     }
   }
   void parse_gain() {
-    const std::optional<double> gain = number(word());
+    const std::optional<double> gain = number_of(word());
     if (!gain || *gain < 0 || *gain > kMostGain) {
       wrong(rule_.line, quote(word()) + " is not a gain from 0 to 10");
     }
@@ -224,11 +217,6 @@ class RuleParser {
   std::string_view text_;
   FeelRule rule_;
 };
-
-std::string number_text(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
-}
 
 /// The name as a rule writes it: in quotes unless it is a word.
 std::string name_text(const std::string& name) {
@@ -319,7 +307,7 @@ std::string rule_text(const FeelRule& rule) {
       text += "nothing";
       break;
   }
-  return rule.gain == 1 ? text : text + " gain " + number_text(rule.gain);
+  return rule.gain == 1 ? text : text.append(" gain ").append(NumberText(rule.gain));
 }
 
 std::string time_text(int64_t ns) {
@@ -340,7 +328,7 @@ std::string time_text(int64_t ns) {
 }
 
 std::string position_text(const Eigen::Vector2d& position) {
-  return number_text(position.x()) + "," + number_text(position.y());
+  return std::string(NumberText(position.x())).append(",").append(NumberText(position.y()));
 }
 
 }  // namespace spidar

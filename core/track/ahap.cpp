@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "core/track/exchange_formats.h"
@@ -36,9 +38,10 @@ double intensity(const TrackSample& sample) {
 }
 
 std::string description(double gain) {
-  char text[64];
-  std::snprintf(text, sizeof text, "Force of a film: 1 is %.3g N", kTrackForceScale_N / gain);
-  return text;
+  std::array<char, 24> newtons;
+  const auto [end, error] = std::to_chars(newtons.data(), newtons.data() + newtons.size(),
+                                          kTrackForceScale_N / gain, std::chars_format::general, 3);
+  return std::string("Force of a film: 1 is ").append(newtons.data(), end) + " N";
 }
 
 OrderedJson event(double time_s, double duration_s) {

@@ -2,11 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "core/number_text.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
@@ -27,13 +27,6 @@ constexpr int64_t kMostTicks_Hz = 48000;
 /// The highest frequency that the haptic loop can render.
 constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
 
-template <typename Number>
-void append(std::string& text, Number number) {
-  std::array<char, 32> digits;
-  text.append(digits.data(),
-              std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
-}
-
 double to_steps(double value) {
   constexpr double kSteps = 1e5;
   return std::round(value * kSteps) / kSteps;
@@ -46,9 +39,9 @@ double amplitude_of(float sample) {
 
 void write_keyframe(const WriteText& write, size_t index, double value) {
   std::string text = index == 0 ? R"({"relative_position":)" : R"(,{"relative_position":)";
-  append(text, index);
+  text.append(NumberText(index));
   text += R"(,"amplitude_modulation":)";
-  append(text, value + 0.0);  // of −0 and 0 only the second
+  text.append(NumberText(value + 0.0));  // of −0 and 0 only the second
   write(text + '}');
 }
 
@@ -88,16 +81,16 @@ class HjifCurveWriter {
 void write_channel(const SampleSource& samples, const WriteText& write, size_t channel,
                    double tolerance) {
   std::string text = R"({"id":)";
-  append(text, channel);
+  text.append(NumberText(channel));
   text += R"(,"description":")";
   text += kChannelNames[channel];
   text += R"(","gain":1.0,"mixing_coefficient":1.0,"body_part_mask":0,"frequency_sampling":)";
-  append(text, kTrackRate_Hz);
+  text.append(NumberText(kTrackRate_Hz));
   text += R"(,"sample_count":)";
-  append(text, samples.count);
+  text.append(NumberText(samples.count));
   text += R"(,"bands":[{"band_type":"Curve","curve_type":"Linear","lower_frequency_limit":0,)"
           R"("upper_frequency_limit":)";
-  append(text, kUpperLimit_Hz);
+  text.append(NumberText(kUpperLimit_Hz));
   text += R"(,"effects":[{"effect_type":"Basis","position":0,"phase":0.0,"base_signal":"Sine",)"
           R"("keyframes":[)";
   write(text);
@@ -252,7 +245,7 @@ void write_hjif(const SampleSource& samples, const WriteText& write, double tole
   std::string text =
       R"({"version":"2023","profile":"Main","level":1,"date":"2023-01-01","description":)"
       R"("Wanted wrench on a grip","timescale":)";
-  append(text, kTrackRate_Hz);
+  text.append(NumberText(kTrackRate_Hz));
   text += R"(,"avatars":[],"perceptions":[{"id":0,"avatar_id":0,"description":)"
           R"("Force and torque on the grip","perception_modality":"Force","effect_library":[],)"
           R"("reference_devices":[],"channels":[)";

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <charconv>
+#include <locale>
 #include <sstream>
 
 #include <toml++/toml.h>
 
+#include "core/number_text.h"
 #include "spidar/profiles/profile_file.h"
 
 namespace spidar {
 namespace {
 
-/// The shortest text that is read back as the same number.
 std::string number(double value) {
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value + 0.0);
-  return {digits, end};
+  return std::string(NumberText(value + 0.0));  // of −0 and 0 only the second
 }
 
 /// `value(i)` for each of `count` strings, on one line.
@@ -76,6 +74,7 @@ void write_strings(std::ostream& out, const Profile& profile) {
 std::string profile_text(const Profile& profile) {
   const StringGeometry& geometry = profile.geometry;
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   write_text(out, "description", profile.description);
   write_text(out, "board", profile.board);
   out << "dac_bits = " << profile.dac_bits << "\ndac_max_V = " << number(profile.dac_max_V) << "\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace spidar::inverse3 {
@@ -134,9 +135,10 @@ class Writer {
  private:
   Writer& number(double number) noexcept {
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number + 0.0,
-                                   std::chars_format::fixed, 6)
-                         .ptr;
+    const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(),
+                                            number + 0.0, std::chars_format::fixed, 6);
+    // JSON has no infinity, and nothing has such a number of digits.
+    if (error != std::errc() || !std::isfinite(number)) fits_ = false;
     return text({digits.data(), static_cast<size_t>(end - digits.data())});
   }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "core/number_text.h"
 #include "spidar/device_error.h"
 
 namespace spidar::sound {
@@ -19,13 +21,16 @@ Eigen::Vector3d direction_of(const std::string& text) {
   const std::string letter = text.substr(negative);
   if (letter.size() == 1 && letter[0] >= 'x' && letter[0] <= 'z')
     return (negative ? -1 : 1) * Eigen::Vector3d::Unit(letter[0] - 'x');
-  Eigen::Vector3d vector;
-  int length = 0;
-  if (std::sscanf(text.c_str(), "%lf/%lf/%lf%n", &vector.x(), &vector.y(), &vector.z(), &length) !=
-          3 ||
-      static_cast<size_t>(length) != text.size() || !vector.allFinite() || vector.norm() == 0)
-    return Eigen::Vector3d::Zero();
-  return vector.normalized();
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  std::string_view left = text;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const size_t end = axis < 2 ? left.find('/') : left.size();
+    const std::optional<double> component = number_of(left.substr(0, end));
+    if (!component || end > left.size()) return Eigen::Vector3d::Zero();
+    vector[axis] = *component;
+    left.remove_prefix(std::min(end + 1, left.size()));
+  }
+  return vector.stableNormalized();
 }
 
 /// A whole number from `least` to `most`; −1 if it is something else.

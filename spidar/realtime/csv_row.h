@@ -3,11 +3,10 @@
 /// A row of a trace.
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <string>
 #include <string_view>
 
+#include "core/number_text.h"
 #include "core/wrench.h"
 
 namespace spidar {
@@ -20,9 +19,7 @@ class CsvRow {
 
   template <typename Number>
   CsvRow& number(Number value) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return field({text.data(), static_cast<size_t>(end - text.data())});
+    return field(NumberText(value));
   }
   CsvRow& field(std::string_view text) {
     if (csv_.size() > begin_) csv_ += ',';

@@ -3,6 +3,7 @@
 /// Numbers for people, and data for other programs, in which names include units.
 #pragma once
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -13,12 +14,15 @@
 
 namespace spidar {
 
-/// As std::printf() writes it, 255 characters at most.
+/// As std::printf() writes it.
 [[gnu::format(printf, 1, 2)]] inline std::string formatted(const char* pattern, ...) {
-  char text[256];
-  va_list values;
+  va_list values, counted;
   va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
+  va_copy(counted, values);
+  const int length = std::vsnprintf(nullptr, 0, pattern, counted);
+  va_end(counted);
+  std::string text(static_cast<size_t>(std::max(length, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, values);
   va_end(values);
   return text;
 }

@@ -85,6 +85,15 @@ TEST(FeelRules, HaveOneFormInWhichTheyCanBeReadAgain) {
   EXPECT_EQ(FeelRules("box " + longest).rules()[0].name.data(), longest);
 }
 
+/// A rounding residue, and the smallest number of all.
+TEST(FeelRules, WriteEveryNumberSoThatItIsReadAgain) {
+  for (const char* text :
+       {"object at 0.31,5.551115123125783e-17", "largest gain 1.2345678901234567e-17",
+        "region 0,5e-324 to 2.2250738585072014e-308,0.30000000000000004"}) {
+    EXPECT_EQ(FeelRules(text).text(), text);
+  }
+}
+
 TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
   const std::string all =
       "object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y "
