@@ -83,6 +83,10 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   if (!session) return;
   const Grip& grip = session->grip();
   post("opened", grip.name(), chosen.empty() ? session->opened() : chosen);
+  const std::string trouble = session->vibration_trouble();
+  if (!trouble.empty())
+    GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_READ_WRITE, ("%s", trouble.c_str()),
+                        ("A file that can be read and written there is enough."));
   const GripAbilities can = grip.abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.

@@ -160,7 +160,8 @@ void VibrationBudget::pass(const Wrench& strings, double dt_s, int64_t now_ns) n
   const double squared_m2_s4 = weighted.square().sum();
 
   const auto taken_ns = static_cast<int64_t>(1e9 / kRefill_m2_s4 * dt_s * squared_m2_s4);
-  full_at_ns_ = std::max(full_at_ns_, now_ns) + taken_ns;
+  full_at_ns_ = std::max(full_at_ns(), now_ns) + taken_ns;
+  taken_ns_.store(taken_ns_.load(std::memory_order_relaxed) + taken_ns, std::memory_order_relaxed);
   const double empty_s = 1e-9 * static_cast<double>(full_at_ns_ - now_ns);
   const double left_m2_s3 = std::max(0.0, kStore_m2_s3 - kRefill_m2_s4 * empty_s);
   state_.left = 1 / kStore_m2_s3 * left_m2_s3;

@@ -5,6 +5,8 @@
 /// allocates, locks or throws.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -152,9 +154,15 @@ class VibrationBudget {
   const VibrationState& state() const noexcept { return state_; }
 
   /// When the store will be full again if there is no more vibration, on the clock of pass().
-  int64_t full_at_ns() const noexcept { return full_at_ns_; }
-  /// Continues with a store that will be full at this time.
-  void restore(int64_t full_at_ns) noexcept { full_at_ns_ = full_at_ns; }
+  int64_t full_at_ns() const noexcept {
+    return std::max(full_at_ns_, restored_ns_.load(std::memory_order_relaxed));
+  }
+  /// From the next pass() on, the store will not be full before this time. Any thread.
+  void restore(int64_t full_at_ns) noexcept {
+    restored_ns_.store(full_at_ns, std::memory_order_relaxed);
+  }
+  /// What all vibration has taken, as the time in which it is refilled. Any thread.
+  int64_t taken_ns() const noexcept { return taken_ns_.load(std::memory_order_relaxed); }
 
  private:
   using Six = Eigen::Array<double, 6, 1>;
@@ -176,6 +184,8 @@ class VibrationBudget {
   double most_m2_s4_ = 0;  // the same, falling with kReturn_s
   VibrationState state_;
   int64_t full_at_ns_ = INT64_MIN;
+  std::atomic<int64_t> restored_ns_{INT64_MIN};
+  std::atomic<int64_t> taken_ns_{0};
 };
 
 }  // namespace spidar

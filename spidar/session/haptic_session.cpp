@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/haptic_session.h"
 
-#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -10,44 +9,25 @@
 #include "spidar/loop/loop_thread.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/session/vibration_memory.h"
 
 namespace spidar {
-namespace {
-
-/// When the VibrationBudget of this process's hand is full again, CLOCK_MONOTONIC. A second device
-/// counts for the same hand.
-std::atomic<int64_t>& vibration_memory_ns() noexcept {
-  static std::atomic<int64_t> full_at_ns{INT64_MIN};
-  return full_at_ns;
-}
-
-void remember(int64_t full_at_ns) noexcept {
-  int64_t known_ns = vibration_memory_ns();
-  while (known_ns < full_at_ns &&
-         !vibration_memory_ns().compare_exchange_weak(known_ns, full_at_ns)) {
-  }
-}
-
-}  // namespace
+namespace {}  // namespace
 
 // Members are destroyed in reverse order: the thread has brought the motors to zero before the
-// trace takes its last row.
+// trace takes its last row, and the memory what was taken last.
 struct HapticSession::Impl {
   Impl(std::unique_ptr<Grip> grip, const SessionSettings& settings)
       : loop(std::move(grip), settings.limits) {
     if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
-    if (settings.threaded) loop.vibration().restore(vibration_memory_ns());
     loop.open();
     opened = loop.grip().description();
-    if (settings.threaded) thread.emplace(loop, settings.real_time);
+    if (!settings.threaded) return;
+    keeper.emplace(loop.vibration(), VibrationMemory::of_user());
+    thread.emplace(loop, settings.real_time);
   }
   ~Impl() {
-    if (thread) {
-      thread.reset();
-      remember(loop.vibration().full_at_ns());
-    } else {
-      ramp_down();
-    }
+    if (!thread) ramp_down();
   }
 
   void ramp_down() noexcept {
@@ -65,6 +45,7 @@ struct HapticSession::Impl {
   std::string opened;
   Scheduling manual{false, "no thread: the owner calls tick()"};
   LoopTiming no_timing;
+  std::optional<VibrationKeeper> keeper;
   std::optional<LoopThread> thread;
 };
 
@@ -101,6 +82,10 @@ void HapticSession::drain_trace() noexcept {
 
 TraceStatus HapticSession::trace_status() const noexcept {
   return impl_->trace ? impl_->trace->status() : TraceStatus();
+}
+
+std::string HapticSession::vibration_trouble() const {
+  return impl_->keeper ? VibrationMemory::of_user().trouble() : "";
 }
 
 int64_t HapticSession::monotonic_now_ns() noexcept {

@@ -55,6 +55,9 @@ class HapticSession {
   /// Of the trace, if there is one. Does not wait for what it is written to.
   TraceStatus trace_status() const noexcept;
 
+  /// Why VibrationMemory::of_user() cannot be used; empty if it can.
+  std::string vibration_trouble() const;
+
   /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;
 

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/session/vibration_memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/thread_setup.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How often what was taken is kept: of what is left, vibration takes 1/kEmptied_s a second.
+constexpr std::chrono::seconds kEvery{1};
+/// What is less than this waits: a thousandth of the store, so that a film that hardly vibrates
+/// does not keep a disk awake.
+constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBudget::kStore_m2_s3 /
+                                                       VibrationBudget::kRefill_m2_s4);
+/// No store is emptier than this: twice what it holds.
+constexpr int64_t kMost_ns = 4 * VibrationMemory::kUnknown_ns;
+
+/// Of the text in the file.
+constexpr size_t kLongest = 200;
+
+int64_t clock_ns(clockid_t clock) noexcept {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * kSecond_ns + now.tv_nsec;
+}
+
+/// An open file that nobody else has locked, or errno.
+class LockedFile {
+ public:
+  explicit LockedFile(const std::string& path) {
+    std::error_code ignored;
+    fs::create_directories(fs::path(path).parent_path(), ignored);
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
+    struct stat status {};
+    if (file_ < 0 || fstat(file_, &status) != 0) {
+      error = errno;
+    } else if (!S_ISREG(status.st_mode)) {
+      error = EINVAL;
+    } else if (!lock_device(file_)) {
+      error = errno;
+    }
+  }
+  ~LockedFile() {
+    if (file_ >= 0) close(file_);
+  }
+  LockedFile(const LockedFile&) = delete;
+  LockedFile& operator=(const LockedFile&) = delete;
+
+  /// Empty after an error.
+  std::string read() {
+    if (error != 0) return {};
+    std::array<char, kLongest> text{};
+    const ssize_t length = pread(file_, text.data(), text.size(), 0);
+    if (length < 0) error = errno;
+    return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
+  }
+  /// In one piece, and always of the same length: nobody finds a part of it.
+  void write(const std::string& text) {
+    if (error != 0) return;
+    const ssize_t length = pwrite(file_, text.data(), text.size(), 0);
+    if (length != static_cast<ssize_t>(text.size())) error = length < 0 ? errno : ENOSPC;
+    if (ftruncate(file_, static_cast<off_t>(text.size())) != 0) error = errno;
+  }
+
+  int error = 0;
+
+ private:
+  int file_ = -1;
+};
+
+std::string file_of_user() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return fs::path(value ? value : "");
+  };
+  if (std::getenv("SPIDAR_STATE")) {
+    const fs::path folder = variable("SPIDAR_STATE");
+    return folder.empty() ? "" : folder / "vibration";
+  }
+  fs::path folder = variable("XDG_STATE_HOME");
+  // The specification has it that others are ignored.
+  if (!folder.is_absolute()) folder = variable("HOME") / ".local/state";
+  return folder / "gst-spidar/vibration";
+}
+
+}  // namespace
+
+Moment Moment::now() {
+  Moment now;
+  now.since_boot_ns = clock_ns(CLOCK_BOOTTIME);
+  now.utc_ns = clock_ns(CLOCK_REALTIME);
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> now.boot;
+  return now;
+}
+
+int64_t passed_ns(const Moment& then, const Moment& now) noexcept {
+  if (then.boot == now.boot) return std::max<int64_t>(0, now.since_boot_ns - then.since_boot_ns);
+  return std::max(now.since_boot_ns, now.utc_ns - then.utc_ns);
+}
+
+int64_t VibrationMemory::Entry::left_ns(const Moment& now) const noexcept {
+  return std::max<int64_t>(0, empty_ns - passed_ns(at, now));
+}
+
+VibrationMemory& VibrationMemory::of_user() {
+  // Never destroyed: when a player exits, a session may still be open.
+  static auto& memory = *new VibrationMemory(file_of_user());
+  return memory;
+}
+
+std::string VibrationMemory::text_of(const Entry& entry) {
+  std::array<char, kLongest> text{};
+  const int length =
+      std::snprintf(text.data(), text.size(),
+                    "gst-spidar: the vibration of this hand is refilled in %020" PRId64
+                    " ns; at %020" PRId64 " ns UTC, %020" PRId64 " ns since start %.36s\n",
+                    entry.empty_ns, entry.at.utc_ns, entry.at.since_boot_ns, entry.at.boot.c_str());
+  return {text.data(), static_cast<size_t>(length)};
+}
+
+std::optional<VibrationMemory::Entry> VibrationMemory::parse(const std::string& text) {
+  Entry entry;
+  std::array<char, 37> boot{};
+  std::sscanf(text.c_str(),
+              "gst-spidar: the vibration of this hand is refilled in %20" SCNd64
+              " ns; at %20" SCNd64 " ns UTC, %20" SCNd64 " ns since start %36s",
+              &entry.empty_ns, &entry.at.utc_ns, &entry.at.since_boot_ns, boot.data());
+  entry.at.boot = boot.data();
+  const bool is_possible = entry.empty_ns >= 0 && entry.empty_ns <= kMost_ns &&
+                           entry.at.utc_ns >= 0 && entry.at.since_boot_ns >= 0;
+  return is_possible && text_of(entry) == text ? std::optional(entry) : std::nullopt;
+}
+
+int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Entry entry{now, last_ ? last_->left_ns(now) : 0};
+  std::string wrong;
+  const auto distrust = [&](const std::string& why) {
+    wrong = why;
+    if (!last_) entry.empty_ns = std::max(entry.empty_ns, kUnknown_ns);
+  };
+  std::optional<LockedFile> file;
+  bool is_known = false;
+  if (!file_.empty()) {
+    file.emplace(file_);
+    const std::string text = file->read();
+    if (const std::optional<Entry> kept = parse(text)) {
+      is_known = true;
+      entry.empty_ns = std::max(entry.empty_ns, kept->left_ns(now));
+    } else if (!text.empty()) {
+      distrust("its text is not what this program writes");
+    }
+  }
+  entry.empty_ns = std::min(entry.empty_ns + std::max<int64_t>(taken_ns, 0), kMost_ns);
+  if (file) {
+    if (taken_ns > 0 || !is_known) file->write(text_of(entry));
+    if (file->error != 0) distrust(std::strerror(file->error));
+  }
+  if (!wrong.empty() && trouble_.empty())
+    trouble_ = file_ +
+               ", which keeps how much a hand was shaken within a day, cannot be used: " + wrong +
+               ". Half of what is allowed in a day counts as used.";
+  last_ = entry;
+  return entry.empty_ns;
+}
+
+std::string VibrationMemory::trouble() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return trouble_;
+}
+
+VibrationKeeper::VibrationKeeper(VibrationBudget& budget, VibrationMemory& memory)
+    : budget_(budget), memory_(memory), kept_ns_(budget.taken_ns()) {
+  budget_.restore(monotonic_now_ns() + memory_.add(0));
+  thread_ = start_thread("spidar-budget", [this] { keep(); });
+}
+
+VibrationKeeper::~VibrationKeeper() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+}
+
+void VibrationKeeper::keep() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (bool ends = false; !ends;) {
+    ends = ended_.wait_for(lock, kEvery, [this] { return ends_; });
+    int64_t taken_ns = budget_.taken_ns() - kept_ns_;
+    if (taken_ns < kWorthKeeping_ns && !ends) taken_ns = 0;
+    kept_ns_ += taken_ns;
+    budget_.restore(monotonic_now_ns() + memory_.add(taken_ns));
+  }
+}
+
+}  // namespace spidar

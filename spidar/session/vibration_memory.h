@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is left of the user's VibrationBudget: in a file, for the next program and for one that
+/// runs at the same time.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "spidar/loop/wrench_limits.h"
+
+namespace spidar {
+
+/// On clocks of the kernel. Only the first of them cannot be set.
+struct Moment {
+  int64_t since_boot_ns = 0;  ///< CLOCK_BOOTTIME, which goes on while the computer sleeps
+  std::string boot;           ///< which start of the computer that is; empty: not known
+  int64_t utc_ns = 0;
+
+  static Moment now();
+};
+
+/// How much time has passed for certain between the two: never negative. Across a start of the
+/// computer it is at least the time since that, and as much as the clock on the wall says.
+int64_t passed_ns(const Moment& then, const Moment& now) noexcept;
+
+/// Any thread.
+class VibrationMemory {
+ public:
+  /// Until a store that is half empty is full again, which is assumed where the file cannot be used
+  /// and nothing is known.
+  static constexpr auto kUnknown_ns = static_cast<int64_t>(1e9 * VibrationBudget::kStore_m2_s3 / 2 /
+                                                           VibrationBudget::kRefill_m2_s4);
+
+  /// Without a file, nothing is kept beyond this object.
+  explicit VibrationMemory(std::string file) : file_(std::move(file)) {}
+
+  /// That of the user, in $XDG_STATE_HOME/gst-spidar. Where SPIDAR_STATE is set, in that folder; if
+  /// that is empty, of this process only.
+  static VibrationMemory& of_user();
+
+  /// Adds what was taken since the last call, as the time in which it is refilled, and returns in
+  /// how long the store is full again.
+  int64_t add(int64_t taken_ns, const Moment& now = Moment::now());
+  /// Why the file was not used, and what is assumed instead; empty if it was.
+  std::string trouble() const;
+
+ private:
+  struct Entry {
+    Moment at;
+    int64_t empty_ns = 0;  ///< until the store is full again
+
+    int64_t left_ns(const Moment& now) const noexcept;
+  };
+
+  static std::optional<Entry> parse(const std::string& text);
+  static std::string text_of(const Entry& entry);
+
+  const std::string file_;
+  mutable std::mutex mutex_;
+  std::optional<Entry> last_;  // known in this process
+  std::string trouble_;
+};
+
+/// Keeps the memory up to date while a loop runs, in a thread of its own.
+class VibrationKeeper {
+ public:
+  /// `budget` begins with what is left.
+  VibrationKeeper(VibrationBudget& budget, VibrationMemory& memory);
+  /// The loop has ended.
+  ~VibrationKeeper();
+
+ private:
+  void keep();
+
+  VibrationBudget& budget_;
+  VibrationMemory& memory_;
+  int64_t kept_ns_ = 0;  // of what the budget has taken
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace spidar
