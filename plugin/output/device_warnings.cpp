@@ -20,6 +20,12 @@ namespace {
 /// A hand that swings a slack string loses the pose for a moment, which is not reported.
 constexpr int64_t kPoseLost_ns = 500'000'000;
 
+/// A force that comes so much later is not felt as that of its picture: a delay is noticed from
+/// 45 ms on, as a mean over people (docs/feeling.md).
+constexpr int64_t kPointless_ns = 40'000'000;
+/// A moment without frames is not reported.
+constexpr int64_t kLasting_ns = 2'000'000'000;
+
 /// Why the device was lost, with the last fault of the link, if there is a link.
 std::string why_lost(const HapticSession& session) {
   const LinkFault fault = session.grip().health().last_fault;
@@ -109,7 +115,8 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
 
 void DeviceWarnings::start() {
   strings_ = 0;
-  pose_lost_ = held_back_ = vibrated_ = shaken_ = false;
+  pose_lost_ = held_back_ = vibrated_ = shaken_ = late_ = remarked_ = false;
+  late_from_ns_ = 0;
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
 }
@@ -187,12 +194,38 @@ void DeviceWarnings::check_force(const LoopSnapshot& loop) {
   }
 }
 
+void DeviceWarnings::check_late(const LoopSnapshot& loop) {
+  const int64_t now_ns = loop.last.monotonic_ns;
+  if (loop.late_ns <= kPointless_ns || late_from_ns_ == 0) late_from_ns_ = now_ns;
+  if (now_ns - late_from_ns_ < kLasting_ns || std::exchange(late_, true)) return;
+  GST_ELEMENT_WARNING(
+      element_, RESOURCE, SETTINGS,
+      ("The haptic device renders the force %.0f ms after its picture: it lags by more than the "
+       "film is known ahead.",
+       1e-6 * static_cast<double>(loop.late_ns)),
+      ("Put a queue behind this element, so that frames come earlier; set ts-offset of the sinks "
+       "of "
+       "picture and sound to %.0f ms more; or use a device or a card that lags less.",
+       1e-6 * static_cast<double>(loop.late_ns)));
+}
+
+void DeviceWarnings::check_remarks(const HapticSession& session) {
+  if (remarked_) return;
+  const std::string remark = session.grip().warning();
+  if (remark.empty()) return;
+  remarked_ = true;
+  GST_ELEMENT_WARNING(element_, RESOURCE, WRITE, ("%s", remark.c_str()),
+                      ("%s continues.", what_.c_str()));
+}
+
 bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
   if (session) {
     check_strings(loop);
     check_pose(loop, session->grip().traits().has_strings);
     check_force(loop);
+    check_late(loop);
+    check_remarks(*session);
     check_haptic_trace(session);
   }
   const DeviceState state = loop.last.device;

@@ -47,6 +47,8 @@ class DeviceWarnings {
   void check_strings(const LoopSnapshot& loop);
   void check_pose(const LoopSnapshot& loop, bool has_strings);
   void check_force(const LoopSnapshot& loop);
+  void check_late(const LoopSnapshot& loop);
+  void check_remarks(const HapticSession& session);
 
   GstElement* const element_;
   const std::string what_;
@@ -55,6 +57,9 @@ class DeviceWarnings {
   bool held_back_ = false;  // reported
   bool vibrated_ = false;   // reported
   bool shaken_ = false;     // reported
+  bool late_ = false;       // reported
+  bool remarked_ = false;   // reported
+  int64_t late_from_ns_ = 0;
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
   uint64_t times_lost_ = 0;

@@ -134,6 +134,8 @@ class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
  public:
   /// See Grip::abilities(). Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
+  /// See Grip::warning(). Any thread.
+  virtual std::string warning() const { return {}; }
 };
 
 /// A board of either type.

@@ -56,6 +56,7 @@ class ForceGrip final : public Grip {
   const GripTraits& traits() const noexcept override { return traits_; }
   std::string description() const override { return link_.description(); }
   GripAbilities abilities() const noexcept override { return board_.abilities(); }
+  std::string warning() const override { return board_.warning(); }
   LinkHealth health() const noexcept override { return link_.health(); }
   const std::string& name() const noexcept override { return board_.name(); }
 

@@ -3,6 +3,7 @@
 /// What vibrates behind a sound card: up to four directions of force, no position.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -26,7 +27,7 @@ class SoundBoard final : public ForceBoard {
     abilities_.torque = false;
     abilities_.position = {};
     abilities_.largest_force_N = sound::kFullForce_N;
-    abilities_.rate_Hz = 1000 / sound::kRamp_ms;
+    abilities_.rate_Hz = std::min(1000 / sound::kBlock_ms, settings_.carrier_Hz);
     for (size_t axis = 0; axis < 3; ++axis) {
       abilities_.force[axis] = false;
       for (const Eigen::Vector3d& direction : settings_.direction)
@@ -68,6 +69,14 @@ class SoundBoard final : public ForceBoard {
                     ", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
     return text;
   }
+  std::string warning() const override {
+    constexpr int kOften = 3;  // once or twice is a busy moment
+    const int underruns = underruns_;
+    if (underruns < kOften) return {};
+    return name_ + " had nothing to play " + std::to_string(underruns) +
+           " times: its sound is interrupted. It takes sound every " + std::to_string(period_ms_) +
+           " ms; real-time priority for this program helps, or another card.";
+  }
   GripAbilities abilities() const noexcept override { return abilities_; }
   const std::string& name() const noexcept override { return name_; }
 
@@ -76,7 +85,11 @@ class SoundBoard final : public ForceBoard {
     sound::State state;
     const Transfer transfer = transport_->exchange(
         {sound::view_of(levels)}, {reinterpret_cast<uint8_t*>(&state), sizeof state}, deadline_ns);
-    if (transfer.fault == LinkFault::kNone) lag_ns_ = state.lag_ns;
+    if (transfer.fault == LinkFault::kNone) {
+      lag_ns_ = state.lag_ns;
+      underruns_ = state.underruns;
+      period_ms_ = state.period_ms;
+    }
     return transfer.fault;
   }
 
@@ -85,6 +98,7 @@ class SoundBoard final : public ForceBoard {
   const std::unique_ptr<Transport> transport_;
   GripAbilities abilities_;
   std::atomic<int64_t> lag_ns_{0};
+  std::atomic<int> underruns_{0}, period_ms_{0};
 };
 
 }  // namespace spidar

@@ -130,6 +130,9 @@ class Grip {
   virtual std::string description() const = 0;
   /// Until open(), those of most devices of its kind. Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
+  /// What a person should know of a device that works, but not as it should; empty if it does. Any
+  /// thread.
+  virtual std::string warning() const { return {}; }
   /// Statistics of the link to the device. Any thread.
   virtual LinkHealth health() const noexcept = 0;
   /// For messages: "sim", "usb:3", …

@@ -153,7 +153,7 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
   // The device renders a command later by the delay that it reports.
   const TimelineResult result =
-      schedule_.find(record.playing, record.running_ns + grip_->reading().lag_ns);
+      schedule_.find(record.playing, record.running_ns, grip_->reading().lag_ns);
   counters_.refused_wrenches += schedule_.take_refused();
   record.found = result.found;
   record.frame_ns = result.frame_time_ns;
@@ -287,6 +287,7 @@ void HapticLoop::publish(const TickRecord& record) noexcept {
   snapshot.untrusted_ns = untrusted_ns_;
   snapshot.unfelt_ns = unfelt_ns_;
   snapshot.vibration = vibration_.state();
+  snapshot.late_ns = record.playing ? schedule_.late_ns() : 0;
   snapshot_.store(snapshot);
 }
 

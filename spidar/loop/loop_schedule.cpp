@@ -10,6 +10,8 @@ void LoopSchedule::forget(uint32_t generation) noexcept {
   timeline_.clear();
   track_.clear();
   timeline_generation_ = generation;
+  look_ahead_.restart();
+  known_ns_ = INT64_MIN;
   newest_ns_ = INT64_MIN;
   reached_ns_ = INT64_MIN;
 }
@@ -22,6 +24,7 @@ bool LoopSchedule::is_of_the_future(uint32_t generation) const noexcept {
 void LoopSchedule::take_wrenches(bool playing, int64_t running_ns) noexcept {
   while (const auto* next = wrenches_.front()) {
     if (next->generation == timeline_generation_) {
+      known_ns_ = std::max(known_ns_, next->entry.time_ns);
       const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
       // At a high frame rate there are more frames within the horizon than fit into the timeline,
       // which would drop the frame that is on the screen.
@@ -57,13 +60,23 @@ TimelineResult LoopSchedule::read_track(bool playing, int64_t running_ns) noexce
   return playing ? track_.at(running_ns, next) : TimelineResult();
 }
 
-TimelineResult LoopSchedule::find(bool playing, int64_t running_ns) noexcept {
+/// The oldest block ends later than what is asked for: all earlier ones have been read.
+int64_t LoopSchedule::time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexcept {
+  const auto* const block = blocks_.front();
+  if (block && block->generation == timeline_generation_)
+    known_ns_ = std::max(known_ns_, block->entry.time_ns(block->entry.count));
+  if (known_ns_ == INT64_MIN) return running_ns + lag_ns;
+  return look_ahead_.ask_for(running_ns, lag_ns, known_ns_);
+}
+
+TimelineResult LoopSchedule::find(bool playing, int64_t running_ns, int64_t lag_ns) noexcept {
   const uint32_t generation = generation_.load(std::memory_order_acquire);
   if (generation != timeline_generation_) forget(generation);
-  take_wrenches(playing, running_ns);
-  const TimelineResult of_track = read_track(playing, running_ns);
+  take_wrenches(playing, running_ns + lag_ns);
+  const int64_t asked_ns = playing ? time_to_ask_for(running_ns, lag_ns) : running_ns;
+  const TimelineResult of_track = read_track(playing, asked_ns);
   if (!playing) return {};
-  const TimelineResult of_frames = timeline_.at(running_ns);
+  const TimelineResult of_frames = timeline_.at(asked_ns);
   // After a film with a track there may be one without: its frames come later than every sample.
   const bool track_is_over =
       of_track.found == Found::kExpired && of_frames.frame_time_ns > of_track.frame_time_ns;
@@ -71,7 +84,7 @@ TimelineResult LoopSchedule::find(bool playing, int64_t running_ns) noexcept {
   const TimelineResult& result = has_track ? of_track : of_frames;
   if (result.found != Found::kNothing && result.frame_time_ns != reached_ns_) {
     reached_ns_ = result.frame_time_ns;
-    skew_.add(running_ns - reached_ns_);
+    skew_.add(running_ns + lag_ns - reached_ns_);
   }
   return result;
 }

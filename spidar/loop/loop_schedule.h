@@ -8,6 +8,7 @@
 
 #include "core/force/wrench_timeline.h"
 #include "core/track/track_reader.h"
+#include "spidar/loop/look_ahead.h"
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/spsc_ring.h"
 
@@ -48,9 +49,12 @@ class LoopSchedule {
 
   // --- loop thread
 
-  /// The wrench of this moment; nothing unless playing. Where there are samples of a track, they
-  /// are rendered instead of frames.
-  TimelineResult find(bool playing, int64_t running_ns) noexcept;
+  /// The wrench to be sent at this moment to a device that renders it later by `lag_ns`; nothing
+  /// unless playing. Where there are samples of a track, they are rendered instead of frames.
+  TimelineResult find(bool playing, int64_t running_ns, int64_t lag_ns = 0) noexcept;
+
+  /// How much later than its frame the device renders what was found last.
+  int64_t late_ns() const noexcept { return look_ahead_.late_ns(); }
 
   /// Wrenches whose time was not later than that of the previous one, since the last call.
   uint64_t take_refused() noexcept;
@@ -64,6 +68,7 @@ class LoopSchedule {
 
   void forget(uint32_t generation) noexcept;
   bool is_of_the_future(uint32_t generation) const noexcept;
+  int64_t time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexcept;
   void take_wrenches(bool playing, int64_t running_ns) noexcept;
   TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
 
@@ -76,6 +81,8 @@ class LoopSchedule {
   WrenchTimeline timeline_;
   TrackReader track_;
   uint32_t timeline_generation_ = 0;
+  LookAhead look_ahead_;
+  int64_t known_ns_ = INT64_MIN;   // until when frames or samples are known
   int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last

@@ -117,6 +117,9 @@ struct LoopSnapshot {
   int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
   int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
   VibrationState vibration{};
+  /// How much later than its frame the device renders a wrench, because the film is not known as
+  /// far ahead as the device lags.
+  int64_t late_ns = 0;
 };
 
 }  // namespace spidar

@@ -97,28 +97,35 @@ Levels levels_of(const Settings& settings, const Eigen::Vector3d& force_N) noexc
   Levels levels;
   if (!force_N.allFinite()) return levels;
   for (size_t i = 0; i < kMostChannels; ++i) {
-    const double fraction = settings.direction[i].dot(force_N) / kFullForce_N;
-    levels.level[i] = static_cast<float>(settings.gain * std::clamp(fraction, -1.0, 1.0));
+    const double fraction = std::fabs(settings.direction[i].dot(force_N)) / kFullForce_N;
+    levels.level[i] = static_cast<float>(settings.gain * std::min(fraction, 1.0));
   }
   return levels;
 }
 
-void Carrier::write(const Levels& to, int channels, int bytes, uint8_t* out) noexcept {
+std::optional<int> Carrier::write(const Levels& level, int channels, int bytes,
+                                  uint8_t* out) noexcept {
   constexpr double kFull = 2147483647;
-  for (int frame = 1; frame <= kRampFrames; ++frame) {
-    const double wave = std::sin(2 * M_PI * phase_), fraction = frame / double{kRampFrames};
-    phase_ = std::fmod(phase_ + step_, 1.0);
+  std::optional<int> half_way;
+  for (int frame = 0; frame < kBlockFrames; ++frame) {
+    if (phase_ >= 1) {
+      phase_ -= 1;
+      from_ = std::exchange(to_, level);
+      half_way = frame + static_cast<int>(0.5 / step_);
+    }
+    const double wave = std::sin(2 * M_PI * phase_);
     for (int channel = 0; channel < channels; ++channel) {
       const auto i = static_cast<size_t>(channel);
-      const double level =
-          i < kMostChannels ? from_.level[i] + fraction * (to.level[i] - from_.level[i]) : 0;
+      const double now =
+          i < kMostChannels ? from_.level[i] + phase_ * (to_.level[i] - from_.level[i]) : 0;
       const auto sample =
-          static_cast<uint32_t>(static_cast<int32_t>(kFull * std::clamp(level, -1.0, 1.0) * wave));
+          static_cast<uint32_t>(static_cast<int32_t>(kFull * std::clamp(now, 0.0, 1.0) * wave));
       for (int byte = 4 - bytes; byte < 4; ++byte)
         *out++ = static_cast<uint8_t>(sample >> 8 * byte);
     }
+    phase_ += step_;
   }
-  from_ = to;
+  return half_way;
 }
 
 }  // namespace spidar::sound

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
@@ -19,9 +20,9 @@ namespace spidar::sound {
 
 constexpr size_t kMostChannels = 4;
 constexpr int kRate_Hz = 48'000;
-/// A sine is interpolated between two levels in this time, so that no change clicks.
-constexpr int kRamp_ms = 10;
-constexpr int kRampFrames = kRate_Hz / 1000 * kRamp_ms;
+/// What is written at once.
+constexpr int kBlock_ms = 10;
+constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
 /// A level that is not renewed for this time is followed by silence, as with guardians
 /// (kSilence_ms).
 constexpr int kSilence_ms = 50;
@@ -48,17 +49,18 @@ struct Settings {
   static Settings parse(const std::string& name, const std::string& text);
 };
 
-/// Level of each channel, −1 … 1: a packet to the card. The sign is the phase, which is not felt;
-/// the strength is.
+/// Level of each channel, 0 … 1: a packet to the card.
 struct Levels {
   std::array<float, kMostChannels> level{};
 };
-/// No level for a force that is not a number.
+/// The amount of the force, whose sign is not felt. No level for a force that is not a number.
 Levels levels_of(const Settings& settings, const Eigen::Vector3d& force_N) noexcept;
 
 /// The answer to a packet.
 struct State {
-  int64_t lag_ns = 0;  ///< from a level to its sound, as the card reports it
+  int64_t lag_ns = 0;     ///< from a level to its sound, as the card reports it
+  int32_t underruns = 0;  ///< how often the card had nothing to play, since it was opened
+  int32_t period_ms = 0;  ///< in which the card takes sound
 };
 
 template <typename Packet>
@@ -66,20 +68,24 @@ ByteView view_of(const Packet& packet) noexcept {
   return {reinterpret_cast<const uint8_t*>(&packet), sizeof packet};
 }
 
-/// The samples: a sine of constant frequency in all channels.
+/// The samples: a sine of constant frequency in all channels, which goes from one level to another
+/// within one period, from its beginning to its end. So no change clicks, and whatever the levels
+/// are, what they leave besides the tone adds up to nothing: a shaker is not pushed to a side.
 class Carrier {
  public:
-  Carrier() = default;
   explicit Carrier(int frequency_Hz) noexcept : step_(frequency_Hz / double{kRate_Hz}) {}
 
-  /// Writes kRampFrames frames, in which the level goes from the last one to this one, as signed
-  /// little-endian integers of `bytes` each. Channels of the card beyond kMostChannels are silent.
-  void write(const Levels& to, int channels, int bytes, uint8_t* out) noexcept;
-  bool rests() const noexcept { return from_.level == Levels().level; }
+  /// Writes kBlockFrames frames as signed little-endian integers of `bytes` each. Channels of the
+  /// card beyond kMostChannels are silent. Returns how many frames after the beginning of this
+  /// block the strength is half-way to this level; nothing if no period begins in the block.
+  std::optional<int> write(const Levels& level, int channels, int bytes, uint8_t* out) noexcept;
+  bool rests() const noexcept {
+    return from_.level == Levels().level && to_.level == Levels().level;
+  }
 
  private:
-  double step_ = 0, phase_ = 0;
-  Levels from_;
+  double step_, phase_ = 1;  // the next frame begins a period
+  Levels from_, to_;
 };
 
 }  // namespace spidar::sound

@@ -2,14 +2,19 @@
 // Copyright 2026 the gst-spidar authors
 // In a build without ALSA.
 #include "spidar/device.h"
+#include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 
 namespace spidar {
 
-struct SoundTransport::Pcm {};
+class SoundTransport::Pcm {};
 
 std::vector<SoundCard> list_sound_cards() {
   return {};
+}
+
+std::optional<int> card_number(const std::string&) {
+  return std::nullopt;
 }
 
 SoundTransport::SoundTransport(std::string name, sound::Settings settings)

@@ -4,120 +4,98 @@
 
 #include <algorithm>
 #include <alsa/asoundlib.h>
-#include <cstdlib>
-#include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "spidar/device.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/transports/quiet_alsa.h"
+#include "spidar/transports/sound_cards.h"
 
 namespace spidar {
 namespace {
 
 constexpr int64_t kMillisecond_ns = kSecond_ns / 1000;
+constexpr snd_pcm_uframes_t kAhead =
+    static_cast<snd_pcm_uframes_t>(sound::kRate_Hz / 1000 * SoundTransport::kAhead_ms);
+constexpr int64_t kBlock_ns = sound::kBlock_ms * kMillisecond_ns;
 
-/// PCMs of ALSA's configuration and its plugins that play somewhere else: on what a server or a
-/// setting chooses.
-constexpr const char* kElsewhere[] = {"default",   "sysdefault", "pulse", "pipewire", "jack",
-                                      "oss",       "null",       "dmix",  "lavrate",  "samplerate",
-                                      "speexrate", "speex",      "upmix", "vdownmix", "usbstream"};
-
-bool plays_elsewhere(const std::string& id) {
-  return std::find(std::begin(kElsewhere), std::end(kElsewhere), id) != std::end(kElsewhere);
+constexpr int64_t ns_of(snd_pcm_sframes_t frames) {
+  return frames * kSecond_ns / sound::kRate_Hz;
 }
 
-/// Its messages go to the standard error otherwise; what matters is in the DeviceError.
-void be_quiet(const char*, int, const char*, int, const char*, ...) {}
-
-/// The first device of a card that plays; −1: none.
-int playing_device(snd_ctl_t* control) {
-  snd_pcm_info_t* info = nullptr;
-  snd_pcm_info_alloca(&info);
-  for (int device = -1; snd_ctl_pcm_next_device(control, &device) == 0 && device >= 0;) {
-    snd_pcm_info_set_device(info, static_cast<unsigned>(device));
-    snd_pcm_info_set_stream(info, SND_PCM_STREAM_PLAYBACK);
-    if (snd_ctl_pcm_info(control, info) == 0) return device;
-  }
-  return -1;
-}
-
-struct FoundCard : SoundCard {
-  std::string pcm;  ///< what ALSA calls it
-};
-
-void add_cards(std::vector<FoundCard>& found) {
-  snd_ctl_card_info_t* info = nullptr;
-  snd_ctl_card_info_alloca(&info);
-  for (int card = -1; snd_card_next(&card) == 0 && card >= 0;) {
-    snd_ctl_t* control = nullptr;
-    if (snd_ctl_open(&control, ("hw:" + std::to_string(card)).c_str(), SND_CTL_NONBLOCK) < 0)
-      continue;
-    const int device = playing_device(control);
-    if (device >= 0 && snd_ctl_card_info(control, info) == 0) {
-      const std::string id = snd_ctl_card_info_get_id(info);
-      found.push_back({{id, snd_ctl_card_info_get_name(info)},
-                       "hw:CARD=" + id + ",DEV=" + std::to_string(device)});
-    }
-    snd_ctl_close(control);
-  }
-}
-
-/// Those that a person has configured, with a hint; names with a colon are of cards.
-void add_configured(std::vector<FoundCard>& found) {
-  void** hints = nullptr;
-  if (snd_device_name_hint(-1, "pcm", &hints) < 0) return;
-  const auto text_of = [](const void* hint, const char* key) {
-    char* const text = snd_device_name_get_hint(hint, key);
-    const std::string kept = text ? text : "";
-    std::free(text);
-    return kept;
-  };
-  for (void** hint = hints; *hint; ++hint) {
-    const std::string id = text_of(*hint, "NAME"), name = text_of(*hint, "DESC");
-    if (text_of(*hint, "IOID") == "Input" || id.find_first_of(":,") != std::string::npos) continue;
-    if (!plays_elsewhere(id)) found.push_back({{id, name.substr(0, name.find('\n'))}, id});
-  }
-  snd_device_name_free_hint(hints);
-}
-
-std::vector<FoundCard> find_cards() {
-  snd_lib_error_set_handler(be_quiet);
-  std::vector<FoundCard> found;
-  add_cards(found);
-  add_configured(found);
-  return found;
-}
-
-std::string names_of(const std::vector<FoundCard>& cards) {
+std::string names_of(const std::vector<SoundCard>& cards) {
   std::string names;
-  for (const FoundCard& card : cards) names += (names.empty() ? "sound:" : ", sound:") + card.id;
+  for (const SoundCard& card : cards) names += (names.empty() ? "sound:" : ", sound:") + card.id;
   return names.empty() ? "no card was found" : "there are " + names;
 }
 
 }  // namespace
 
-std::vector<SoundCard> list_sound_cards() {
-  const std::vector<FoundCard> found = find_cards();
-  return {found.begin(), found.end()};
-}
+/// A device that plays.
+class SoundTransport::Pcm {
+ public:
+  /// Throws DeviceError, whose text begins with `name`.
+  Pcm(const std::string& name, const SoundCard& card, int least_channels);
+  ~Pcm() { snd_pcm_close(handle_); }
+  Pcm(const Pcm&) = delete;
+  Pcm& operator=(const Pcm&) = delete;
 
-struct SoundTransport::Pcm {
-  ~Pcm() {
-    if (handle) snd_pcm_close(handle);
+  /// Waits until there may be room for a block. Returns how much is to be heard before it; nothing
+  /// when there is no room; or ALSA's error, below 0.
+  std::optional<snd_pcm_sframes_t> wait_for_room() noexcept;
+  /// Returns ALSA's error, or 0.
+  int write(const uint8_t* block) noexcept;
+  /// Goes on after an error. False if that is not possible.
+  bool recover(int error) noexcept;
+  /// Plays what it has.
+  void drain() noexcept;
+
+  int channels() const noexcept { return static_cast<int>(channels_); }
+  int bytes() const noexcept { return bytes_; }
+  size_t block_bytes() const noexcept {
+    return channels_ * static_cast<size_t>(bytes_) * sound::kBlockFrames;
   }
+  int period_ms() const noexcept {
+    return static_cast<int>(ns_of(static_cast<snd_pcm_sframes_t>(period_)) / kMillisecond_ns);
+  }
+  /// What it has lasts for this time.
+  int64_t held_ns() const noexcept { return ns_of(held_); }
+  bool is_running() const noexcept { return snd_pcm_state(handle_) == SND_PCM_STATE_RUNNING; }
 
-  void configure(int least_channels);
-  /// What ALSA returns, or 0.
+ private:
   int set_hardware(unsigned least_channels);
   int set_software();
 
-  snd_pcm_t* handle = nullptr;
-  unsigned channels = 0;
-  int bytes = 0;  ///< of a sample
-  std::string trouble;
-  std::vector<uint8_t> block;
+  snd_pcm_t* handle_ = nullptr;
+  unsigned channels_ = 0;
+  int bytes_ = 0;  // of a sample
+  snd_pcm_uframes_t buffer_ = 0, period_ = 0;
+  snd_pcm_sframes_t held_ = 0;  // of the buffer, so much is used
+  int64_t next_ns_ = 0;         // a block is due
+  std::string trouble_;
 };
+
+SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int least_channels) {
+  const int error =
+      snd_pcm_open(&handle_, card.pcm.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
+  if (error < 0)
+    throw DeviceError(
+        name + ": cannot be opened: " + snd_strerror(error) +
+            (error == -EBUSY
+                 ? "; another program plays on it, perhaps the sound server: choose another "
+                   "card there, or wait until it is silent"
+                 : ""),
+        trouble_of(-error));
+  int wrong = set_hardware(static_cast<unsigned>(least_channels));
+  if (wrong >= 0) wrong = set_software();
+  if (wrong >= 0) return;
+  snd_pcm_close(handle_);
+  throw DeviceError(name + ": cannot be used: " + trouble_ + " (" + snd_strerror(wrong) + ")",
+                    DeviceTrouble::kSettings);
+}
 
 /// The fewest channels that the device itself has, because a conversion would play them elsewhere.
 int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
@@ -125,55 +103,97 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
       {SND_PCM_FORMAT_S16_LE, 2}, {SND_PCM_FORMAT_S32_LE, 4}, {SND_PCM_FORMAT_S24_3LE, 3}};
   snd_pcm_hw_params_t* hardware = nullptr;
   snd_pcm_hw_params_alloca(&hardware);
-  int error = snd_pcm_hw_params_any(handle, hardware);
+  trouble_ = "it does not say what it can do";
+  int error = snd_pcm_hw_params_any(handle_, hardware);
   if (error < 0) return error;
   unsigned most = 0;
   snd_pcm_hw_params_get_channels_max(hardware, &most);
-  trouble = "it has " + std::to_string(most) + " channels, and channel " +
-            std::to_string(least_channels) + " is asked for";
+  trouble_ = "it has " + std::to_string(most) + " channels, and channel " +
+             std::to_string(least_channels) + " is asked for";
   if (most < least_channels) return -EINVAL;
-  trouble = "it does not play integers of 16, 24 or 32 bits at 48 kHz";
-  error = snd_pcm_hw_params_set_access(handle, hardware, SND_PCM_ACCESS_RW_INTERLEAVED);
+  trouble_ = "it does not play integers of 16, 24 or 32 bits at 48 kHz";
+  error = snd_pcm_hw_params_set_access(handle_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED);
   for (const auto& [format, size] : kFormats) {
-    if (snd_pcm_hw_params_test_format(handle, hardware, format) != 0) continue;
-    if (error >= 0) error = snd_pcm_hw_params_set_format(handle, hardware, format);
-    bytes = size;
+    if (snd_pcm_hw_params_test_format(handle_, hardware, format) != 0) continue;
+    if (error >= 0) error = snd_pcm_hw_params_set_format(handle_, hardware, format);
+    bytes_ = size;
     break;
   }
-  if (error < 0 || bytes == 0) return -EINVAL;
-  channels = least_channels;
-  while (channels < most && snd_pcm_hw_params_test_channels(handle, hardware, channels) != 0)
-    ++channels;
-  error = snd_pcm_hw_params_set_channels(handle, hardware, channels);
-  if (error >= 0) error = snd_pcm_hw_params_set_rate(handle, hardware, sound::kRate_Hz, 0);
-  snd_pcm_uframes_t period = sound::kRampFrames,
-                    buffer = sound::kRampFrames * kBuffer_ms / sound::kRamp_ms;
-  if (error >= 0)
-    error = snd_pcm_hw_params_set_period_size_near(handle, hardware, &period, nullptr);
-  if (error >= 0) error = snd_pcm_hw_params_set_buffer_size_near(handle, hardware, &buffer);
-  if (error >= 0) error = snd_pcm_hw_params(handle, hardware);
-  block.assign(channels * static_cast<size_t>(bytes) * sound::kRampFrames, 0);
+  if (error < 0 || bytes_ == 0) return error < 0 ? error : -EINVAL;
+  channels_ = least_channels;
+  while (channels_ < most && snd_pcm_hw_params_test_channels(handle_, hardware, channels_) != 0)
+    ++channels_;
+  error = snd_pcm_hw_params_set_channels(handle_, hardware, channels_);
+  if (error >= 0) error = snd_pcm_hw_params_set_rate(handle_, hardware, sound::kRate_Hz, 0);
+  if (error < 0) return error;
+  trouble_ = "it takes no buffer of a size that it was asked for";
+  period_ = sound::kBlockFrames;
+  error = snd_pcm_hw_params_set_period_size_near(handle_, hardware, &period_, nullptr);
+  buffer_ = std::max<snd_pcm_uframes_t>(3 * period_, period_ + kAhead);
+  if (error >= 0) error = snd_pcm_hw_params_set_buffer_size_near(handle_, hardware, &buffer_);
+  if (error >= 0) error = snd_pcm_hw_params(handle_, hardware);
   return error;
 }
 
-/// Starts with two blocks, takes a third, however large the buffer is, and stops by itself when it
-/// has played all that it has.
+/// It starts when all but a block of what it is to hold is there, and stops by itself when it has
+/// played all that it has. Between two of its periods it may report less than it has taken.
 int SoundTransport::Pcm::set_software() {
-  trouble = "its buffer is too small";
-  snd_pcm_uframes_t buffer = 0, period = 0;
-  int error = snd_pcm_get_params(handle, &buffer, &period);
-  if (error >= 0 && buffer < 2 * sound::kRampFrames) error = -EINVAL;
+  trouble_ = "its buffer is too small";
+  int error = snd_pcm_get_params(handle_, &buffer_, &period_);
+  if (error < 0) return error;
+  held_ = static_cast<snd_pcm_sframes_t>(
+      std::min(buffer_, std::max<snd_pcm_uframes_t>(period_, sound::kBlockFrames) + kAhead));
+  // Until it runs, it says that there is room only where there is a period of it.
+  const snd_pcm_uframes_t most = (buffer_ - period_) / sound::kBlockFrames + 1;
+  const auto started = std::min<snd_pcm_uframes_t>(
+      static_cast<snd_pcm_uframes_t>(held_ - sound::kBlockFrames), most * sound::kBlockFrames);
+  if (held_ < 2 * sound::kBlockFrames || started < period_) return -EINVAL;
+  trouble_ = "it does not take its settings";
   snd_pcm_sw_params_t* software = nullptr;
   snd_pcm_sw_params_alloca(&software);
-  if (error >= 0) error = snd_pcm_sw_params_current(handle, software);
-  if (error >= 0)
-    error = snd_pcm_sw_params_set_start_threshold(handle, software, 2 * sound::kRampFrames);
-  if (error >= 0) error = snd_pcm_sw_params_set_stop_threshold(handle, software, buffer);
-  if (error >= 0)
-    error = snd_pcm_sw_params_set_avail_min(
-        handle, software,
-        std::max<snd_pcm_uframes_t>(sound::kRampFrames, buffer - 2 * sound::kRampFrames));
-  return error >= 0 ? snd_pcm_sw_params(handle, software) : error;
+  error = snd_pcm_sw_params_current(handle_, software);
+  if (error >= 0) error = snd_pcm_sw_params_set_start_threshold(handle_, software, started);
+  if (error >= 0) error = snd_pcm_sw_params_set_stop_threshold(handle_, software, buffer_);
+  if (error >= 0) error = snd_pcm_sw_params_set_avail_min(handle_, software, buffer_ - started);
+  return error >= 0 ? snd_pcm_sw_params(handle_, software) : error;
+}
+
+std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
+  const int woken = snd_pcm_wait(handle_, kPatience_ms);
+  if (woken == 0) return std::nullopt;
+  snd_pcm_sframes_t free = 0, waiting = 0;
+  const int error = woken < 0 ? woken : snd_pcm_avail_delay(handle_, &free, &waiting);
+  if (error < 0) return error;
+  const int64_t now_ns = monotonic_now_ns();
+  const snd_pcm_sframes_t has = static_cast<snd_pcm_sframes_t>(buffer_) - free;
+  if (has + sound::kBlockFrames <= held_ && now_ns >= next_ns_)
+    return std::max<snd_pcm_sframes_t>(waiting, 0);
+  // Woken for something else, or its buffer is much larger, or it has no clock.
+  sleep_until_ns(now_ns + kMillisecond_ns);
+  return std::nullopt;
+}
+
+int SoundTransport::Pcm::write(const uint8_t* block) noexcept {
+  const snd_pcm_sframes_t written = snd_pcm_writei(handle_, block, sound::kBlockFrames);
+  if (written < 0) return static_cast<int>(written);
+  // What takes sound as fast as it comes, a file, gets it at the pace of a card; no clock of a card
+  // is wrong by 2 %.
+  next_ns_ = std::max(next_ns_, monotonic_now_ns() - held_ns()) + kBlock_ns * 49 / 50;
+  return 0;
+}
+
+bool SoundTransport::Pcm::recover(int error) noexcept {
+  // While a computer that was suspended wakes up, ALSA itself would wait for that, however long.
+  if (error == -ESTRPIPE && snd_pcm_resume(handle_) == -EAGAIN) return true;
+  return snd_pcm_recover(handle_, error, 1) >= 0;
+}
+
+void SoundTransport::Pcm::drain() noexcept {
+  snd_pcm_sframes_t left = 0;
+  if (snd_pcm_delay(handle_, &left) == 0)
+    sleep_until_ns(monotonic_now_ns() +
+                   std::clamp<int64_t>(ns_of(left), 0, 2 * kPatience_ms * kMillisecond_ns));
+  snd_pcm_drop(handle_);
 }
 
 SoundTransport::SoundTransport(std::string name, sound::Settings settings)
@@ -185,40 +205,23 @@ SoundTransport::~SoundTransport() {
 
 void SoundTransport::open() {
   close();
+  const QuietAlsa quiet;
   const std::string& id = settings_.card;
+  const std::vector<SoundCard> cards = list_sound_cards();
   if (plays_elsewhere(id))
-    throw DeviceError(name_ + ": \"" + id +
-                          "\" plays on whatever a server or a setting chooses; name the card: " +
-                          names_of(find_cards()),
-                      DeviceTrouble::kSettings);
-  const std::vector<FoundCard> cards = find_cards();
+    throw DeviceError(
+        name_ + ": \"" + id +
+            "\" plays on whatever a server or a setting chooses; name the card: " + names_of(cards),
+        DeviceTrouble::kSettings);
   const auto card =
-      std::find_if(cards.begin(), cards.end(), [&](const FoundCard& one) { return one.id == id; });
+      std::find_if(cards.begin(), cards.end(), [&](const SoundCard& one) { return one.id == id; });
   if (card == cards.end())
     throw DeviceError(name_ + ": there is no sound card \"" + id + "\"; " + names_of(cards),
                       DeviceTrouble::kAbsent);
-  auto pcm = std::make_unique<Pcm>();
-  const int error =
-      snd_pcm_open(&pcm->handle, card->pcm.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
-  if (error < 0) {
-    pcm->handle = nullptr;
-    throw DeviceError(
-        name_ + ": cannot be opened: " + snd_strerror(error) +
-            (error == -EBUSY
-                 ? "; another program plays on it, perhaps the sound server: choose another "
-                   "card there, or wait until it is silent"
-                 : ""),
-        trouble_of(-error));
-  }
-  int wrong = pcm->set_hardware(static_cast<unsigned>(settings_.channels));
-  if (wrong >= 0) wrong = pcm->set_software();
-  if (wrong < 0)
-    throw DeviceError(
-        name_ + ": cannot be used: " + pcm->trouble + " (" + snd_strerror(wrong) + ")",
-        DeviceTrouble::kSettings);
-  pcm_ = std::move(pcm);
+  pcm_ = std::make_unique<Pcm>(name_, *card, settings_.channels);
   fed_.store({});
   lag_ns_ = 0;
+  underruns_ = 0;
   stop_ = false;
   fault_ = LinkFault::kNone;
   thread_ = start_thread("spidar-sound", [this] {
@@ -237,7 +240,7 @@ Transfer SoundTransport::exchange(std::initializer_list<ByteView> packets, Mutab
   std::copy_n(packet.data, std::min(packet.size, sizeof fed.levels),
               reinterpret_cast<uint8_t*>(&fed.levels));
   fed_.store(fed);
-  const sound::State state{lag_ns_};
+  const sound::State state{lag_ns_, underruns_, pcm_->period_ms()};
   const ByteView answer = sound::view_of(state);
   const size_t length = std::min(answer.size, reply.size);
   std::copy_n(answer.data, length, reply.data);
@@ -252,54 +255,45 @@ void SoundTransport::set_lag(int64_t lag_ns) noexcept {
 }
 
 void SoundTransport::play() noexcept {
+  const QuietAlsa quiet;
   sound::Carrier carrier(settings_.carrier_Hz);
-  snd_pcm_t* const handle = pcm_->handle;
-  int error = 0;
-  int64_t written_ns = monotonic_now_ns();
+  std::vector<uint8_t> block(pcm_->block_bytes());
   Fed fed;
+  int64_t written_ns = monotonic_now_ns();
   while (!stop_ || !carrier.rests()) {
-    const int room = snd_pcm_wait(handle, kPatience_ms);
-    if (monotonic_now_ns() - written_ns > kPatience_ms * kMillisecond_ns) {
+    const std::optional<snd_pcm_sframes_t> before = pcm_->wait_for_room();
+    const int64_t now_ns = monotonic_now_ns(), idle_ns = now_ns - written_ns;
+    if (idle_ns > pcm_->held_ns() + kPatience_ms * kMillisecond_ns) {
       if (stop_) break;
       fault_ = LinkFault::kTimeout;
     }
-    if (room == 0) continue;
-    snd_pcm_sframes_t free = 0, waiting = 0;
-    error = room < 0 ? room : snd_pcm_avail_delay(handle, &free, &waiting);
-    if (error == 0 && free < sound::kRampFrames) {
-      sleep_until_ns(monotonic_now_ns() + kMillisecond_ns);  // woken for something else
-      continue;
-    }
+    if (!before) continue;
+    int error = static_cast<int>(std::min<snd_pcm_sframes_t>(*before, 0));
     if (error == 0) {
       fed_.try_load(fed);  // keeps the previous one while a new one is being written
-      const bool fresh =
-          !stop_ && monotonic_now_ns() - fed.at_ns < sound::kSilence_ms * kMillisecond_ns;
-      carrier.write(fresh ? fed.levels : sound::Levels(), static_cast<int>(pcm_->channels),
-                    pcm_->bytes, pcm_->block.data());
-      const snd_pcm_sframes_t written =
-          snd_pcm_writei(handle, pcm_->block.data(), sound::kRampFrames);
-      if (written >= 0) {
-        // A level is reached at the end of the block.
-        if (snd_pcm_state(handle) == SND_PCM_STATE_RUNNING)
-          set_lag((waiting + sound::kRampFrames) * kSecond_ns / sound::kRate_Hz);
-        written_ns = monotonic_now_ns();
+      const bool fresh = !stop_ && now_ns - fed.at_ns < sound::kSilence_ms * kMillisecond_ns;
+      const std::optional<int> half_way = carrier.write(
+          fresh ? fed.levels : sound::Levels(), pcm_->channels(), pcm_->bytes(), block.data());
+      error = pcm_->write(block.data());
+      if (error == 0) {
+        // A level waits for its block for half of that in the mean.
+        if (half_way && pcm_->is_running()) set_lag(ns_of(*before + *half_way) + kBlock_ns / 2);
+        written_ns = now_ns;
         fault_ = LinkFault::kNone;
         continue;
       }
-      error = static_cast<int>(written);
     }
-    // An underrun, or a suspended computer: it goes on from silence. Everything else does not.
+    // An underrun, or a suspended computer: it goes on from silence, and never at once, because
+    // what fails may fail again. Everything else does not go on.
     carrier = sound::Carrier(settings_.carrier_Hz);
-    if (snd_pcm_recover(handle, error, 1) < 0) {
+    if (error == -EPIPE) ++underruns_;
+    if (!pcm_->recover(error) || idle_ns > kHopeless_ms * kMillisecond_ns) {
       fault_ = LinkFault::kGone;
       return;
     }
+    sleep_until_ns(now_ns + kBlock_ns);
   }
-  snd_pcm_sframes_t left = 0;
-  if (snd_pcm_delay(handle, &left) == 0)
-    sleep_until_ns(monotonic_now_ns() + std::clamp<int64_t>(left * kSecond_ns / sound::kRate_Hz, 0,
-                                                            2 * kPatience_ms * kMillisecond_ns));
-  snd_pcm_drop(handle);
+  pcm_->drain();
 }
 
 void SoundTransport::close() noexcept {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "spidar/protocols/sound.h"
 #include "spidar/realtime/seqlock.h"
@@ -15,25 +14,22 @@
 
 namespace spidar {
 
-struct SoundCard {
-  std::string id;  ///< of the card, "Controller", or of a device that the ALSA configuration names
-  std::string name;  ///< for people
-};
-
-/// What could be played on: cards, and devices of the ALSA configuration that are no way to other
-/// ones. Opens no device.
-std::vector<SoundCard> list_sound_cards();
-
 /// A packet is sound::Levels, its answer sound::State. Exchanges do not wait; a thread writes the
 /// sound. It plays silence when no packet has come for sound::kSilence_ms. The card has at most
-/// kBuffer_ms, and stops when it has played them: also when this process is stopped or killed.
+/// what it takes at once, its period, and kAhead_ms, and stops when it has played them: also when
+/// this process is stopped or killed.
 ///
 /// Only the card itself is opened, never a server that may choose other speakers.
 class SoundTransport final : public Transport {
  public:
-  static constexpr int kBuffer_ms = 3 * sound::kRamp_ms;
-  /// Without room in the buffer for this time the card is taken to stand still.
+  /// The thread is woken for each block, and may be late by another one.
+  static constexpr int kAhead_ms = 2 * sound::kBlock_ms;
+  /// Of a card that can take sound in short periods.
+  static constexpr int kBuffer_ms = kAhead_ms + sound::kBlock_ms;
+  /// Beside the time that what it has lasts: then the card is taken to stand still.
   static constexpr int kPatience_ms = 100;
+  /// A card that takes nothing for this time is opened again.
+  static constexpr int kHopeless_ms = 1000;
 
   SoundTransport(std::string name, sound::Settings settings);
   ~SoundTransport() override;
@@ -46,7 +42,7 @@ class SoundTransport final : public Transport {
   void close() noexcept override;
 
  private:
-  struct Pcm;
+  class Pcm;
   struct Fed {
     sound::Levels levels;
     int64_t at_ns = 0;
@@ -62,6 +58,7 @@ class SoundTransport final : public Transport {
   std::atomic<bool> stop_{false};
   std::atomic<LinkFault> fault_{LinkFault::kGone};
   std::atomic<int64_t> lag_ns_{0};
+  std::atomic<int> underruns_{0};
   Seqlock<Fed> fed_;
 };
 

@@ -3,14 +3,11 @@
 /// Vibration through a sound card that is emulated behind ALSA's library, and keeps what is heard
 /// and when.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,96 +17,12 @@
 #include "spidar/protocols/sound.h"
 #include "spidar/session/auto_device.h"
 #include "spidar/session/board_list.h"
-#include "spidar/session/device_factory.h"
 #include "spidar/transports/sound_transport.h"
-#include "tests/support/emulated_card.h"
+#include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
-#include "tests/support/pushed_grip.h"
-#include "tests/support/temporary_folder.h"
 
 namespace spidar::test::sound_test {
 namespace {
-
-constexpr int64_t kMs = 1'000'000;
-constexpr int64_t kLatency_ms = 40;  // of the emulated card
-constexpr double kFull = 32767;
-constexpr double kFrame_ns = 1e9 / sound::kRate_Hz;
-
-struct Sample {
-  double at_ns;
-  std::array<int16_t, 4> value;
-};
-
-class Sound : public testing::Test {
- protected:
-  Sound() {
-    // ALSA reads its configuration once in a process.
-    static const TemporaryFolder folder;
-    file_ = folder.path / "heard";
-    gone_ = folder.path / "gone";
-    std::ofstream(folder.path / "asound.conf")
-        << "pcm_type.emulated { lib \"" << EMULATED_CARD << "\" }\n"
-        << "pcm.shaker { type emulated channels 4 latency_ms " << kLatency_ms << " file \""
-        << file_.string() << "\" gone \"" << gone_.string()
-        << "\" hint { show on description \"Emulated shaker\" } }\n"
-        << "pcm.stereo { type emulated channels 2 file \"" << file_.string() << "\" gone \""
-        << gone_.string() << "\" hint { show on description \"Two channels\" } }\n"
-        << "pcm.default { type null hint { show on description \"Speakers\" } }\n";
-    setenv("ALSA_CONFIG_PATH", (folder.path / "asound.conf").c_str(), 1);
-    std::filesystem::remove(gone_);
-    std::filesystem::remove(file_);
-  }
-  ~Sound() override { std::filesystem::remove(gone_); }
-
-  void plug(bool in) {
-    if (in)
-      std::filesystem::remove(gone_);
-    else
-      std::ofstream(gone_) << "gone";
-  }
-
-  /// In the order of time.
-  std::vector<Sample> heard() const {
-    std::vector<Sample> samples;
-    std::ifstream file(file_, std::ios::binary);
-    Heard record{};
-    while (file.read(reinterpret_cast<char*>(&record), sizeof record)) {
-      std::vector<int16_t> values(size_t{record.frames} * record.channels);
-      file.read(reinterpret_cast<char*>(values.data()),
-                static_cast<std::streamsize>(2 * values.size()));
-      for (size_t i = 0; record.at_ns != 0 && i < record.frames; ++i) {
-        Sample sample{static_cast<double>(record.at_ns) + kFrame_ns * static_cast<double>(i), {}};
-        for (size_t channel = 0; channel < std::min(record.channels, 4u); ++channel)
-          sample.value[channel] = values[i * record.channels + channel];
-        samples.push_back(sample);
-      }
-    }
-    return samples;
-  }
-
-  static std::unique_ptr<Grip> grip(const std::string& spec) {
-    return make_grip(spec, load_profile(kDefaultProfile));
-  }
-  /// The message of open(), and what kind of trouble it is.
-  static std::pair<std::string, DeviceTrouble> trouble(const std::string& spec) {
-    try {
-      grip(spec)->open();
-    } catch (const DeviceError& error) {
-      return {error.what(), error.trouble()};
-    }
-    return {"", DeviceTrouble::kFailed};
-  }
-  /// As the loop does, a force each millisecond.
-  static void push(Grip& grip, const Eigen::Vector3d& force_N, int ms) {
-    GripCommand command = told(force_N.x(), force_N.y());
-    for (int i = 0; i < ms; ++i) {
-      grip.exchange(command);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  }
-
-  std::filesystem::path file_, gone_;
-};
 
 /// Strength of a channel, a fraction of full scale, in the period of a carrier of 100 Hz that
 /// begins with each sample: by its root mean square.
@@ -141,16 +54,17 @@ double middle_of_rise_ns(const std::vector<Sample>& samples, size_t channel, dou
 TEST(SoundCarrier, RampsWithoutAStep) {
   sound::Carrier carrier(120);
   std::vector<int16_t> samples;
-  for (const float level : {0.F, 1.F, 1.F, -1.F, 0.25F, 0.F, 0.F}) {
-    std::array<int16_t, sound::kRampFrames> block{};
+  for (const float level : {0.F, 1.F, 1.F, 0.F, 1.F, 0.25F, 0.F, 0.F, 0.F}) {
+    std::array<int16_t, sound::kBlockFrames> block{};
     carrier.write({{level}}, 1, 2, reinterpret_cast<uint8_t*>(block.data()));
     samples.insert(samples.end(), block.begin(), block.end());
   }
-  // The slope of the sine at full level, and that of the steepest ramp, from 1 to −1.
-  const double most = kFull * (2 * M_PI * 120 / sound::kRate_Hz + 2.0 / sound::kRampFrames) + 1;
+  // The slope of the sine at full level, and that of the steepest ramp, from 0 to 1 in a period.
+  const double most = kFull * (2 * M_PI + 1) * 120 / sound::kRate_Hz + 1;
   for (size_t i = 1; i < samples.size(); ++i)
     ASSERT_LE(std::abs(samples[i] - samples[i - 1]), most) << i;
   EXPECT_EQ(samples.back(), 0);
+  EXPECT_EQ(samples.front(), 0);
   EXPECT_TRUE(carrier.rests());
   EXPECT_GT(*std::max_element(samples.begin(), samples.end()), 0.99 * kFull);
 }
@@ -158,13 +72,39 @@ TEST(SoundCarrier, RampsWithoutAStep) {
 TEST(SoundCarrier, WritesEveryWidthWithTheSameStrength) {
   for (const int bytes : {2, 3, 4}) {
     sound::Carrier carrier(100);
-    std::vector<uint8_t> block(size_t{sound::kRampFrames} * 6 * static_cast<size_t>(bytes));
+    std::vector<uint8_t> block(size_t{sound::kBlockFrames} * 6 * static_cast<size_t>(bytes));
     carrier.write({{0.5F}}, 6, bytes, block.data());
     carrier.write({{0.5F}}, 6, bytes, block.data());
     int most = 0;
     for (size_t i = 0; i < block.size(); i += 6 * static_cast<size_t>(bytes))
       most = std::max<int>(most, static_cast<int8_t>(block[i + static_cast<size_t>(bytes) - 1]));
     EXPECT_EQ(most, 63) << bytes;  // the highest byte of half of full scale
+  }
+}
+
+/// Whatever the force does, a shaker is not pushed to one side: not by a force that changes with
+/// the carrier's frequency, either.
+TEST(SoundCarrier, LeavesNoConstantLevel) {
+  for (const int carrier_Hz : {20, 47, 50, 70, 120}) {
+    for (const double force_Hz : {0.0, 1.0, carrier_Hz / 2.0, 1.0 * carrier_Hz, 50.0, 49.0}) {
+      sound::Carrier carrier(carrier_Hz);
+      double sum = 0, most = 0;
+      constexpr int kBlocks = 400;
+      for (int n = 0; n < kBlocks; ++n) {
+        const double time_s = 1e-3 * sound::kBlock_ms * n;
+        const auto level =
+            static_cast<float>(std::fabs(std::sin(2 * M_PI * force_Hz * time_s + 1)));
+        std::array<int16_t, sound::kBlockFrames> block{};
+        carrier.write({{level}}, 1, 2, reinterpret_cast<uint8_t*>(block.data()));
+        for (const int16_t sample : block) most = std::max(most, std::fabs(sum += sample / kFull));
+      }
+      // Half of a sine at full level, and what the ramps leave: at most 1/(2π) of a period in all;
+      // rounding towards zero, and a period that is no whole number of frames, by half of one.
+      const double period = sound::kRate_Hz / double(carrier_Hz);
+      const double rounding = kBlocks * sound::kBlockFrames / kFull;
+      EXPECT_LT(most, period / M_PI + period / (2 * M_PI) + rounding + 1)
+          << carrier_Hz << " Hz, force at " << force_Hz;
+    }
   }
 }
 
@@ -207,7 +147,7 @@ TEST_F(Sound, ForcesBecomeLevelsAlongTheDirections) {
   const auto settings = sound::Settings::parse("sound", "a,1=-y,3=3/4/0,4=z,gain=100");
   EXPECT_EQ(settings.channels, 4);
   const auto levels = sound::levels_of(settings, {1.5, 0.75, 9});
-  EXPECT_FLOAT_EQ(levels.level[0], -0.25F);
+  EXPECT_FLOAT_EQ(levels.level[0], 0.25F) << "the sign is not felt";
   EXPECT_FLOAT_EQ(levels.level[1], 0);
   EXPECT_FLOAT_EQ(levels.level[2], (0.6F * 1.5F + 0.8F * 0.75F) / 3);
   EXPECT_FLOAT_EQ(levels.level[3], 1);
@@ -247,9 +187,9 @@ TEST_F(Sound, FrequencyAndStrengthAreThoseOfTheForce) {
               frequency_Hz, most / kFull, most_y / kFull);
 }
 
-/// A level is taken every 10 ms, and the ramp to it lasts as long: the middle of a rise is up to
-/// half of that earlier or later than the delay that is reported, and its root mean square finds it
-/// to 1 ms.
+/// A level is taken every 10 ms, and the ramp to it lasts as long, a period: the middle of a rise
+/// is up to half of that earlier or later than the delay that is reported, and its root mean square
+/// finds it to 1 ms.
 TEST_F(Sound, TheReportedDelayIsTheMeasuredOne) {
   const auto device = grip("sound:shaker,1=x,carrier=100,gain=100");
   device->open();
@@ -311,9 +251,9 @@ TEST_F(Sound, IsSilentSoonAfterTheLastForce) {
   for (const Sample& sample : heard())
     if (sample.value[0] != 0) sounding_ns = sample.at_ns;
   EXPECT_GT(sounding_ns, last_ns);  // otherwise the test shows nothing
-  // The last level that is taken, the sound before it, and two ramps.
-  const double most_ms =
-      sound::kSilence_ms + SoundTransport::kBuffer_ms + kLatency_ms + 2 * sound::kRamp_ms;
+  // The last level that is taken, the sound before it, and two periods of 50 Hz: the rest of one,
+  // and the way to silence.
+  const double most_ms = sound::kSilence_ms + SoundTransport::kBuffer_ms + kLatency_ms + 2 * 20;
   EXPECT_LT(sounding_ns, last_ns + 1e6 * most_ms);
   // It is heard again as soon as there are forces, and ends softly.
   push(*device, {3, 0, 0}, 200);
@@ -324,7 +264,7 @@ TEST_F(Sound, IsSilentSoonAfterTheLastForce) {
                             return one.value[0] != 0 && one.at_ns > last_ns + 300e6;
                           }),
             0);
-  const double steepest = kFull * (2 * M_PI * 50 / sound::kRate_Hz + 1.0 / sound::kRampFrames) + 1;
+  const double steepest = kFull * (2 * M_PI + 1) * 50 / sound::kRate_Hz + 1;
   for (size_t i = 1; i < samples.size(); ++i)
     ASSERT_LE(std::abs(samples[i].value[0] - samples[i - 1].value[0]), steepest) << i;
   EXPECT_LE(std::abs(samples.back().value[0]), steepest);

@@ -6,7 +6,9 @@
 //   pcm.shaker { type emulated channels 4 latency_ms 40 file PATH gone PATH }
 // Its clock is CLOCK_MONOTONIC. Sound is heard `latency_ms` after it leaves the buffer, which
 // snd_pcm_delay() says, too. `file` receives a Heard for each write, and its samples. The card is
-// unplugged while the file `gone` exists.
+// unplugged while the file `gone` exists, and as if suspended while there is `fails`. With
+// `period_ms`, it takes sound in such steps and no shorter ones; with `buffer_ms`, its buffer has
+// this size.
 #include "tests/support/emulated_card.h"
 
 #include <alsa/asoundlib.h>
@@ -25,15 +27,24 @@ constexpr int64_t kSecond_ns = 1'000'000'000;
 
 struct Card {
   snd_pcm_ioplug_t io{};
-  long channels = 2, latency_ms = 0;
-  std::string file, gone;
+  long channels = 2, latency_ms = 0, period_ms = 0, buffer_ms = 0;
+  std::string file, gone, fails;
   FILE* out = nullptr;
   int64_t start_ns = 0;  // when the first frame left the buffer; 0: it does not run
   int64_t written = 0;   // frames since prepare()
 
   bool is_gone() const { return access(gone.c_str(), F_OK) == 0; }
+  bool is_failing() const { return !fails.empty() && access(fails.c_str(), F_OK) == 0; }
   int64_t played() const {
-    return start_ns == 0 ? 0 : (spidar::test::now_ns() - start_ns) * io.rate / kSecond_ns;
+    if (start_ns == 0) return 0;
+    const int64_t frames = (spidar::test::now_ns() - start_ns) * io.rate / kSecond_ns;
+    const int64_t step = period_ms > 0 ? period_ms * io.rate / 1000 : 1;
+    return frames / step * step;
+  }
+  void note(Heard::Kind kind) const {
+    const Heard heard{kind, spidar::test::now_ns(), 0, 0, 0};
+    std::fwrite(&heard, sizeof heard, 1, out);
+    std::fflush(out);
   }
 };
 
@@ -45,15 +56,14 @@ int start(snd_pcm_ioplug_t* io) {
   Card& card = card_of(io);
   if (card.is_gone()) return -ENODEV;
   card.start_ns = spidar::test::now_ns();
-  const itimerspec each_ms{{0, 1'000'000}, {0, 1'000'000}};
+  const long each_ns = card.period_ms > 0 ? card.period_ms * 1'000'000 : 1'000'000;
+  const itimerspec each_ms{{0, each_ns}, {0, each_ns}};
   return timerfd_settime(io->poll_fd, 0, &each_ms, nullptr);
 }
 
 int stop(snd_pcm_ioplug_t* io) {
   Card& card = card_of(io);
-  const Heard end{Heard::kStopped, spidar::test::now_ns(), 0, 0};
-  std::fwrite(&end, sizeof end, 1, card.out);
-  std::fflush(card.out);
+  card.note(Heard::kStopped);
   card.start_ns = 0;
   return 0;
 }
@@ -62,7 +72,10 @@ snd_pcm_sframes_t pointer(snd_pcm_ioplug_t* io) {
   const Card& card = card_of(io);
   if (card.is_gone()) return -ENODEV;
   const int64_t played = card.played();
-  if (played > card.written) return -EPIPE;
+  if (played > card.written) {
+    card.note(Heard::kDry);
+    return -EPIPE;
+  }
   return static_cast<snd_pcm_sframes_t>(played % static_cast<int64_t>(io->buffer_size));
 }
 
@@ -72,11 +85,13 @@ snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* a
                            snd_pcm_uframes_t offset, snd_pcm_uframes_t size) {
   Card& card = card_of(io);
   if (card.is_gone()) return -ENODEV;
+  if (card.is_failing()) return -ESTRPIPE;
   const int64_t at_ns = card.start_ns == 0 ? 0
                                            : card.start_ns + card.written * kSecond_ns / io->rate +
                                                  card.latency_ms * 1'000'000;
-  const Heard heard{Heard::kPlayed, at_ns, static_cast<uint32_t>(size),
-                    static_cast<uint32_t>(io->channels)};
+  const Heard heard{
+      Heard::kPlayed, at_ns, static_cast<uint32_t>(size), static_cast<uint32_t>(io->channels),
+      static_cast<uint32_t>(card.written + static_cast<int64_t>(size) - card.played())};
   const char* const samples =
       static_cast<const char*>(areas->addr) + (areas->first + areas->step * offset) / 8;
   std::fwrite(&heard, sizeof heard, 1, card.out);
@@ -89,6 +104,7 @@ snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* a
 int prepare(snd_pcm_ioplug_t* io) {
   Card& card = card_of(io);
   card.start_ns = card.written = 0;
+  card.note(Heard::kPrepared);
   return card.is_gone() ? -ENODEV : 0;
 }
 
@@ -129,8 +145,11 @@ SND_PCM_PLUGIN_DEFINE_FUNC(emulated) {
     if (snd_config_get_id(entry, &id) < 0) continue;
     if (std::string(id) == "channels") snd_config_get_integer(entry, &card->channels);
     if (std::string(id) == "latency_ms") snd_config_get_integer(entry, &card->latency_ms);
+    if (std::string(id) == "period_ms") snd_config_get_integer(entry, &card->period_ms);
+    if (std::string(id) == "buffer_ms") snd_config_get_integer(entry, &card->buffer_ms);
     const char* text = "";
     if (std::string(id) == "file" && snd_config_get_string(entry, &text) == 0) card->file = text;
+    if (std::string(id) == "fails" && snd_config_get_string(entry, &text) == 0) card->fails = text;
     if (std::string(id) == "gone" && snd_config_get_string(entry, &text) == 0) card->gone = text;
   }
   if (card->is_gone()) {
@@ -168,6 +187,16 @@ SND_PCM_PLUGIN_DEFINE_FUNC(emulated) {
         snd_pcm_ioplug_set_param_minmax(&card->io, SND_PCM_IOPLUG_HW_CHANNELS, channels, channels);
   if (error >= 0)
     error = snd_pcm_ioplug_set_param_minmax(&card->io, SND_PCM_IOPLUG_HW_RATE, 48000, 48000);
+  const auto bytes_of = [&](long ms) { return static_cast<unsigned>(ms) * 48 * 2 * channels; };
+  const auto set = [&](int type, unsigned least, unsigned most) {
+    if (error >= 0) error = snd_pcm_ioplug_set_param_minmax(&card->io, type, least, most);
+  };
+  if (card->period_ms > 0) {
+    set(SND_PCM_IOPLUG_HW_PERIOD_BYTES, bytes_of(card->period_ms), bytes_of(card->period_ms));
+    set(SND_PCM_IOPLUG_HW_PERIODS, 2, 16);
+  }
+  if (card->buffer_ms > 0)
+    set(SND_PCM_IOPLUG_HW_BUFFER_BYTES, bytes_of(card->buffer_ms), bytes_of(card->buffer_ms));
   if (error >= 0) *pcmp = card->io.pcm;
   return error;
 }

@@ -10,10 +10,11 @@ namespace spidar::test {
 
 /// Followed by frames × channels samples of 16 bits.
 struct Heard {
-  enum Kind : uint64_t { kPlayed, kStopped };
+  enum Kind : uint64_t { kPlayed, kStopped, kPrepared, kDry };
   uint64_t kind;
   int64_t at_ns;  ///< of the first frame; 0: when those after it are
   uint32_t frames, channels;
+  uint32_t waiting;  ///< frames that the buffer has then
 };
 
 inline int64_t now_ns() {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Errors of ALSA's library.
+#pragma once
+
+#include <alsa/asoundlib.h>
+#include <cstdarg>
+
+namespace spidar {
+
+/// ALSA's header declares it as a function of C++, which its library does not have.
+extern "C" snd_local_error_handler_t set_alsa_error_handler(
+    snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
+
+/// During its lifetime, ALSA's library does not print errors of this thread on the standard error:
+/// what matters is in the DeviceError. A handler that the program has set stays.
+class QuietAlsa {
+ public:
+  QuietAlsa() noexcept : before_(set_alsa_error_handler(ignore)) {}
+  ~QuietAlsa() { set_alsa_error_handler(before_); }
+  QuietAlsa(const QuietAlsa&) = delete;
+  QuietAlsa& operator=(const QuietAlsa&) = delete;
+
+ private:
+  static void ignore(const char*, int, const char*, int, const char*, va_list) {}
+
+  const snd_local_error_handler_t before_;
+};
+
+}  // namespace spidar

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Sound cards that are coarse, large, without a clock, or fail.
+#include <alsa/asoundlib.h>
+
+#include "spidar/boards/sound_board.h"
+#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/transports/sound_transport.h"
+#include "tests/spidar/sound_fixture.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test::sound_card_test {
+namespace {
+
+/// A card takes sound in periods of 10, 40 or 85 ms: it has what it takes next.
+TEST_F(Sound, PlaysWithoutGapsHoweverLongThePeriodsAre) {
+  for (const int period_ms : {0, 40, 85}) {
+    std::filesystem::remove(file_);
+    const std::string card = period_ms == 0 ? "stereo" : period_ms == 40 ? "coarse" : "deep";
+    const auto device = grip("sound:" + card + ",1=x");
+    device->open();
+    push(*device, {1.5, 0, 0}, 800);
+    EXPECT_EQ(device->warning(), "") << card;
+    EXPECT_GE(device->reading().lag_ns, period_ms / 2 * kMs) << card;
+    device->close();
+    EXPECT_EQ(count(Heard::kDry), 0u) << card;
+    const std::vector<Heard> found = events();
+    const int longest_ms = std::max(period_ms, sound::kBlock_ms) + SoundTransport::kAhead_ms;
+    for (const Heard& one : found)
+      EXPECT_LE(one.waiting, static_cast<unsigned>(longest_ms * sound::kRate_Hz / 1000)) << card;
+    EXPECT_GT(heard().size(), 700u * sound::kRate_Hz / 1000) << card;
+  }
+}
+
+/// As that of some plug-ins.
+TEST_F(Sound, ALargeBufferIsNotFilled) {
+  const auto device = grip("sound:large,1=x");
+  device->open();
+  push(*device, {1.5, 0, 0}, 400);
+  device->close();
+  unsigned most = 0;
+  for (const Heard& one : events()) most = std::max(most, one.waiting);
+  EXPECT_GT(most, 0u);
+  EXPECT_LE(most, static_cast<unsigned>(SoundTransport::kBuffer_ms * sound::kRate_Hz / 1000));
+}
+
+TEST_F(Sound, WhatHasNoClockGetsSoundAtThePaceOfACard) {
+  const auto device = grip("sound:recorder,1=x");
+  const int64_t begin_ns = monotonic_now_ns();
+  device->open();
+  push(*device, {1.5, 0, 0}, 500);
+  device->close();
+  const double took_s = 1e-9 * static_cast<double>(monotonic_now_ns() - begin_ns);
+  const double recorded_s =
+      static_cast<double>(std::filesystem::file_size(recorded_)) / (2 * 2 * sound::kRate_Hz);
+  EXPECT_GT(recorded_s, 0);
+  // 2 % faster than the clock, and what a card holds.
+  EXPECT_LT(recorded_s, took_s * 50 / 49 + 1e-3 * (SoundTransport::kBuffer_ms + sound::kBlock_ms));
+}
+
+TEST_F(Sound, ACardThatFailsEachTimeIsLostAndDoesNotKeepAProcessorBusy) {
+  const auto device = grip("sound:coarse,1=x");
+  device->open();
+  push(*device, {1, 0, 0}, 50);
+  const int64_t begin_ns = monotonic_now_ns();
+  const size_t before = count(Heard::kPrepared);
+  std::ofstream(fails_) << "suspended";
+  GripCommand command = told(1);
+  wait_for([&] { return device->exchange(command) == LinkFault::kTimeout; });
+  wait_for([&] { return device->exchange(command) == LinkFault::kGone; });
+  const auto passed_ms = static_cast<size_t>((monotonic_now_ns() - begin_ns) / kMs);
+  EXPECT_LE(count(Heard::kPrepared) - before, passed_ms / sound::kBlock_ms + 2);
+  device->close();
+  std::filesystem::remove(fails_);
+  device->open();
+  wait_for([&] { return device->exchange(command) == LinkFault::kNone; });
+}
+
+TEST(SoundBoard, SaysThatItRanDryMoreThanOnce) {
+  auto emulated = std::make_unique<EmulatedSound>(std::make_shared<EmulatedMotors>());
+  sound::State& state = emulated->state;
+  SoundBoard board("sound:a", std::make_unique<EmulatedTransport>(
+                                  std::move(emulated), std::make_shared<EmulatedWire>()));
+  board.open();
+  const auto warning_after = [&](int underruns) {
+    state.underruns = underruns;
+    state.period_ms = 85;
+    ForceReading reading;
+    EXPECT_EQ(board.cycle({}, reading, monotonic_now_ns() + 100 * kMs), LinkFault::kNone);
+    return board.warning();
+  };
+  EXPECT_EQ(warning_after(1), "");
+  EXPECT_NE(warning_after(3).find("3 times"), std::string::npos);
+  EXPECT_NE(warning_after(12).find("every 85 ms"), std::string::npos);
+}
+
+bool program_was_told = false;
+void tell_program(const char*, int, const char*, int, const char*, ...) {
+  program_was_told = true;
+}
+
+TEST_F(Sound, LeavesTheErrorHandlerOfTheProgram) {
+  snd_lib_error_set_handler(tell_program);
+  const auto device = grip("sound:stereo");
+  device->open();
+  device->close();
+  EXPECT_NE(trouble("sound:none").first, "");
+  program_was_told = false;
+  snd_pcm_t* none = nullptr;
+  EXPECT_LT(snd_pcm_open(&none, "no such device", SND_PCM_STREAM_PLAYBACK, 0), 0);
+  EXPECT_TRUE(program_was_told);
+  snd_lib_error_set_handler(nullptr);
+}
+
+}  // namespace
+}  // namespace spidar::test::sound_card_test
