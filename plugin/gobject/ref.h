@@ -13,9 +13,10 @@ struct Unref {
   void operator()(gpointer object) const { g_object_unref(object); }
   void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
+  void operator()(GVariant* value) const { g_variant_unref(value); }
 };
 
-/// A reference to a GObject, a buffer or caps, or none. Made of a pointer, it takes over the
+/// A reference to a GObject, a buffer, caps or a GVariant, or none. Made of a pointer, it takes over the
 /// reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
 template <typename Object>
 using Ref = std::unique_ptr<Object, Unref>;

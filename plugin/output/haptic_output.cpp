@@ -9,12 +9,14 @@
 
 #include "core/grip/picture_size.h"
 #include "plugin/gobject/category.h"
+#include "plugin/output/card_reservation.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/auto_device.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/session/sound_devices.h"
 #include "spidar/simulation/simulated_device.h"
 
 #undef GST_CAT_DEFAULT
@@ -51,7 +53,8 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       not_negative(session.timing().lateness.quantile_ns(0.5)), "wakeup-p999", G_TYPE_UINT64,
       not_negative(session.timing().lateness.quantile_ns(0.999)), "skew-median", G_TYPE_UINT64,
       not_negative(loop.skew().quantile_ns(0.5)), "skew-p99", G_TYPE_UINT64,
-      not_negative(loop.skew().quantile_ns(0.99)), nullptr);
+      not_negative(loop.skew().quantile_ns(0.99)), "device-late", G_TYPE_UINT64,
+      not_negative(snapshot.late_ns), nullptr);
   const Wrench& delivered = snapshot.last.delivered;
   gst_structure_set(structure, "force-x", G_TYPE_DOUBLE, delivered.force_N.x(), "force-y",
                     G_TYPE_DOUBLE, delivered.force_N.y(), "force-z", G_TYPE_DOUBLE,
@@ -100,7 +103,29 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
   return std::make_unique<StringGrip>(profile, std::move(device));
 }
 
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(element)
+
+/// Null for a device that no sound server uses.
+std::unique_ptr<CardReservation> reserve(GstElement* element, const std::string& device) {
+  const std::optional<int> card = sound_card_number(device);
+  if (!card) return nullptr;
+  std::string refused;
+  std::unique_ptr<CardReservation> taken = CardReservation::take(*card, refused);
+  if (!refused.empty())
+    GST_INFO_OBJECT(element, "the sound server keeps %s: %s", device.c_str(), refused.c_str());
+  return taken;
+}
+
+#undef GST_CAT_DEFAULT
+#define GST_CAT_DEFAULT spidar::category_of(element_)
+
 }  // namespace
+
+HapticOutput::HapticOutput(GstElement* element, std::function<void()> refreshed)
+    : element_(element), refreshed_(std::move(refreshed)), follower_(element) {}
+
+HapticOutput::~HapticOutput() = default;
 
 void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
   now_ = now;
@@ -150,6 +175,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
                                            settings);
   };
   std::string trace_problem;
+  std::unique_ptr<CardReservation> reservation = reserve(element_, device);
   std::unique_ptr<HapticSession> session;
   try {
     session = make_session();
@@ -175,6 +201,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     max_force_N = limits_.max_force_N;
     profile_ = profile;
     profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
+    reservation_ = std::move(reservation);
     session_ = std::move(session);
     simulated_ = simulated;
   }
@@ -184,9 +211,12 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
 
 void HapticOutput::close() {
   follower_.end();
-  // Destroyed after the lock is released, because the ramp to rest takes 60 ms.
+  // Destroyed after the lock is released, because the ramp to rest takes 60 ms, and the session
+  // before its card is given back.
+  std::unique_ptr<CardReservation> reservation;
   std::unique_ptr<HapticSession> session;
   const std::lock_guard<std::mutex> lock(mutex_);
+  reservation = std::move(reservation_);
   session = std::move(session_);
   simulated_ = nullptr;
 }

@@ -17,6 +17,7 @@
 
 namespace spidar {
 
+class CardReservation;
 class SimulatedDevice;
 
 /// Haptic session and playback clock of one element. Thread-safe, but for session(), which is for
@@ -25,8 +26,8 @@ class HapticOutput {
  public:
   /// `refreshed` is called each time after the haptic loop has received where playback is: a
   /// hundred times a second while playing.
-  HapticOutput(GstElement* element, std::function<void()> refreshed)
-      : element_(element), refreshed_(std::move(refreshed)), follower_(element) {}
+  HapticOutput(GstElement* element, std::function<void()> refreshed);
+  ~HapticOutput();
 
   /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC, the loop waits to be ticked, and
   /// each tick is a millisecond for the device "sim".
@@ -73,7 +74,8 @@ class HapticOutput {
   const std::function<void()> refreshed_;
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
-  mutable std::mutex mutex_;  // state changes against any thread
+  mutable std::mutex mutex_;                      // state changes against any thread
+  std::unique_ptr<CardReservation> reservation_;  // of the session's card
   std::unique_ptr<HapticSession> session_;
   SimulatedDevice* simulated_ = nullptr;  // of the session, if it is one
   Profile profile_;

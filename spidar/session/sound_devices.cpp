@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "spidar/boards/sound_board.h"
+#include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 
 namespace spidar {
@@ -26,6 +27,12 @@ std::vector<BoardInfo> list_sound() {
     board.note = "for shakers that are connected to it; loudspeakers hum";
   }
   return boards;
+}
+
+std::optional<int> sound_card_number(const std::string& device) {
+  const std::string begin = "sound:";
+  if (device.compare(0, begin.size(), begin) != 0) return std::nullopt;
+  return card_number(device.substr(begin.size(), device.find(',') - begin.size()));
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 /// Sound cards as devices, for the table of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,9 @@ namespace spidar {
 /// See DeviceKind::make and DeviceKind::list.
 AnyBoard make_sound(const std::string& name, const std::string& rest, const Profile& profile);
 std::vector<BoardInfo> list_sound();
+
+/// ALSA's number of the card of "sound:CARD" and what follows it; nothing for another device, and
+/// for what the ALSA configuration names.
+std::optional<int> sound_card_number(const std::string& device);
 
 }  // namespace spidar

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/output/card_reservation.h"
+
+#include <cstring>
+#include <limits>
+
+namespace spidar {
+namespace {
+
+constexpr const char* kInterface = "org.freedesktop.ReserveDevice1";
+constexpr const char* kBus = "org.freedesktop.DBus";
+/// With the highest priority, the protocol has it that a card is not given away.
+constexpr gint32 kPriority = std::numeric_limits<gint32>::max();
+
+/// Of RequestName of the D-Bus specification.
+constexpr guint32 kReplace = 2, kDoNotQueue = 4, kIsOwner = 1;
+
+/// Empty where there is no bus: GLib would start one.
+std::string bus_address() {
+  const gchar* const address = g_getenv("DBUS_SESSION_BUS_ADDRESS");
+  if (address) return address;
+  g_autofree gchar* socket = g_build_filename(g_get_user_runtime_dir(), "bus", nullptr);
+  return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";
+}
+
+}  // namespace
+
+CardReservation::CardReservation(int card)
+    : name_(std::string(kInterface) + ".Audio" + std::to_string(card)),
+      path_("/org/freedesktop/ReserveDevice1/Audio" + std::to_string(card)) {}
+
+CardReservation::~CardReservation() {
+  if (!bus_) return;
+  std::string refused;
+  call(kBus, "/org/freedesktop/DBus", kBus, "ReleaseName", g_variant_new("(s)", name_.c_str()),
+       "(u)", refused);
+  g_dbus_connection_close_sync(bus_.get(), nullptr, nullptr);
+}
+
+std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& refused) {
+  refused.clear();
+  const std::string address = bus_address();
+  if (address.empty()) return nullptr;
+  std::unique_ptr<CardReservation> taken(new CardReservation(card));
+  g_autoptr(GError) error = nullptr;
+  // A connection of its own does not end the process when the bus ends.
+  taken->bus_.reset(g_dbus_connection_new_for_address_sync(
+      address.c_str(),
+      static_cast<GDBusConnectionFlags>(G_DBUS_CONNECTION_FLAGS_AUTHENTICATION_CLIENT |
+                                        G_DBUS_CONNECTION_FLAGS_MESSAGE_BUS_CONNECTION),
+      nullptr, nullptr, &error));
+  if (!taken->bus_) {
+    refused = error->message;
+    return nullptr;
+  }
+  // It may still be called while the reservation is destroyed.
+  g_dbus_connection_add_filter(taken->bus_.get(), answer, new std::string(taken->path_),
+                               [](gpointer path) { delete static_cast<std::string*>(path); });
+  if (taken->request_name(kDoNotQueue, refused)) return taken;
+  if (refused.empty() && taken->is_given_away(refused) &&
+      taken->request_name(kDoNotQueue | kReplace, refused))
+    return taken;
+  if (refused.empty()) refused = "its owner keeps it";
+  return nullptr;
+}
+
+/// False, without a reason, if somebody else has it.
+bool CardReservation::request_name(guint32 flags, std::string& refused) const {
+  const Ref<GVariant> result = call(kBus, "/org/freedesktop/DBus", kBus, "RequestName",
+                                    g_variant_new("(su)", name_.c_str(), flags), "(u)", refused);
+  guint32 code = 0;
+  if (result) g_variant_get(result.get(), "(u)", &code);
+  return code == kIsOwner;
+}
+
+bool CardReservation::is_given_away(std::string& refused) const {
+  const Ref<GVariant> result = call(name_.c_str(), path_.c_str(), kInterface, "RequestRelease",
+                                    g_variant_new("(i)", kPriority), "(b)", refused);
+  gboolean given = FALSE;
+  if (result) g_variant_get(result.get(), "(b)", &given);
+  return given != FALSE;
+}
+
+Ref<GVariant> CardReservation::call(const char* to, const char* path, const char* interface,
+                                    const char* method, GVariant* arguments,
+                                    const char* result_type, std::string& refused) const {
+  g_autoptr(GError) error = nullptr;
+  Ref<GVariant> result(g_dbus_connection_call_sync(
+      bus_.get(), to, path, interface, method, arguments, G_VARIANT_TYPE(result_type),
+      G_DBUS_CALL_FLAGS_NO_AUTO_START, kPatience_ms, nullptr, &error));
+  if (!result) refused = error->message;
+  return result;
+}
+
+/// In GDBus' own thread: answers others who want the card. Whatever else is asked is an error that
+/// GDBus answers.
+GDBusMessage* CardReservation::answer(GDBusConnection* bus, GDBusMessage* message,
+                                      gboolean incoming, gpointer path) {
+  const bool is_asked =
+      incoming && g_dbus_message_get_message_type(message) == G_DBUS_MESSAGE_TYPE_METHOD_CALL &&
+      g_strcmp0(g_dbus_message_get_path(message), static_cast<std::string*>(path)->c_str()) == 0;
+  if (!is_asked) return message;
+  const char* const method = g_dbus_message_get_member(message);
+  GVariant* const body = g_dbus_message_get_body(message);
+  GVariant* result = nullptr;
+  const auto property = [](const char* name) -> GVariant* {
+    if (std::strcmp(name, "Priority") == 0) return g_variant_new_int32(kPriority);
+    if (std::strcmp(name, "ApplicationName") == 0) return g_variant_new_string("gst-spidar");
+    if (std::strcmp(name, "ApplicationDeviceName") == 0) return g_variant_new_string("shaker");
+    return nullptr;
+  };
+  if (g_strcmp0(method, "RequestRelease") == 0) {
+    result = g_variant_new("(b)", FALSE);
+  } else if (g_strcmp0(method, "Get") == 0 && body &&
+             g_variant_is_of_type(body, G_VARIANT_TYPE("(ss)"))) {
+    const char* name = nullptr;
+    g_variant_get(body, "(&s&s)", nullptr, &name);
+    GVariant* const value = property(name);
+    if (value) result = g_variant_new("(v)", value);
+  }
+  if (!result) return message;
+  g_autoptr(GDBusMessage) reply = g_dbus_message_new_method_reply(message);
+  g_dbus_message_set_body(reply, result);
+  g_dbus_connection_send_message(bus, reply, G_DBUS_SEND_MESSAGE_FLAGS_NONE, nullptr, nullptr);
+  g_object_unref(message);
+  return nullptr;
+}
+
+}  // namespace spidar
