@@ -36,7 +36,7 @@ constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBud
 constexpr int64_t kMost_ns = 4 * VibrationMemory::kUnknown_ns;
 
 /// Of the text in the file.
-constexpr size_t kLongest = 200;
+constexpr size_t kMostText = 200;
 
 int64_t clock_ns(clockid_t clock) noexcept {
   timespec now{};
@@ -69,7 +69,7 @@ class LockedFile {
   /// Empty after an error.
   std::string read() {
     if (error != 0) return {};
-    std::array<char, kLongest> text{};
+    std::array<char, kMostText> text{};
     const ssize_t length = pread(file_, text.data(), text.size(), 0);
     if (length < 0) error = errno;
     return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
@@ -129,7 +129,7 @@ VibrationMemory& VibrationMemory::of_user() {
 }
 
 std::string VibrationMemory::text_of(const Entry& entry) {
-  std::array<char, kLongest> text{};
+  std::array<char, kMostText> text{};
   const int length =
       std::snprintf(text.data(), text.size(),
                     "gst-spidar: the vibration of this hand is refilled in %020" PRId64
