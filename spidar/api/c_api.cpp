@@ -235,6 +235,10 @@ size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text, s
   return gst_spidar::write_text(device->device.last_fault(), text, size);
 }
 
+size_t gst_spidar_device_warning(const GstSpidarDevice* device, char* text, size_t size) {
+  return gst_spidar::write_text(device->device.warning(), text, size);
+}
+
 void gst_spidar_device_capabilities(const GstSpidarDevice* device,
                                     GstSpidarCapabilities* capabilities) {
   *capabilities = gst_spidar::same<GstSpidarCapabilities>(device->device.capabilities());

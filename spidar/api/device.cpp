@@ -284,6 +284,12 @@ std::string Device::last_fault() const {
   return fault == spidar::LinkFault::kNone ? "" : to_string(fault);
 }
 
+std::string Device::warning() const {
+  if (impl_->is_copy()) return {};
+  const std::string trouble = impl_->session.vibration_trouble();
+  return trouble.empty() ? impl_->session.grip().warning() : trouble;
+}
+
 Capabilities Device::capabilities() const {
   const spidar::GripAbilities abilities = impl_->session.grip().abilities();
   Capabilities found;

@@ -60,6 +60,7 @@ class Devices(unittest.TestCase):
             self.assertTrue(device.held())
             self.assertEqual(device.vibration_fraction(), 1)
             self.assertEqual(device.last_fault(), "")
+            self.assertEqual(device.warning(), "")
             self.assertTrue(device.capabilities().force_z)
             self.assertEqual(device.capabilities().rate_Hz, 1000)
             self.assertTrue(all(0.02 < size_m < 1 for size_m in device.capabilities().workspace_m))
@@ -241,6 +242,14 @@ called.wait(30)
                 done = run("-c", program + end)
                 self.assertEqual(done.returncode, status, done.stderr)
                 self.assertNotIn("Fatal", done.stderr)
+
+    def test_a_budget_of_vibration_that_cannot_be_kept_is_a_warning(self):
+        program = "import gst_spidar\nwith gst_spidar.Device('sim') as device: print(device.warning())"
+        for state, said in (("", "\n"), ("/proc/none", "Half of what is allowed in a day counts as used.\n")):
+            with self.subTest(state):
+                done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=100,
+                                      check=True, env={**os.environ, "SPIDAR_STATE": state})
+                self.assertTrue(done.stdout.endswith(said), done.stdout)
 
     def test_threads_fraction_a_device_until_one_closes_it(self):
         device = Device("sim")

@@ -149,6 +149,7 @@ TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
   EXPECT_LT(std::abs(device.velocity()->x), 0.5);  // a hand holds the simulated grip
   EXPECT_TRUE(device.held());
   EXPECT_EQ(device.vibration_fraction(), 1);
+  EXPECT_EQ(device.warning(), "");
   // An encoder step of this profile is less than a tenth of a millimetre; the simulated hand is
   // soft.
   EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);

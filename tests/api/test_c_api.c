@@ -103,6 +103,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(gst_spidar_device_buttons(device) == 0);
   REQUIRE(gst_spidar_device_vibration_fraction(device) == 1);
   REQUIRE(gst_spidar_device_last_fault(device, text, sizeof text) == 0 && text[0] == '\0');
+  REQUIRE(gst_spidar_device_warning(device, text, sizeof text) == 0 && text[0] == '\0');
   gst_spidar_device_capabilities(device, &can);
   REQUIRE(can.force_x && can.force_y && can.force_z && can.torque && can.direction);
   REQUIRE(can.largest_force_N == 7.2 && can.largest_stiffness_N_m == 800 && can.rate_Hz == 1000);

@@ -231,6 +231,11 @@ GST_SPIDAR_API bool gst_spidar_device_wait_until_running(const GstSpidarDevice* 
 GST_SPIDAR_API size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text,
                                                    size_t size);
 
+/*! What is not as it should be although the device works, written as
+ * gst_spidar_device_callback_error() does; length 0 if all is well: Device::warning(). */
+GST_SPIDAR_API size_t gst_spidar_device_warning(const GstSpidarDevice* device, char* text,
+                                                size_t size);
+
 /*! What the device can do. */
 GST_SPIDAR_API void gst_spidar_device_capabilities(const GstSpidarDevice* device,
                                                    GstSpidarCapabilities* capabilities);

@@ -201,6 +201,11 @@ class GST_SPIDAR_API Device {
   /// there has been none. While the state is kLost, it is why.
   std::string last_fault() const;
 
+  /// What is not as it should be although the device works, for people; empty if all is well. For
+  /// example that what this user's hand was shaken today is not known, so that half of what is
+  /// allowed counts as used.
+  std::string warning() const;
+
   /// What the device can do.
   Capabilities capabilities() const;
 

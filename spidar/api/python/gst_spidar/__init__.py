@@ -141,6 +141,10 @@ class Device(_Handle):
         """Of the link to the device; empty when there was none."""
         return self._text("device_last_fault")
 
+    def warning(self):
+        """What is not as it should be although the device works; empty if all is well."""
+        return self._text("device_warning")
+
     def capabilities(self):
         """What the device can do."""
         found = Capabilities()
