@@ -16,8 +16,8 @@ struct Unref {
   void operator()(GVariant* value) const { g_variant_unref(value); }
 };
 
-/// A reference to a GObject, a buffer, caps or a GVariant, or none. Made of a pointer, it takes over the
-/// reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
+/// A reference to a GObject, a buffer, caps or a GVariant, or none. Made of a pointer, it takes
+/// over the reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
 template <typename Object>
 using Ref = std::unique_ptr<Object, Unref>;
 
