@@ -225,12 +225,14 @@ TEST_F(Sound, TheLoopTellsItEarly) {
     return entry;
   };
   wait_for([&] { return loop.snapshot().last.device == DeviceState::kRunning; });
-  const int64_t zero_ns = monotonic_now_ns();
-  loop.set_playback_clock({zero_ns, 0, 1.0, true});
+  player.pause();
+  wait_for([&] { return !loop.snapshot().last.playing; });
   constexpr int64_t kDue_ns = 600 * kMs;
   for (const auto& entry :
        {at(0, 0), at(300 * kMs, 0), at(kDue_ns - 5 * kMs, 0), at(kDue_ns + 5 * kMs, 1.5)})
     ASSERT_TRUE(loop.schedule(entry));
+  const int64_t zero_ns = monotonic_now_ns();
+  loop.set_playback_clock({zero_ns, 0, 1.0, true});
   std::this_thread::sleep_for(std::chrono::milliseconds(900));
   player.session.reset();
   const double late_ns =
