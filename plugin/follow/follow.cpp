@@ -101,13 +101,15 @@ class Follower {
   }
 
   void take_state(const PlayerState& state) {
-    const bool begins = state.status == PlayerState::Status::kPlaying &&
-                        (state_.status != state.status || state_.rate != state.rate);
+    const bool plays = state.status == PlayerState::Status::kPlaying;
+    const bool begins = plays && state_.status != state.status;
+    if (plays && filter_.has_begun() && state.rate != state_.rate)
+      filter_.change_rate(monotonic_now_ns(), state.rate);
     state_ = state;
     if (begins) is_beginning_ = true;
     if (begins && state.uri.empty())
       tell(short_name(player_->bus_name()) + " does not say which file it plays");
-    if (state.status != PlayerState::Status::kPlaying) {
+    if (!plays) {
       is_beginning_ = false;
       filter_ = PositionFilter();
       if (film_) film_->rest(position_ns_);

@@ -25,7 +25,6 @@ namespace {
 constexpr int64_t kSmall_ns = 60'000'000;
 /// Until the first positions after a jump are told, more is not known than where it was to lead.
 constexpr int64_t kSettles_ns = 1'000'000'000;
-constexpr int64_t kSmallAtFirst_ns = 15'000'000;
 /// A larger one needs other parts of the film; a smaller one only another time for them.
 constexpr int64_t kNear_ns = 500'000'000;
 /// It takes a picture, at most.
@@ -198,7 +197,6 @@ void FollowedFilm::read_segment() {
   const guint64 running = gst_segment_to_running_time(&segment, GST_FORMAT_TIME, segment.start);
   begin_position_ns_ = static_cast<int64_t>(stream);
   begin_running_ns_ = static_cast<int64_t>(running);
-  if (!ready_) paused_at_ns_ = begin_position_ns_;
   ready_ = true;
   if (seek_began_ns_ > 0) seek_took_ns_ = monotonic_now_ns() - seek_began_ns_;
   seek_began_ns_ = 0;
@@ -247,6 +245,8 @@ void FollowedFilm::seek(int64_t position_ns, double rate) {
   gst_element_get_state(pipeline_.get(), nullptr, nullptr, kLongestPause);
   check();
   ready_ = false;
+  // Even if it leads to a place before.
+  paused_at_ns_ = position_ns;
   rate_ = rate;
   seek_began_ns_ = monotonic_now_ns();
   if (gst_element_seek(pipeline_.get(), rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
@@ -262,10 +262,10 @@ void FollowedFilm::follow(int64_t now_ns, int64_t position_ns, double rate) {
   if (rate != rate_ || std::abs(error_ns) > kNear_ns)
     return seek(position_ns + std::llround(static_cast<double>(seek_took_ns_) * rate), rate);
   if (!playing_) settled_ns_ = now_ns + kSettles_ns;
-  const int64_t small_ns = now_ns < settled_ns_ ? kSmallAtFirst_ns : kSmall_ns;
-  if (playing_ && std::abs(error_ns) > small_ns) pause();
+  if (playing_ && std::abs(error_ns) > kSmall_ns) pause();
   if (!playing_) return play(now_ns, position_ns);
-  const int64_t shift_ns = small_correction_ns(error_ns, now_ns - checked_ns_);
+  const int64_t shift_ns =
+      small_correction_ns(error_ns, now_ns - checked_ns_, now_ns < settled_ns_);
   checked_ns_ = now_ns;
   if (shift_ns != 0) set_base_time(base_ns_ - std::llround(static_cast<double>(shift_ns) / rate_));
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/follow/mpris_player.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "spidar/realtime/monotonic.h"
@@ -21,13 +22,23 @@ struct Unref {
 };
 using Variant = std::unique_ptr<GVariant, Unref>;
 
-/// Null instead of an error.
-Variant finish(GObject* bus, GAsyncResult* result, bool& cancelled) {
-  GError* error = nullptr;
-  Variant reply(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &error));
-  const std::unique_ptr<GError, Unref> owned(error);
-  cancelled = error && g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED);
-  return reply;
+/// What came of a question: an answer, or one of these, or another error.
+struct Answer {
+  Variant reply;
+  bool is_cancelled = false;  ///< whoever asked is destroyed
+  bool is_gone = false;       ///< whoever was asked
+};
+
+Answer finish(GObject* bus, GAsyncResult* result) {
+  GError* found = nullptr;
+  Answer answer;
+  answer.reply.reset(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &found));
+  const std::unique_ptr<GError, Unref> error(found);
+  if (!error) return answer;
+  answer.is_cancelled = g_error_matches(found, G_IO_ERROR, G_IO_ERROR_CANCELLED);
+  answer.is_gone = g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NAME_HAS_NO_OWNER) ||
+                   g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_SERVICE_UNKNOWN);
+  return answer;
 }
 
 Variant call_now(GDBusConnection* bus, const char* name, const char* path, const char* interface,
@@ -49,11 +60,20 @@ PlayerState state_of(GVariant* properties) {
     if (g_str_equal(text, "Playing")) state.status = PlayerState::Status::kPlaying;
     if (g_str_equal(text, "Paused")) state.status = PlayerState::Status::kPaused;
   }
+  // As far as mpv goes; what is not a rate counts as that of ordinary playback.
+  constexpr double kLeast = 0.01, kMost = 100;
   double rate = 0;
-  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate > 0) state.rate = rate;
+  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kLeast && rate <= kMost)
+    state.rate = rate;
   const Variant metadata(g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
   if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text)) state.uri = text;
   return state;
+}
+
+/// Of any number that a player may tell.
+int64_t ns_of(gint64 position_us) {
+  constexpr gint64 kMost_us = 1'000'000 * gint64{365 * 24 * 3600};
+  return 1000 * std::clamp(position_us, -kMost_us, kMost_us);
 }
 
 /// Of the reply to Properties.GetAll.
@@ -148,24 +168,25 @@ void MprisPlayer::ask_state_now() {
 
 /// A player that reads its position and then answers is late, never early.
 void MprisPlayer::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
-  bool cancelled = false;
-  const Variant reply = finish(bus, result, cancelled);
-  if (cancelled) return;  // it is destroyed
+  const Answer answer = finish(bus, result);
+  if (answer.is_cancelled) return;
   auto& self = *static_cast<MprisPlayer*>(user);
   self.asked_ns_ = 0;
-  if (!reply || !g_variant_is_of_type(reply.get(), G_VARIANT_TYPE("(v)"))) return;
+  // It ended before its end was listened for.
+  if (answer.is_gone) return self.told_.gone();
+  GVariant* const reply = answer.reply.get();
+  if (!reply || !g_variant_is_of_type(reply, G_VARIANT_TYPE("(v)"))) return;
   GVariant* inner = nullptr;
-  g_variant_get(reply.get(), "(v)", &inner);
+  g_variant_get(reply, "(v)", &inner);
   const Variant position(inner);
   if (g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64))
-    self.told_.position(monotonic_now_ns(), 1000 * g_variant_get_int64(inner));
+    self.told_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));
 }
 
 void MprisPlayer::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
-  bool cancelled = false;
-  const Variant reply = finish(bus, result, cancelled);
-  if (cancelled) return;
-  if (const auto state = state_in(reply.get()))
+  const Answer answer = finish(bus, result);
+  if (answer.is_cancelled) return;
+  if (const auto state = state_in(answer.reply.get()))
     static_cast<MprisPlayer*>(user)->told_.state(*state);
 }
 
@@ -177,7 +198,7 @@ void MprisPlayer::take_signal(GDBusConnection*, const gchar*, const gchar*, cons
   } else if (g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
     gint64 position_us = 0;
     g_variant_get(parameters, "(x)", &position_us);
-    self.told_.jump(monotonic_now_ns(), 1000 * position_us);
+    self.told_.jump(monotonic_now_ns(), ns_of(position_us));
   }
 }
 

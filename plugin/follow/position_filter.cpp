@@ -30,6 +30,13 @@ void PositionFilter::restart(int64_t now_ns, int64_t position_ns, double rate) {
   keep(begin_of(now_ns, position_ns));
 }
 
+void PositionFilter::change_rate(int64_t now_ns, double rate) {
+  // Told again, this is no news, and late.
+  const int64_t told_ns = position_ns_;
+  restart(now_ns, position_at(now_ns), rate);
+  position_ns_ = told_ns;
+}
+
 /// Players tell where they jump to before they are there.
 void PositionFilter::restart_after_jump(int64_t now_ns, int64_t position_ns) {
   restart(now_ns, position_ns, rate_);
@@ -54,20 +61,21 @@ void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
 void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
   if (!has_begun()) return;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
-  if (std::abs(late_ns) > kLatest_ns) restart_after_jump(now_ns, position_ns);
+  if (std::abs(late_ns) > kLatest_ns) return restart_after_jump(now_ns, position_ns);
+  is_goal_ = true;  // it may have stopped for a moment
 }
 
 int64_t PositionFilter::position_at(int64_t now_ns) const {
   return std::llround(static_cast<double>(now_ns - earliest_ns()) * rate_);
 }
 
-int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns) {
-  constexpr double kMost = 0.02;
+int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling) {
+  const double most = is_settling ? 0.5 : 0.02;
   // So that what the filter jitters by is smoothed.
-  constexpr double kTime_ns = 0.5e9;
+  const double time_ns = is_settling ? 0.1e9 : 0.5e9;
   const auto passed = static_cast<double>(passed_ns);
-  const double wanted = static_cast<double>(error_ns) * passed / kTime_ns;
-  return std::llround(std::clamp(wanted, -kMost * passed, kMost * passed));
+  const double wanted = static_cast<double>(error_ns) * passed / time_ns;
+  return std::llround(std::clamp(wanted, -most * passed, most * passed));
 }
 
 }  // namespace spidar

@@ -21,6 +21,8 @@ class PositionFilter {
 
   /// It plays at `rate` from this position on; what it told before counts no more.
   void restart(int64_t now_ns, int64_t position_ns, double rate);
+  /// It goes on at another rate.
+  void change_rate(int64_t now_ns, double rate);
   /// It tells this position, which is no news if it is the same as before.
   void tell(int64_t now_ns, int64_t position_ns);
   /// It says that it has jumped to this position. VLC also says so when it has not.
@@ -45,11 +47,12 @@ class PositionFilter {
   int64_t position_ns_ = 0;  ///< the newest that it told
   int64_t newest_ns_ = 0;
   bool jumped_ = false;   ///< the newest was too late for one of this playback
-  bool is_goal_ = false;  ///< all that is known is where a jump was to lead
+  bool is_goal_ = false;  ///< what is known counts until the next position
 };
 
 /// How far to shift what follows a player, which is `error_ns` behind it, after `passed_ns`: by at
-/// most 2 % of the time, which is not felt.
-int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns);
+/// most 2 % of the time, which is not felt; in the first second after a jump, `is_settling`, by
+/// half of it, because little was felt yet of what it is to fit.
+int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 
 }  // namespace spidar

@@ -43,6 +43,7 @@ class MockPlayer:
 
     def __init__(self, bus, name):
         self.status, self.rate, self.uri, self.delay = "Stopped", 1.0, "", 0
+        self.told_rate = None  # otherwise in place of the one at which it plays
         self.at_s, self.since_s = 0.0, time.monotonic()
         self.context = GLib.MainContext()
         self.loop = GLib.MainLoop(self.context)
@@ -62,7 +63,8 @@ class MockPlayer:
         self.loop.run()
 
     def get(self, _connection, _sender, _path, _interface, name):
-        values = {"PlaybackStatus": ("s", self.status), "Rate": ("d", self.rate),
+        rate = self.rate if self.told_rate is None else self.told_rate
+        values = {"PlaybackStatus": ("s", self.status), "Rate": ("d", rate),
                   "Metadata": ("a{sv}", {"xesam:url": GLib.Variant("s", self.uri)}),
                   "Position": ("x", int(1e6 * self.position_s(time.monotonic() - self.delay)))}
         return GLib.Variant(*values[name])

@@ -3,6 +3,7 @@
 """spidar-feel --follow with a player that tells exactly where it is. The haptic track of its film is a force that rises with
 the position, so that each tick of the loop tells which position is felt."""
 
+import csv
 import os
 import signal
 import statistics
@@ -18,7 +19,8 @@ FEEL = os.environ["SPIDAR_FEEL"]
 LENGTH_S = 60
 # Newtons at the beginning, and more each second: within the default max-force, and above what is too weak to be felt.
 FORCE_N, SLOPE_N_S = .5, 2 / LENGTH_S
-RAMP_S = .1  # to rest, and from it; twice SafetyLimits::ramp_s
+RAMP_S = .1  # to rest
+BUSY_S = 1  # the same on a machine that is busy with other tests
 # The goal of docs/players.md.
 MEDIAN_S, MOST_S = .015, .04
 
@@ -70,12 +72,38 @@ class FollowCase(track_case.TrackCase):
         ticks = bus_case.read_trace(self.trace)
         return ticks[-1][2] if ticks else 0
 
+    def wanted(self, from_s, to_s):
+        """(monotonic s, N) of what the track says, without moments of rest, as a busy machine causes."""
+        self.ticks(from_s, to_s)  # until they are there
+        with open(self.trace, newline="", encoding="ascii") as file:
+            rows = csv.DictReader(file.read().rpartition("\n")[0].splitlines())
+            ticks = [(1e-9 * int(row["monotonic_ns"]), float(row["wanted_force_x_N"])) for row in rows]
+        within = [(now_s, force) for now_s, force in ticks if from_s <= now_s <= to_s]
+        moving = [(now_s, force) for now_s, force in within if force > 0]
+        self.assertGreater(len(moving), len(within) / 2, self.said())
+        return moving
+
     def expect_followed(self, player, from_s, to_s):
-        late_s = [player.position_s(now_s) - felt_position_s(force) for now_s, force in self.ticks(from_s, to_s)]
+        late_s = [player.position_s(now_s) - felt_position_s(force) for now_s, force in self.wanted(from_s, to_s)]
         sizes = sorted(map(abs, late_s))
-        self.assertGreater(len(sizes), 100)
         self.assertLess(statistics.median(sizes), MEDIAN_S, self.said())
         self.assertLess(sizes[int(.95 * len(sizes))], MOST_S, self.said())
+
+    def expect_found(self, player):
+        """However long that takes on a busy machine, for which the test has a limit; the suite `players` measures it."""
+        def is_there():
+            ticks = bus_case.read_trace(self.trace)
+            return ticks and abs(player.position_s(ticks[-1][0]) - felt_position_s(ticks[-1][2])) < MOST_S
+        self.wait_until(is_there)
+        begin_s = time.monotonic() + .3
+        time.sleep(1.4)
+        self.expect_followed(player, begin_s, time.monotonic() - .1)
+
+    def expect_paused(self, player):
+        paused_s = time.monotonic()
+        player.change("Paused")
+        time.sleep(BUSY_S + .5)
+        self.expect_rest(paused_s + BUSY_S, time.monotonic())
 
     def expect_rest(self, from_s, to_s):
         ticks = self.ticks(from_s, to_s)
@@ -95,48 +123,66 @@ class Follow(FollowCase):
     def test_position_pause_seek_and_rate_are_followed(self):
         player, process = self.play()
         self.assertIn("the haptic track", self.said())
-        begin_s = time.monotonic() + .5
-        time.sleep(2)
-        self.expect_followed(player, begin_s, time.monotonic() - .1)
-
-        paused_s = time.monotonic()
-        player.change("Paused")
-        time.sleep(.6)
-        self.expect_rest(paused_s + RAMP_S, time.monotonic())
+        self.expect_found(player)
+        self.expect_paused(player)
         player.change("Playing")
-        played_s = time.monotonic()
-        time.sleep(1.5)
-        self.expect_followed(player, played_s + .5, time.monotonic() - .1)
+        self.expect_found(player)
 
-        for position_s in (30, 12):
-            player.change(position_s=position_s)
-            sought_s = time.monotonic()
-            time.sleep(1.5)
-            self.expect_followed(player, sought_s + .5, time.monotonic() - .1)
+        self.expect_followed_through_seeks(player)
+        player.change("Paused")
+        player.change(position_s=50)
+        time.sleep(.5)
+        player.change("Playing")
+        self.expect_found(player)
 
-        player.change(rate=1.5)
-        changed_s = time.monotonic()
-        time.sleep(1.5)
-        self.expect_followed(player, changed_s + .5, time.monotonic() - .1)
+        player.change(rate=1.5, position_s=10)
+        self.expect_found(player)
 
         died_s = time.monotonic()
         player.die()
-        time.sleep(.5)
+        time.sleep(BUSY_S + .2)
         self.wait_until(lambda: "mock has ended" in self.said())
-        self.assertEqual([force for now_s, _, force, _ in bus_case.read_trace(self.trace) if now_s > died_s + RAMP_S
+        self.assertEqual([force for now_s, _, force, _ in bus_case.read_trace(self.trace) if now_s > died_s + BUSY_S
                           and force], [])
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(), 0)
+
+    def expect_followed_through_seeks(self, player):
+        for position_s in (30, 12):
+            player.change(position_s=position_s)
+            self.expect_found(player)
+
+    def test_a_track_as_spidartrack_records_it_is_followed(self):
+        self.gst("filesrc location=film.avi.haptic.wav ! wavparse ! audioconvert dithering=none noise-shaping=none ! flacenc "
+                 "blocksize=40 ! filesink location=film.avi.haptic.flac")
+        self.path("film.avi.haptic.wav").unlink()
+        player, _ = self.play()
+        self.assertIn("film.avi.haptic.flac", self.said())
+        self.expect_followed_through_seeks(player)
+
+    def test_a_track_inside_the_film_is_followed(self):
+        self.film = self.path("film.mkv")
+        self.gst("matroskamux name=m ! filesink location=film.mkv filesrc location=film.avi ! avidemux ! queue ! m. "
+                 "filesrc location=film.avi.haptic.wav ! wavparse ! queue ! m.")
+        player, _ = self.play()
+        self.assertIn("the haptic track " + str(self.film), self.said())
+        self.expect_followed_through_seeks(player)
 
     def test_without_a_track_the_film_is_analysed(self):
         self.path("film.avi.haptic.wav").unlink()
         self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,"
                  "framerate=25/1 ! jpegenc ! avimux ! filesink location=film.avi")
         player, _ = self.play_analysed()
-        paused_s = time.monotonic()
-        player.change("Paused")
-        time.sleep(.5)
-        self.expect_rest(paused_s + RAMP_S, time.monotonic())
+        self.expect_paused(player)
+
+    def test_a_track_of_another_film_is_named_and_not_felt(self):
+        samples, _ = track_case.read_wav(self.path("film.avi.haptic.wav"))
+        track_case.write_wav(self.path("film.avi.haptic.wav"), samples[:5000])
+        player = MockPlayer(self.bus, "mock")
+        player.change("Playing", uri=self.film.as_uri(), position_s=2)
+        self.follow()
+        self.wait_until(lambda: "is analysed" in self.said())
+        self.assertRegex(self.said(), "film.avi.haptic.wav: .*; the film is analysed")
 
     def play_analysed(self):
         player = MockPlayer(self.bus, "mock")
@@ -154,9 +200,7 @@ class Follow(FollowCase):
         self.trace.unlink()
         player.change(uri=second.as_uri(), position_s=5)
         self.wait_until(lambda: self.trace.exists() and self.force_N() > FORCE_N)
-        begin_s = time.monotonic() + .5
-        time.sleep(1.5)
-        self.expect_followed(player, begin_s, time.monotonic() - .1)
+        self.expect_found(player)
 
     def test_one_that_stands_still_is_at_rest(self):
         """It says that it plays."""
@@ -164,8 +208,21 @@ class Follow(FollowCase):
         still_s = time.monotonic()
         player.at_s, player.since_s, player.delay = player.position_s(), still_s, 1e6
         player.rate = 1e-9
-        time.sleep(2)
-        self.expect_rest(still_s + 1.5, time.monotonic())
+        time.sleep(2.5)
+        self.expect_rest(still_s + 1 + BUSY_S, time.monotonic())  # it is waited for for a second
+
+
+    def test_what_no_player_should_tell_harms_nothing(self):
+        player, process = self.play()
+        for rate in (float("nan"), float("inf"), -1.0, 1e-300):
+            player.told_rate = rate
+            player.change()
+            time.sleep(.1)
+        for position_s in (-1e6, 9e12, -9e12, 1e6, 20):
+            player.change(position_s=position_s)
+            time.sleep(.3)
+        self.assertIsNone(process.poll())
+        self.expect_found(player)
 
 
 class Which(FollowCase):

@@ -41,7 +41,7 @@ class Followed {
     for (const int64_t end_ns = now_ns_ + duration_ns; now_ns_ < end_ns; now_ns_ += kTick) {
       tell();
       const int64_t error_ns = filter_.position_at(now_ns_) - follows_ns_;
-      const int64_t shift_ns = small_correction_ns(error_ns, kTick);
+      const int64_t shift_ns = small_correction_ns(error_ns, kTick, false);
       EXPECT_LE(std::abs(shift_ns), kTick / 50);
       follows_ns_ += shift_ns;
       errors.push_back(1e-6 * static_cast<double>(std::abs(follows_ns_ - position_ns_)));
@@ -125,12 +125,43 @@ TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
   EXPECT_EQ(filter.position_at(kBegin + 300 * kMs), 20 * kSecond + 250 * kMs);
 }
 
+// A jump to where it is holds VLC up for 80 ms.
+TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
+  PositionFilter filter;
+  filter.restart(kBegin, 0, 1);
+  for (int i = 1; i < 5; ++i) filter.tell(kBegin + i * 300 * kMs, i * 300 * kMs);
+  filter.tell_jump(kBegin + 1300 * kMs, 1300 * kMs);
+  filter.tell(kBegin + 1600 * kMs, 1520 * kMs);
+  EXPECT_EQ(filter.position_at(kBegin + 1600 * kMs), 1520 * kMs);
+}
+
 // At the beginning of a film, it first loads.
 TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
   PositionFilter filter;
   filter.restart(kBegin, 0, 1);
   filter.tell(kBegin + kSecond, 40 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 40 * kMs);
+}
+
+// What VLC told 0.3 s ago is told until it tells the next one.
+TEST(PositionFilter, GoesOnAtAnotherRateFromWhereItIs) {
+  PositionFilter filter;
+  filter.restart(kBegin, 0, 1);
+  filter.tell(kBegin + kSecond, kSecond);
+  filter.change_rate(kBegin + 1300 * kMs, 2);
+  filter.tell(kBegin + 1310 * kMs, kSecond);
+  EXPECT_EQ(filter.position_at(kBegin + 2300 * kMs), 3300 * kMs);
+}
+
+// By then, VLC has told its first position after a jump.
+TEST(PositionFilter, TheLargestSmallErrorAfterAJumpIsGoneAfterAQuarterOfASecond) {
+  int64_t error_ns = 60 * kMs;
+  for (int i = 0; i < 25; ++i) {
+    const int64_t shift_ns = small_correction_ns(error_ns, 10 * kMs, true);
+    EXPECT_LE(shift_ns, 5 * kMs);
+    error_ns -= shift_ns;
+  }
+  EXPECT_LE(error_ns, 10 * kMs);
 }
 
 // VLC says after a pause that it has jumped to the position at which it was paused.
