@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,9 +64,17 @@ constexpr double kFunscriptTolerance = 0.01;
 /// One channel: −1, 0 and 1 are the positions 0, 50 and 100, whole numbers. Players draw straight
 /// lines between them, and move at the speed that these ask for; they differ from the curve by at
 /// most `tolerance`, a fraction of the full scale, and the rounding of a position, 0.01. Amplitudes
-/// beyond the full scale are clipped, and NaN becomes 0.
+/// beyond the full scale are clipped, and NaN becomes 0. The script says which channel it is of,
+/// and by which `gain` its samples have been multiplied.
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
-                     double tolerance = kFunscriptTolerance);
+                     double tolerance = kFunscriptTolerance, double gain = 1);
+
+/// What write_funscript() has noted; nothing in scripts of others.
+struct FunscriptNotes {
+  size_t channel;
+  double gain;
+};
+std::optional<FunscriptNotes> read_funscript_notes(const std::string& text);
 
 /// The longest funscript that is read: 12 h.
 constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;

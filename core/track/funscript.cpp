@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMiddle = 50;
+constexpr const char *kNotes = "gst-spidar", *kChannel = "channel", *kGain = "gain";
 
 struct Action {
   size_t at_ms;
@@ -62,8 +63,10 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
 }  // namespace
 
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
-                     double tolerance) {
-  write(R"({"version":"1.0","inverted":false,"range":100,"actions":[)");
+                     double tolerance, double gain) {
+  const Json notes = {{kChannel, channel}, {kGain, gain}};
+  write(R"({"version":"1.0","inverted":false,"range":100,")" + std::string(kNotes) +
+        "\":" + notes.dump() + R"(,"actions":[)");
   KeyframeChooser keyframes(tolerance, [&write](size_t index, double fraction) {
     write((index == 0 ? R"({"at":)" : R"(,{"at":)") + std::to_string(index) + R"(,"pos":)" +
           std::to_string(std::lround(kMiddle + kMiddle * fraction)) + "}");
@@ -74,6 +77,17 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
   });
   keyframes.finish();
   write("]}\n");
+}
+
+std::optional<FunscriptNotes> read_funscript_notes(const std::string& text) {
+  const Json root = Json::parse(text, nullptr, false);
+  const auto notes = root.is_object() ? root.find(kNotes) : root.end();
+  if (!root.is_object() || notes == root.end() || !notes->is_object()) return std::nullopt;
+  const Json channel = notes->value(kChannel, Json()), gain = notes->value(kGain, Json());
+  if (!channel.is_number_unsigned() || !gain.is_number()) return std::nullopt;
+  const FunscriptNotes found{channel.get<size_t>(), gain.get<double>()};
+  if (found.channel >= kTrackChannels || !(found.gain > 0)) return std::nullopt;
+  return found;
 }
 
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "plugin/tools/axis_scripts.h"
 #include "plugin/tools/sample_file.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
@@ -127,6 +131,63 @@ void check_use(const ConvertOptions& options) {
   }
 }
 
+/// Six funscripts of a track. The forces have one gain and the torques another, so that their
+/// directions stay.
+void write_axes(const ConvertOptions& options, const SampleFile& samples,
+                const TrackSummary& summary) {
+  const size_t main = liveliest_channel(summary);
+  constexpr size_t kForces = kTrackChannels / 2;
+  std::array<double, 2> gains{1, 1};
+  for (const size_t kind : {size_t{0}, size_t{1}}) {
+    double peak = 0;
+    for (size_t i = kind * kForces; i < (kind + 1) * kForces; ++i)
+      peak = std::max(peak, summary.channels[i].peak);
+    gains[kind] = options.gain.value_or(peak > 0 ? 1 / peak : 1);
+  }
+  std::vector<std::unique_ptr<PartFile>> parts;
+  const auto scripts = axis_scripts(options.to, main);
+  for (const AxisScript& script : scripts) {
+    parts.push_back(std::make_unique<PartFile>(
+        script.path, PartFile::Replaces{options.force, "spidartrack convert"}));
+    SaveOptions save = options.save;
+    save.axis = script.channel;
+    save.gain = gains[script.channel / kForces];
+    save_track(*parts.back(), samples, save);
+  }
+  for (size_t i = 0; i < parts.size(); ++i) {
+    publish(*parts[i]);
+    std::cout << scripts[i].path << ": " << channel_name(i) << ", gain "
+              << rounded(gains[i / kForces]) << '\n';
+  }
+}
+
+/// The samples of six funscripts as they were before their gains, which are printed.
+TrackCondition read_axes(const std::string& from, const SampleSource::Take& take) {
+  TrackCondition condition;
+  condition.track = from;
+  std::vector<TrackSample> all;
+  const auto main = read_funscript_notes(read_text(from));
+  for (const AxisScript& script : axis_scripts(from, main ? main->channel : kUsualAxis)) {
+    if (!std::filesystem::exists(script.path)) {
+      std::cout << script.path << ": is not there; " << channel_name(script.channel)
+                << " is at rest\n";
+      continue;
+    }
+    const std::string text = read_text(script.path);
+    const auto notes = read_funscript_notes(text);
+    const size_t channel = notes ? notes->channel : script.channel;
+    const double gain = notes ? notes->gain : 1;
+    std::cout << script.path << ": " << channel_name(channel) << ", gain " << rounded(gain)
+              << " taken back\n";
+    const std::vector<TrackSample> samples = read_funscript(text, channel);
+    if (all.size() < samples.size()) all.resize(samples.size());
+    for (size_t i = 0; i < samples.size(); ++i)
+      all[i][channel] = static_cast<float>(samples[i][channel] / gain);
+  }
+  for (const TrackSample& sample : all) take(sample);
+  return condition;
+}
+
 }  // namespace
 
 int convert_track(const ConvertOptions& options) {
@@ -139,20 +200,27 @@ int convert_track(const ConvertOptions& options) {
   SaveOptions save = options.save;
   save.axis = channel_of(options.axis);
   check_format(to);
-  PartFile part(to, {options.force, "spidartrack convert"});
+  const bool is_all = options.axis == kAllAxes;
+  std::unique_ptr<PartFile> part;
+  if (!is_all || !ends_with(to, ".funscript"))
+    part = std::make_unique<PartFile>(to, PartFile::Replaces{options.force, "spidartrack convert"});
   SampleFile samples(to);
   Summariser summariser;
-  const TrackCondition condition = read_track(
-      options.from,
-      [&](const TrackSample& sample) {
-        samples.add(sample);
-        summariser.add(sample);
-      },
-      save.axis);
+  const SampleSource::Take take = [&](const TrackSample& sample) {
+    samples.add(sample);
+    summariser.add(sample);
+  };
+  const bool is_axes = is_all && ends_with(options.from, ".funscript");
+  const TrackCondition condition =
+      is_axes ? read_axes(options.from, take) : read_track(options.from, take, save.axis);
   samples.flush();
   expect_own_track(condition);
   save.notes = condition.notes;
   const TrackSummary summary = summariser.summary();
+  if (!part) {
+    write_axes(options, samples, summary);
+    return kDone;
+  }
   if (ends_with(to, ".funscript")) {
     if (options.axis.empty()) save.axis = liveliest_channel(summary);
     std::cout << about_axis(summary, save.axis, !options.axis.empty());
@@ -164,8 +232,8 @@ int convert_track(const ConvertOptions& options) {
                                : ": the largest value fills the range; --gain 1 keeps it as it is")
               << '\n';
   }
-  save_track(part, samples, save);
-  publish(part);
+  save_track(*part, samples, save);
+  publish(*part);
   std::cout << lost_in(to, summary, save);
   return kDone;
 }

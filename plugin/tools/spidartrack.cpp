@@ -180,8 +180,9 @@ Prints what TO cannot hold.)");
     app->add_option(
            "--axis", convert_.axis,
            "the channel of a funscript: fx, fy, fz, tx, ty or tz; default: that with the most "
-           "motion, and fy when a funscript is read")
-        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz"}))
+           "motion, and fy when a funscript is read; all: six files, .surge .sway .twist .roll "
+           ".pitch.funscript and TO for the strongest")
+        ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz", kAllAxes}))
         ->type_name("CHANNEL");
     app->add_option("--gain", convert_.gain,
                     "factor for a funscript or AHAP; default: the largest value of the "

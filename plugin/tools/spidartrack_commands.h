@@ -25,6 +25,9 @@ struct CheckOptions {
   double max_force_N = 3, max_torque_Nm = 0.1;
 };
 
+/// ConvertOptions::axis of six funscripts.
+constexpr const char* kAllAxes = "all";
+
 struct ConvertOptions {
   std::string from, to;
   bool force = false;          ///< here and below: PartFile::Replaces::any

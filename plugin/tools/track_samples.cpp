@@ -27,14 +27,6 @@ namespace {
 /// Of HJIF and funscripts: a track of 24 hours has less.
 constexpr size_t kMostText_bytes = size_t{1} << 30;
 
-std::string read_text(const std::string& path) {
-  try {
-    return read_regular_file(path, kMostText_bytes);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
-}
-
 /// The sample of `block` at `time_ns`, if it lies at a whole millisecond there: those are copied
 /// bit by bit.
 std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns) {
@@ -130,6 +122,14 @@ void write_sound(const PartFile& part, const std::string& encoder, const SampleF
 
 }  // namespace
 
+std::string read_text(const std::string& path) {
+  try {
+    return read_regular_file(path, kMostText_bytes);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() &&
          g_ascii_strcasecmp(text.c_str() + text.size() - end.size(), end.c_str()) == 0;
@@ -197,7 +197,8 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
   } else if (ends_with(path, ".ahap")) {
     write_ahap(source, write, options.tolerance.value_or(kAhapTolerance), options.gain);
   } else {
-    write_funscript(source, options.axis, write, options.tolerance.value_or(kFunscriptTolerance));
+    write_funscript(source, options.axis, write, options.tolerance.value_or(kFunscriptTolerance),
+                    options.gain);
   }
   part.write(waiting);
   part.check_written();

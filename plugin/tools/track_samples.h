@@ -62,6 +62,9 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
+/// Of HJIF or a funscript. Throws std::runtime_error, which names the file.
+std::string read_text(const std::string& path);
+
 /// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);
 

@@ -59,6 +59,33 @@ class Conversion(track_case.TrackCase):
         self.assertEqual(len(read), 101)
         self.assertEqual((read[50], read[100]), ((.5, 0, 0, 0, 0, 0), (1, 0, 0, 0, 0, 0)))
 
+    def test_six_funscripts_have_all_axes_and_are_read_back(self):
+        peaks = (.2, .1, .05, .02, .01, .004)
+        self.make_track(sample=lambda ms: [peak * math.sin(.02 * ms + i) for i, peak in enumerate(peaks)])
+        said = self.spidartrack("convert", "a.wav", "a.funscript", "--axis", "all")
+        # Sideways is the strongest; the vertical force has the name of that.
+        for name, channel, gain in (("a", "fx", "5"), ("a.sway", "fy", "5"), ("a.surge", "fz", "5"), ("a.pitch", "tx", "50"),
+                                    ("a.twist", "ty", "50"), ("a.roll", "tz", "50")):
+            self.assertIn(f"{name}.funscript: {channel}, gain {gain}\n", said)
+        said = self.spidartrack("convert", "a.funscript", "back.wav", "--axis", "all")
+        self.assertIn("a.twist.funscript: ty, gain 50 taken back\n", said)
+        before, after = self.samples("a.wav"), self.samples("back.wav")
+        self.assertEqual(len(after), len(before))
+        for channel in range(6):
+            # The tolerance of the curve and half a position, by the gain.
+            gain = 5 if channel < 3 else 50
+            self.assertLessEqual(max(abs(a[channel] - b[channel]) for a, b in zip(before, after)), (.01 + .01) / gain + 1e-6)
+        self.path("a.twist.funscript").write_text("kept")
+        self.path("a.funscript").unlink()
+        self.assert_said("a.twist.funscript: exists", "convert", "a.wav", "a.funscript", "--axis", "all")
+        self.assertEqual(self.path("a.twist.funscript").read_text(), "kept")
+        self.assertFalse(self.path("a.funscript").exists())
+        self.path("a.twist.funscript").unlink()
+        self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
+        self.assertIn("a.twist.funscript: is not there; ty is at rest",
+                      self.spidartrack("convert", "a.funscript", "back.wav", "--axis", "all", "--force"))
+        self.assert_said("--axis is for .funscript", "convert", "a.wav", "b.flac", "--axis", "all", status=2)
+
     def test_a_funscript_has_the_axis_with_the_most_motion(self):
         self.make_track(sample=lambda ms: (.02 * math.sin(.05 * ms), 0, .3 * (ms == 500), 0, 0, .01))
         self.assertIn("axis fx, which has the most motion; --axis chooses another\ngain 50:",
