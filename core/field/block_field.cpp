@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "core/quantile.h"
 
 namespace spidar {
@@ -53,10 +51,6 @@ bool is_finite_motion(const Vector2f& moved_px) {
   return std::abs(moved_px.x()) < kMost_px && std::abs(moved_px.y()) < kMost_px;
 }
 
-BlockPixels pixels_at(const PaddedImage& picture, const Vector2i& corner_px) {
-  return {picture.row(corner_px.y()) + corner_px.x(), picture.stride()};
-}
-
 /// A position between pixels.
 struct Position {
   Vector2i pixel;
@@ -83,18 +77,19 @@ void BlockField::resize(const PaddedImage& base) {
 
 void BlockField::reduce(const PaddedImage& base) {
   reduce_to_field(base, scale_, now_);
-  reduce_blocks(now_.view(), kCoarser, coarse_now_);
-  coarse_now_.repeat_border();
+  reduce_blocks(now_.view(), kCoarser, coarse_.now);
+  coarse_.now.repeat_border();
 }
 
 /// Nothing but the picture is known. Nothing of what was before a cut is left, either, so that an
 /// analysis that begins before a cut goes on behind it as every other one does.
 void BlockField::begin() {
   has_picture_ = true;
+  pictures_back_ = 0;
   grid_ = BlockGrid::over(now_.width(), now_.height());
   matches_.assign(grid_.size(), BlockMatch());
-  coarse_grid_ = BlockGrid::over(coarse_now_.width(), coarse_now_.height());
-  coarse_matches_.assign(coarse_grid_.size(), BlockMatch());
+  coarse_.grid = BlockGrid::over(coarse_.now.width(), coarse_.now.height());
+  coarse_.matches.assign(coarse_.grid.size(), BlockMatch());
   blocks_.assign(grid_.size(), MotionBlock());
   textured_.reserve(blocks_.size());
   residuals_.reserve(blocks_.size());
@@ -102,23 +97,29 @@ void BlockField::begin() {
 
 BlockField::Result BlockField::update(const PaddedImage& base) {
   if (base.width() != base_width_ || base.height() != base_height_) resize(base);
-  std::swap(before_, now_);
-  std::swap(coarse_before_, coarse_now_);
+  std::rotate(earlier_.begin(), earlier_.end() - 1, earlier_.end());
+  std::swap(earlier_.front(), now_);
+  std::swap(coarse_.before, coarse_.now);
   reduce(base);
   if (!has_picture_) {
     begin();
-    before_.resize(now_.width(), now_.height());
+    earlier_.front().resize(now_.width(), now_.height());
     return Result::kFirst;
   }
-  compensate_light(coarse_before_, coarse_now_, before_);
+  compensate_light(coarse_.before, coarse_.now, earlier_.front());
   find_hints();
-  search_.find(before_, now_, grid_, hints_, matches_);
+  search_.find(before(), now_, grid_, hints_, matches_);
   if (is_cut()) {
     begin();
     return Result::kCut;
   }
-  for (size_t i = 0; i < blocks_.size(); ++i) refine(i);
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    blocks_[i] = refined_block(before(), now_, grid_.corner_of(i), matches_[i],
+                               MotionBlock::kRegularization);
+  }
   measure_noise();
+  pictures_back_ = std::min(pictures_back_ + 1, kMostBack);
+  stands_still_ = false;
   return Result::kMoved;
 }
 
@@ -171,17 +172,18 @@ BlockField::Match BlockField::match_of(size_t block) const {
 /// the others and is searched over the whole range: this finds objects that have jumped.
 void BlockField::find_hints() {
   hints_.clear();
-  if (coarse_grid_.size() == 0) return;
-  search_.find(coarse_before_, coarse_now_, coarse_grid_, hints_, coarse_matches_);
+  if (coarse_.grid.size() == 0) return;
+  search_.find(coarse_.before, coarse_.now, coarse_.grid, hints_, coarse_.matches);
   for (size_t i = 0; i < grid_.size(); ++i) {
     const Vector2i middle_px = grid_.corner_of(i) + Vector2i::Constant(kBlock_px / 2);
-    BlockMatch hint = coarse_matches_[coarse_grid_.block_at((middle_px / kCoarser).cast<double>())];
+    BlockMatch hint = coarse_.matches[coarse_.grid.block_at((middle_px / kCoarser).cast<double>())];
     hint.from_px *= kCoarser;
     hints_.push_back(hint);
   }
 }
 
 void BlockField::stand_still() {
+  stands_still_ = true;
   for (BlockMatch& match : matches_) match = BlockMatch();
   for (MotionBlock& block : blocks_) {
     block.moved_px.setZero();
@@ -189,36 +191,6 @@ void BlockField::stand_still() {
     block.difference = 0;
   }
   noise_grey2_ = 0;
-}
-
-void BlockField::refine(size_t index) {
-  const BlockMatch& match = matches_[index];
-  const Vector2i corner_px = grid_.corner_of(index);
-  const BlockSums s =
-      compare_blocks(pixels_at(now_, corner_px), pixels_at(before_, corner_px + match.from_px));
-
-  // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
-  const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kBlockArea_px; };
-  const Vector2f g(mean(s.x), mean(s.y));
-  const float d = mean(s.difference);
-  MotionBlock& block = blocks_[index];
-  Eigen::Matrix2f& S = block.structure;
-  S << mean(s.xx), mean(s.xy), mean(s.xy), mean(s.yy);
-  S = (S - g * g.transpose()) / 16;
-  const Vector2f gd = (Vector2f(mean(s.xd), mean(s.yd)) - g * d) / 4;
-  const float dd = mean(s.squared) - d * d;
-
-  // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
-  const Eigen::Matrix2f regularized =
-      S + MotionBlock::kRegularization * Eigen::Matrix2f::Identity();
-  const Vector2f e = (-(regularized.inverse() * gd)).cwiseMax(-kMostOff_px).cwiseMin(kMostOff_px);
-  const float left = dd + 2 * e.dot(gd) + e.dot(S * e);
-  block.centre_px =
-      corner_px.cast<float>() +
-      0.5f * (Vector2i::Constant(kBlock_px) - Vector2i(now_.width(), now_.height())).cast<float>();
-  block.moved_px = e - match.from_px.cast<float>();
-  block.residual = std::max(0.0f, left);
-  block.difference = match.difference;
 }
 
 /// Whether a block may begin between this pixel and the next ones in both directions.
@@ -247,13 +219,27 @@ int BlockField::difference_if_moved(size_t block, const Vector2f& moved_px) cons
   const Position from(corner_px, -moved_px);
   if (!is_in_reach(from.pixel)) return -1;
   const BlockPixels here = pixels_at(now_, corner_px);
-  int least = bilinear_difference(here, pixels_at(before_, from.pixel), from.fraction.x(),
+  int least = bilinear_difference(here, pixels_at(before(), from.pixel), from.fraction.x(),
                                   from.fraction.y());
   for (const Vector2i& next : {Vector2i(0, 0), Vector2i(1, 0), Vector2i(0, 1), Vector2i(1, 1)}) {
-    const BlockPixels there = pixels_at(before_, from.pixel + next);
+    const BlockPixels there = pixels_at(before(), from.pixel + next);
     least = std::min(least, block_difference(here, there, least));
   }
   return least;
+}
+
+std::optional<int> BlockField::better_if_moved(size_t block, int back,
+                                               const Vector2i& from_px) const {
+  const Vector2i corner_px = grid_.corner_of(block);
+  const Vector2i begin_px = corner_px + from_px;
+  const Vector2i end_px = begin_px + Vector2i::Constant(kBlock_px);
+  if (begin_px.minCoeff() < 0 || end_px.x() > now_.width() || end_px.y() > now_.height()) {
+    return std::nullopt;
+  }
+  const PaddedImage& then = earlier_[static_cast<size_t>(back - 1)];
+  const BlockPixels here = pixels_at(now_, corner_px);
+  return cell_difference(here, pixels_at(then, corner_px)) -
+         cell_difference(here, pixels_at(then, begin_px));
 }
 
 StayingPixels BlockField::staying_pixels(size_t block, const Vector2f& moved_px,
@@ -266,8 +252,8 @@ StayingPixels BlockField::staying_pixels(size_t block, const Vector2f& moved_px,
   const auto moved = [](const PaddedImage& picture, const Position& at) {
     return MovedBlock{pixels_at(picture, at.pixel), at.fraction.x(), at.fraction.y()};
   };
-  return spidar::staying_pixels(pixels_at(now_, corner_px), pixels_at(before_, corner_px),
-                                moved(before_, from), moved(now_, to));
+  return spidar::staying_pixels(pixels_at(now_, corner_px), pixels_at(before(), corner_px),
+                                moved(before(), from), moved(now_, to));
 }
 
 }  // namespace spidar

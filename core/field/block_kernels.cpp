@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
+#include <array>
+#include <cstdlib>
+
 #include "core/picture/vectors.h"
 
 namespace spidar {
@@ -126,6 +129,22 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
     exact += cv::v_reduce_sad(stays & (changed == none), none);
   }
   return {static_cast<int>(near), static_cast<int>(exact)};
+}
+
+int cell_difference(BlockPixels a, BlockPixels b) {
+  int sum = 0;
+  for (int top = 0; top < kBlock_px; top += kCell_px) {
+    std::array<int, kBlock_px> column{};
+    for (int y = top; y < top + kCell_px; ++y) {
+      const uint8_t* p = a.pixels + y * a.stride;
+      const uint8_t* q = b.pixels + y * b.stride;
+      for (size_t x = 0; x < kBlock_px; ++x) column[x] += p[x] - q[x];
+    }
+    for (size_t x = 0; x < kBlock_px; x += kCell_px) {
+      sum += std::abs(column[x] + column[x + 1] + column[x + 2] + column[x + 3]);
+    }
+  }
+  return sum;
 }
 
 BlockSums compare_blocks(BlockPixels now, BlockPixels before) {

@@ -71,6 +71,12 @@ struct MovedBlock {
 /// that sum.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 
+/// Side of a cell of a block, px. The mean over a cell has a quarter of the noise of a pixel.
+constexpr int kCell_px = 4;
+
+/// Σ |a − b| of the sums over the cells of two blocks.
+int cell_difference(BlockPixels a, BlockPixels b);
+
 /// Σ |now − before|, where `before` is read `fraction_x`, `fraction_y` (0 … kFractionOne) of a
 /// pixel further to the right and down, interpolated and rounded to whole grey levels. Reads one
 /// extra column and row.

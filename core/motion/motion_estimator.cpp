@@ -20,10 +20,6 @@ FieldPosition position_of(const BlockField& field, const ReducedFrame& reduced) 
 
 }  // namespace
 
-MotionEstimator::MotionEstimator() {
-  votes_.cast.reserve(kMostDisplacements);
-}
-
 void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& position) {
   const std::vector<uint32_t>& owners = objects_.owners();
   of_objects_.reserve(owners.size());
@@ -54,7 +50,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   if (reduced.picture() == PictureKind::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
-    estimator_.reset();
+    camera_.reset();
     objects_.reset();
     dominant_.reset();
     windows_.reset();
@@ -64,17 +60,16 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   const double interval_s = frame.interval_s();
   const FieldPosition position = position_of(field_, reduced);
   const std::vector<FineMotion>& fine = windows_.find(image, field_, position);
-  collect_votes(field_, objects_.past(), votes_);
-  const Background& background = estimator_.estimate(votes_);
+  const Background& background = camera_.find(field_, objects_.past());
   frame.background = in_pixels_of(background, position.scale);
-  frame.votes = static_cast<int>(votes_.cast.size());
+  frame.votes = static_cast<int>(camera_.votes());
   // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
   // of a vote, or none.
   const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
   const FieldInFrame in_frame{field_, position.scale, position.centre_px - middle_px, interval_s,
                               fine};
   const std::vector<MovingObject>& objects = objects_.update(in_frame, background);
-  estimator_.learn_noise(votes_, [this](size_t block) { return objects_.moves(block); });
+  camera_.learn_noise([this](size_t block) { return objects_.moves(block); });
   frame.objects = objects;
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);
   frame.dominant = dominant ? dominant->id : 0;
@@ -87,7 +82,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
 void MotionEstimator::reset() {
   windows_.reset();
   field_.restart();
-  estimator_.reset();
+  camera_.reset();
   objects_.reset();
   dominant_.reset();
 }

@@ -8,8 +8,7 @@
 
 #include "core/field/block_field.h"
 #include "core/field/fine_windows.h"
-#include "core/motion/camera/background.h"
-#include "core/motion/camera/block_votes.h"
+#include "core/motion/camera/camera_choice.h"
 #include "core/motion/measured_frame.h"
 #include "core/motion/objects/dominant_object.h"
 #include "core/motion/objects/object_tracker.h"
@@ -22,8 +21,6 @@ namespace spidar {
 /// the first frames of a size.
 class MotionEstimator {
  public:
-  MotionEstimator();
-
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
   /// `interval_ns` > 0 is since the one before. False when there is nothing to compare with: the
   /// first picture, another size, or a cut.
@@ -37,8 +34,7 @@ class MotionEstimator {
   void report_tracks(const FieldPosition& position, std::vector<Track>& tracks) const;
 
   BlockField field_;
-  BackgroundVotes votes_;
-  BackgroundEstimator estimator_;
+  CameraChoice camera_;
   ObjectTracker objects_;
   DominantObject dominant_;
   FineWindows windows_;

@@ -29,6 +29,23 @@ inline int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return sum;
 }
 
+inline int cell_difference(BlockPixels a, BlockPixels b) {
+  int sum = 0;
+  for (int cell = 0; cell < kBlockArea_px; cell += kCell_px * kCell_px) {
+    const int cells = kBlock_px / kCell_px;
+    const int left = cell / (kCell_px * kCell_px) % cells * kCell_px;
+    const int top = cell / (kCell_px * kCell_px) / cells * kCell_px;
+    int difference = 0;
+    for (int i = 0; i < kCell_px * kCell_px; ++i) {
+      const int x = left + i % kCell_px;
+      const int y = top + i / kCell_px;
+      difference += a.pixels[y * a.stride + x] - b.pixels[y * b.stride + x];
+    }
+    sum += std::abs(difference);
+  }
+  return sum;
+}
+
 inline int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x,
                                int fraction_y) {
   int sum = 0;

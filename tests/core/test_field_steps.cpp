@@ -70,6 +70,7 @@ TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
       }
       EXPECT_EQ(bilinear_difference(now, before, k % 17, (3 * k) % 17),
                 plain::bilinear_difference(now, before, k % 17, (3 * k) % 17));
+      EXPECT_EQ(cell_difference(now, before), plain::cell_difference(now, before));
       // Half of the pixels stay, some of them exactly.
       PaddedImage changed = a;
       for (int i = 0; i < 64; ++i) {

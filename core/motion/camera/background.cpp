@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/field/block_kernels.h"
 #include "core/quantile.h"
 
 namespace spidar {
@@ -25,6 +26,13 @@ constexpr double kLeastReach_px = 0.45;
 /// the ρ of an outlier is 4.
 constexpr double kExplained = 0.3;
 
+/// Two positions are connected if they are less than this apart in x and in y, px: blocks side by
+/// side are kBlock_px apart.
+constexpr double kConnected_px = 1.5 * kBlock_px;
+/// A thing is cut by so many borders of the picture at most, as a person of whom half is visible. A
+/// part of the scene that a straight edge bounds, as ground, ice or a wall, is cut by two or more.
+constexpr int kMostBorders = 1;
+
 ModelKind next(ModelKind kind, int step) {
   return static_cast<ModelKind>(static_cast<int>(kind) + step);
 }
@@ -39,6 +47,10 @@ double BackgroundVotes::sum() const {
 
 bool BackgroundVotes::are_few() const {
   return cast.size() < kLeastVotes || sum() < kMostObject * all;
+}
+
+bool BackgroundVotes::are_many() const {
+  return cast.size() >= kLeastVotes && sum() >= kTexturedFraction * all;
 }
 
 Background in_pixels_of(const Background& background, double scale) {
@@ -83,11 +95,35 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   is_textured_ = voting_ >= kTexturedFraction * votes.all;
 }
 
+/// Takes away all positions that are connected to `middle_px`, if together they are one thing
+/// however large.
+void BackgroundEstimator::take_connected_to(const Eigen::Vector2d& middle_px,
+                                            const Eigen::Vector2d& size_px) {
+  const auto middle = std::find(positions_px_.begin(), positions_px_.end(), middle_px);
+  std::iter_swap(positions_px_.begin(), middle);
+  const Eigen::Array2d inner_px = size_px.array() / 2 - kBlock_px;
+  bool left = false, right = false, above = false, below = false;
+  auto end = positions_px_.begin() + 1;  // of those that are connected
+  for (auto it = positions_px_.begin(); it != end; ++it) {
+    left |= it->x() < -inner_px.x();
+    right |= it->x() > inner_px.x();
+    above |= it->y() < -inner_px.y();
+    below |= it->y() > inner_px.y();
+    end = std::partition(end, positions_px_.end(), [&](const Eigen::Vector2d& other_px) {
+      return (other_px - *it).cwiseAbs().maxCoeff() < kConnected_px;
+    });
+  }
+  if (left + right + above + below > kMostBorders) return;
+  positions_px_.erase(positions_px_.begin(), end);
+}
+
 /// Whether the positions_px_, which it empties, are of more than one object in front of a plain
 /// background, or of more than two if the model is above a translation. That is so when kLeastVotes
 /// are left after the objects have been taken away: circles that cover kMostObject of the
-/// picture, each around a position with the most others in it.
-bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& size_px) {
+/// picture, each around a position with the most others in it; and, if they all move alike, what is
+/// connected to that position.
+bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
+                                        const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
   const double radius_px2 = kMostObject * size_px.prod() / M_PI;
   for (int n = 0; n < objects; ++n) {
@@ -105,11 +141,13 @@ bool BackgroundEstimator::is_background(ModelKind kind, const Eigen::Vector2d& s
       middle_px = positions_px_[i];
     }
     if (positions_px_.size() < most + kLeastVotes) return false;
+    if (move_alike) take_connected_to(middle_px, size_px);
     const auto is_its = [&](const Eigen::Vector2d& position_px) {
       return (position_px - middle_px).squaredNorm() <= radius_px2;
     };
     positions_px_.erase(std::remove_if(positions_px_.begin(), positions_px_.end(), is_its),
                         positions_px_.end());
+    if (positions_px_.size() < kLeastVotes) return false;
   }
   return true;
 }
@@ -125,19 +163,26 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
     positions_px_.push_back(vote.point.at_px);
   }
   scored.coverage = votes.all > 0 ? sum / votes.all : 0;
-  if (scored.model.kind == ModelKind::kStill || is_textured_) return true;
-  return is_background(scored.model.kind, votes.size_px);
+  if (scored.model.kind == ModelKind::kStill || is_textured_ || votes.of_areas) return true;
+  if (is_background(scored.model.kind, true, votes.size_px)) return true;
+  if (!of_objects_ || scored.coverage > of_objects_->coverage) of_objects_ = scored;
+  return false;
 }
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
 /// others may be those of objects in front of a plain background, which it is not if most of the
-/// picture is new.
+/// picture is new. What has been taken for objects moves alike: it is left out, lest it count as
+/// several.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
   if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;
   positions_px_.clear();
-  for (const BackgroundVote& vote : votes.cast) positions_px_.push_back(vote.point.at_px);
-  return !is_background(ModelKind::kSimilarity, votes.size_px);
+  for (const BackgroundVote& vote : votes.cast) {
+    const bool is_its =
+        of_objects_ && point_cost(of_objects_->model, vote.point, evidence_.sigma_px) < kMostCost;
+    if (!is_its) positions_px_.push_back(vote.point.at_px);
+  }
+  return !is_background(ModelKind::kSimilarity, false, votes.size_px);
 }
 
 /// Returns false when the votes do not determine such a model, or when it does not cover the
@@ -211,15 +256,10 @@ void BackgroundEstimator::learn_noise() {
   noise_px_ += kNewestWeight * (std::max(found_px, kSharedError_px) - noise_px_);
 }
 
-const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
+Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   fitted_ = 0;
-  if (votes.cast.size() < kLeastVotes) {
-    background_.model = MotionModel();
-    background_.coverage = 0;
-    background_.is_known = !votes.are_lost;
-    background_.sigma_px = noise_px_;
-    return background_;
-  }
+  of_objects_.reset();
+  if (votes.cast.size() < kLeastVotes) return {MotionModel(), noise_px_, 0, !votes.are_lost};
   weigh(votes);
   known_.assign({MotionModel(), background_.model});
   const MotionModel start = fitter_.start(evidence_, known_);
@@ -230,11 +270,8 @@ const Background& BackgroundEstimator::estimate(const BackgroundVotes& votes) {
   }
   const bool climbed = !is_explained(current.model) && climb(start, votes, current);
   if (!climbed && current.model.kind != ModelKind::kStill) descend(start, votes, current);
-  background_.is_known = is_proven(current, votes);
-  background_.model = background_.is_known ? current.model : MotionModel();
-  background_.coverage = background_.is_known ? current.coverage : 0;
-  background_.sigma_px = noise_px_;
-  return background_;
+  if (!is_proven(current, votes)) return {MotionModel(), noise_px_, 0, false};
+  return {current.model, noise_px_, current.coverage, true, votes.of_areas};
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 /// Finds the motion of the background, and thereby that of the camera.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/motion/camera/motion_models.h"
@@ -36,11 +37,15 @@ struct BackgroundVotes {
   /// Votes are few because most of the picture is not found in the one before, as when it fades
   /// while the camera moves fast. Only a plain background may be taken for one at rest.
   bool are_lost = false;
+  /// Each is of an area so large that no object has several to itself.
+  bool of_areas = false;
 
   /// Votes of all points together, without their weights.
   double sum() const;
   /// Whether a single object could have cast them all, or they are too few for any model.
   bool are_few() const;
+  /// Whether two objects could not have cast them all.
+  bool are_many() const;
 };
 
 /// The same background in smaller pixels: `scale` of them make one of the old.
@@ -51,10 +56,11 @@ Background in_pixels_of(const Background& background, double scale);
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When so few votes are cast that two objects may have them all, a translation
 /// needs votes in two positions that are too far apart for one object, and a model above it needs
-/// them in three. Rest needs none, because a plain background shows none. But where there are votes
-/// in three positions, more than objects have, and hardly any agrees with the model that explains
-/// them best, the camera's motion is unknown. It is also unknown if votes are few because most of
-/// the picture is new.
+/// them in three. Votes that agree and are connected are one object's, however large, unless two
+/// borders of the picture cut it. Rest needs none, because a plain background shows none. But where
+/// there are votes in three positions, more than objects have, and hardly any agrees with the model
+/// that explains them best, the camera's motion is unknown. It is also unknown if votes are few
+/// because most of the picture is new.
 ///
 /// Models compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil.
 /// Trans. R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r =
@@ -65,11 +71,14 @@ class BackgroundEstimator {
  public:
   BackgroundEstimator();
 
-  /// Votes of one frame.
-  const Background& estimate(const BackgroundVotes& votes);
+  /// What the votes of one frame say. Nothing is kept of it.
+  Background propose(const BackgroundVotes& votes);
+  /// The next frame is compared with this.
+  const Background& keep(const Background& background) { return background_ = background; }
 
-  /// Learns the noise of the displacements from the votes of the last estimate(), for use in the
-  /// next one. Votes for which `moves(source)` is true are left out: they move by themselves.
+  /// Learns the noise of the displacements from the votes on the background that was kept, for use
+  /// in the next frame. Votes for which `moves(source)` is true are left out: they move by
+  /// themselves.
   template <typename Moves>
   void learn_noise(const BackgroundVotes& votes, Moves&& moves) {
     residuals_px_.clear();
@@ -99,7 +108,8 @@ class BackgroundEstimator {
 
   void weigh(const BackgroundVotes& votes);
   bool covers(Scored& scored, const BackgroundVotes& votes);
-  bool is_background(ModelKind kind, const Eigen::Vector2d& size_px);
+  bool is_background(ModelKind kind, bool move_alike, const Eigen::Vector2d& size_px);
+  void take_connected_to(const Eigen::Vector2d& middle_px, const Eigen::Vector2d& size_px);
   bool is_proven(const Scored& chosen, const BackgroundVotes& votes);
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);
@@ -113,6 +123,7 @@ class BackgroundEstimator {
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
   std::vector<Eigen::Vector2d> positions_px_;  ///< of the votes that agree with a model
+  std::optional<Scored> of_objects_;  ///< the model with most votes that is not the background's
   double effective_points_ = 0;
   double voting_ = 0;         ///< votes of all points together
   bool is_textured_ = false;  ///< most of the picture votes

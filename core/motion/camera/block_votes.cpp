@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/field/areas.h"
+
 namespace spidar {
 namespace {
 
@@ -15,19 +17,39 @@ constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
-enum class Voters { kTextured, kEdgesToo };
+/// A vote counts the more, the more structure the block has in both directions and the better its
+/// motion fits, and half for a block that moved by itself until now. What comes from the coarse
+/// picture needs less texture, see kOfAreas.
+double weight_of(const MotionBlock& block, double of_texture, float persistence) {
+  const double texture = static_cast<double>(block.weakest_texture());
+  return texture / (texture + of_texture * kFullTexture) /
+         (1 + static_cast<double>(block.residual) / kBadResidual) *
+         (1 - static_cast<double>(persistence) / 2);
+}
 
-/// Textured blocks vote on the camera's motion. A vote counts the more, the more structure the
-/// block has in both directions and the better its motion fits; it counts twice at the border of
-/// the picture, and half for a block that moved by itself until now. Rest at the border counts
-/// once: graphics are mostly there, whereas a camera at rest shows it all over the picture. How an
-/// edge moves along itself is not known; edges therefore vote only where little else does, as in a
-/// picture out of focus. Returns whether the voters together have edges in more than one direction.
-bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
+BackgroundVote vote_of(const MotionBlock& block, double weight, bool at_border, size_t source) {
+  const Eigen::Vector2d moved_px = block.moved_px.cast<double>();
+  return {{block.centre_px.cast<double>() - moved_px, moved_px}, weight, at_border, source};
+}
+
+void begin(BackgroundVotes& votes) {
   votes.cast.clear();
   votes.all = 0;
-  votes.with_edges = voters == Voters::kEdgesToo;
+  votes.with_edges = false;
   votes.are_lost = false;
+  votes.of_areas = false;
+}
+
+enum class Voters { kTextured, kEdgesToo };
+
+/// Textured blocks vote on the camera's motion, and count twice at the border of the picture. Rest
+/// at the border counts once: graphics are mostly there, whereas a camera at rest shows it all over
+/// the picture. How an edge moves along itself is not known; edges therefore vote only where little
+/// else does, as in a picture out of focus. Returns whether the voters together have edges in more
+/// than one direction.
+bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
+  begin(votes);
+  votes.with_edges = voters == Voters::kEdgesToo;
   Eigen::Matrix2f together = Eigen::Matrix2f::Zero();
   const BlockGrid& grid = field.grid();
   const int left = past.margin_columns;
@@ -43,32 +65,64 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
     const bool may_vote =
         votes.with_edges ? block.has_texture() && texture > 0 : block.has_corners();
     if (!may_vote || votes.cast.size() >= kMostDisplacements) continue;
-    if (!past.burned_in.empty() && past.burned_in[i] != 0) continue;
-    double weight = texture / (texture + kFullTexture) /
-                    (1 + static_cast<double>(block.residual) / kBadResidual);
+    if (past.is_burned_in(i)) continue;
+    double weight = weight_of(block, 1, past.persistence_of(field.origin_of(i)));
     // Right to half a pixel, as all motion is before it is refined.
     const bool rests = std::hypot(block.moved_px.x(), block.moved_px.y()) < kMostOff_px / 2;
     if (at_border && !rests) weight *= kBorderVotes;
-    if (!past.persistence.empty()) {
-      weight *= 1 - static_cast<double>(past.persistence[field.origin_of(i)]) / 2;
-    }
-    const Eigen::Vector2d moved_px = block.moved_px.cast<double>();
-    const Displacement point{block.centre_px.cast<double>() - moved_px, moved_px};
-    votes.cast.push_back({point, weight, at_border, i});
+    votes.cast.push_back(vote_of(block, weight, at_border, i));
     together += block.structure / block.structure.trace();
   }
   return static_cast<double>(roundness(together)) > MotionBlock::kLeastRoundness;
+}
+
+/// Whether most of the blocks of an area vote themselves. `middle_px` is from the picture's corner.
+bool has_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
+  int corners = 0;
+  for (int y = 0; y < kCoarser; ++y) {
+    for (int x = 0; x < kCoarser; ++x) {
+      const Eigen::Vector2d off =
+          Eigen::Vector2d(x, y) - Eigen::Vector2d::Constant((kCoarser - 1) / 2.0);
+      corners += field.blocks()[field.grid().block_at(middle_px + kBlock_px * off)].has_corners();
+    }
+  }
+  return corners > kCoarser * kCoarser / 2;
 }
 
 }  // namespace
 
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
   collect(field, past, Voters::kTextured, votes);
-  if (!votes.are_few()) return;
+}
+
+void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes) {
   if (!collect(field, past, Voters::kEdgesToo, votes)) {
     collect(field, past, Voters::kTextured, votes);
   }
   votes.are_lost = field.are_lost([](size_t) { return true; });
+}
+
+void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
+                   BackgroundVotes& votes) {
+  begin(votes);
+  votes.of_areas = true;
+  const Eigen::Vector2d picture_px(field.picture().width(), field.picture().height());
+  const Eigen::Vector2d margin_px(past.margin_columns * kBlock_px, past.margin_rows * kBlock_px);
+  votes.size_px = picture_px - 2 * margin_px;
+  constexpr double kHalf_px = kCoarser * kBlock_px / 2;
+  for (const MotionBlock& area : areas) {
+    const Eigen::Vector2d centre_px = area.centre_px.cast<double>();
+    const double inside_px = (votes.size_px / 2 - centre_px.cwiseAbs()).minCoeff() - kHalf_px;
+    if (inside_px < -kCoarser) continue;
+    const bool at_border = inside_px < kBorderBlocks * kBlock_px;
+    votes.all += at_border ? kBorderVotes : 1;
+    if (area.weakest_texture() < kOfAreas * MotionBlock::kLeastTexture) continue;
+    const size_t middle = field.grid().block_at(centre_px + picture_px / 2);
+    if (past.is_burned_in(middle) || has_corners(field, centre_px + picture_px / 2)) continue;
+    const double weight = weight_of(area, static_cast<double>(kOfAreas),
+                                    past.persistence_of(field.origin_of(middle)));
+    votes.cast.push_back(vote_of(area, weight, at_border, middle));
+  }
 }
 
 }  // namespace spidar

@@ -20,10 +20,17 @@ struct Past {
   /// Blocks of bars and frames around the film, on each side.
   int margin_columns = 0;
   int margin_rows = 0;
+
+  float persistence_of(size_t block) const { return persistence.empty() ? 0 : persistence[block]; }
+  bool is_burned_in(size_t block) const { return !burned_in.empty() && burned_in[block] != 0; }
 };
 
-/// Sets `votes` to those of the textured blocks of `field`. Where little else votes, edges do, too,
-/// if together they have more than one direction.
+/// Sets `votes` to those of the textured blocks of `field`.
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes);
+/// The same with edges, if together they have more than one direction: where little else votes.
+void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes);
+/// Sets `votes` to those of `areas`, see find_areas().
+void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
+                   BackgroundVotes& votes);
 
 }  // namespace spidar

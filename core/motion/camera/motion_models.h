@@ -60,6 +60,7 @@ struct Background {
   /// model: how the camera moves is unknown, and with it what moves by itself. The model is 'still'
   /// then, and `coverage` 0.
   bool is_known = true;
+  bool is_of_areas = false;  ///< areas of several blocks showed it, of which few had texture
 };
 
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// How areas of a picture out of focus move, and what its plain parts show.
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/field/areas.h"
+#include "core/motion/camera/plain_parts.h"
+#include "tests/core/field_film.h"
+#include "tests/support/texture.h"
+
+namespace spidar::test::areas_test {
+namespace {
+
+/// Of a wall out of focus, of which `stains` is the contrast, that has moved by `moved_px`; with
+/// noise of a standard deviation of one grey level.
+PaddedImage wall(double stains, const Eigen::Vector2d& moved_px, uint32_t seed) {
+  const Texture texture(1, 24);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, 1);
+  Picture picture(kFieldWidth, kFieldHeight);
+  picture.fill([&](double x, double y) {
+    const double stain = texture.at(x - moved_px.x(), y - moved_px.y()) - 128;
+    return 128 + stains * stain + noise(random);
+  });
+  PaddedImage padded;
+  reduce_blocks(picture.view(), 1, padded);
+  padded.repeat_border();
+  return padded;
+}
+
+const Eigen::Vector2d kPan_px(5, -2);
+
+/// After so many pictures of a pan.
+BlockField field_after(int pictures, double stains, const Eigen::Vector2d& pan_px) {
+  BlockField field;
+  for (int n = 0; n < pictures; ++n) {
+    field.update(wall(stains, n * pan_px, static_cast<uint32_t>(n)));
+  }
+  return field;
+}
+
+TEST(Areas, MoveAsThePictureDoesWhereNoBlockShowsIt) {
+  BlockField field = field_after(2, 0.4, kPan_px);
+  size_t corners = 0;
+  for (const MotionBlock& block : field.blocks()) corners += block.has_corners();
+  ASSERT_LT(corners, field.blocks().size() / 20);
+  std::vector<MotionBlock> areas;
+  find_areas(field, areas);
+  // Four by four blocks each, half overlapping.
+  ASSERT_EQ(areas.size(),
+            static_cast<size_t>((field.grid().columns / 2 - 1) * (field.grid().rows / 2 - 1)));
+  size_t right = 0;
+  for (const MotionBlock& area : areas) {
+    // A tenth of a pixel, as of blocks, but of the coarse picture.
+    right += (area.moved_px.cast<double>() - kPan_px).norm() < 0.1 * kCoarser;
+  }
+  // Those of the two borders that the picture leaves were not whole before.
+  EXPECT_GT(right, areas.size() * 3 / 4);
+  field.stand_still();
+  find_areas(field, areas);
+  EXPECT_TRUE(areas.empty());
+}
+
+TEST(PlainParts, TellAPanFromRestAndFromNoise) {
+  const std::vector<float> persistence;
+  const std::vector<uint8_t> burned_in;
+  const MotionModel pan = background_moved_by(kPan_px).model;
+  const auto have_moved = [&](double stains, const Eigen::Vector2d& moved_px) {
+    const BlockField field = field_after(kMostBack + 1, stains, moved_px);
+    PlainParts plain;
+    for (int n = 1; n < kMostBack; ++n) plain.remember(field, pan);
+    return plain.have_moved(field, {persistence, burned_in}, pan);
+  };
+  EXPECT_TRUE(have_moved(0.1, kPan_px));
+  EXPECT_FALSE(have_moved(0.1, {0, 0}));
+  EXPECT_FALSE(have_moved(0, {0, 0}));
+}
+
+TEST(PlainParts, AreComparedWithPicturesBeforeARepeatedOne) {
+  BlockField field = field_after(3, 0.1, kPan_px);
+  EXPECT_EQ(field.pictures_back(), 2);
+  field.stand_still();
+  EXPECT_EQ(field.pictures_back(), 0);
+  field.update(wall(0.1, 3 * kPan_px, 3));
+  EXPECT_EQ(field.pictures_back(), 3);
+}
+
+}  // namespace
+}  // namespace spidar::test::areas_test

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Whether the camera moves, in films of which an encoder has left little but an object.
+// spidar-bench camera has more of them.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/coded_film_score.h"
+
+namespace spidar::test::coded_films_test {
+namespace {
+
+/// Fraction of the pictures; coding differs from release to release.
+constexpr double kMost = 0.9;
+
+class CodedFilms : public testing::TestWithParam<const Coding*> {
+ protected:
+  void SetUp() override {
+    film_.coding = GetParam()->options;
+    film_.speed_px = 8;
+  }
+  CodedFilm film_;
+};
+
+TEST_P(CodedFilms, AWallBehindALargeSquareRests) {
+  film_.side_px = 200;
+  film_.radius_px = 40;
+  const std::vector<Picture> pictures = film_.pictures();
+  if (pictures.empty()) GTEST_SKIP() << "no ffmpeg that codes " << film_.coding;
+  const CodedFilmScore right = score(film_, pictures);
+  EXPECT_EQ(right.camera, right.pictures);
+  EXPECT_GT(right.felt, kMost * right.pictures);
+}
+
+TEST_P(CodedFilms, ThePanOverAFaintWallIsFound) {
+  film_.wall = CodedFilm::Wall::kFaint;
+  film_.pan_px << 3, 0;
+  film_.side_px = 64;
+  film_.radius_px = 50;
+  film_.speed_px = 5;
+  const std::vector<Picture> pictures = film_.pictures();
+  if (pictures.empty()) GTEST_SKIP() << "no ffmpeg that codes " << film_.coding;
+  const CodedFilmScore right = score(film_, pictures);
+  EXPECT_GT(right.camera, kMost * right.pictures);
+  EXPECT_GT(right.felt, kMost * right.pictures);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, CodedFilms, testing::Values(&kX264, &kX265, &kSvtAv1),
+                         [](const auto& instance) {
+                           std::string name = instance.param->name;
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace spidar::test::coded_films_test
