@@ -6,6 +6,7 @@
 
 namespace spidar::bench {
 
+int camera(int argc, char** argv);
 int cost(int argc, char** argv);
 int loop(int argc, char** argv);
 int pose(int argc, char** argv);

@@ -20,6 +20,7 @@ struct Benchmark {
 using namespace spidar::bench;
 
 const Benchmark kBenchmarks[] = {
+    {"camera", camera, "[TEXT]          how the camera moves where little shows it"},
     {"cost", cost, "                the element in a pipeline"},
     {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
     {"pose", pose, "                the pose solver beside others"},
