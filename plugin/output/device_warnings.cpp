@@ -119,6 +119,7 @@ void DeviceWarnings::start() {
   late_from_ns_ = 0;
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
+  refusal_.clear();
 }
 
 void DeviceWarnings::check_haptic_trace(const HapticSession* session) {
@@ -218,6 +219,14 @@ void DeviceWarnings::check_remarks(const HapticSession& session) {
                       ("%s continues.", what_.c_str()));
 }
 
+void DeviceWarnings::check_refusal(const HapticSession& session) {
+  const std::string refusal = session.loop().refusal();
+  if (refusal.empty() || refusal == std::exchange(refusal_, refusal)) return;
+  post("refused", session.grip().name(), refusal);
+  GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_READ_WRITE, ("%s.", refusal.c_str()),
+                      ("The device that was lost is still looked for."));
+}
+
 bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   const LoopSnapshot loop = session ? session->loop().snapshot() : LoopSnapshot{};
   if (session) {
@@ -234,9 +243,13 @@ bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   const bool lost_since = before != DeviceState::kClosed && loop.counters.times_lost > times_lost_;
   state_ = state;
   times_lost_ = loop.counters.times_lost;
-  if (state == before && !lost_since) return true;
+  if (state == before && !lost_since) {
+    if (state == DeviceState::kLost) check_refusal(*session);
+    return true;
+  }
   const std::string device = session ? session->grip().name() : "";
   if (before == DeviceState::kLost) post("back", device, "");
+  if (state != DeviceState::kLost) refusal_.clear();
   if (state != DeviceState::kLost && !lost_since) return true;
   const std::string text = why_lost(*session);
   post("lost", device, text);

@@ -49,6 +49,7 @@ class DeviceWarnings {
   void check_force(const LoopSnapshot& loop);
   void check_late(const LoopSnapshot& loop);
   void check_remarks(const HapticSession& session);
+  void check_refusal(const HapticSession& session);
 
   GstElement* const element_;
   const std::string what_;
@@ -62,6 +63,7 @@ class DeviceWarnings {
   int64_t late_from_ns_ = 0;
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
+  std::string refusal_;  // reported of a device that is lost
   uint64_t times_lost_ = 0;
 };
 

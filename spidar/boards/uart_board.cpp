@@ -59,6 +59,16 @@ void UartBoard::find_all(int64_t patience_ns) {
   }
 }
 
+/// Behind the same adapter there may be other boards now.
+void UartBoard::require_same_stations() {
+  if (first_description_.empty()) first_description_ = description();
+  if (description() == first_description_) return;
+  throw DeviceError(name_ + ": these are other boards than those that were lost, " +
+                        first_description_ + ": now " + description() +
+                        "; they get no force: stop and start to use them",
+                    DeviceTrouble::kSettings);
+}
+
 void UartBoard::open() {
   try {
     for (const auto& line : lines_) line->open();
@@ -74,6 +84,7 @@ void UartBoard::open() {
               " strings: name the lines of all boards (uart:PATH,PATH), and check their "
               "supply",
           stations_.empty() ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed);
+    require_same_stations();
     std::array<uint32_t, kMaxStrings> raw{};
     LinkFault fault = LinkFault::kTimeout;
     for (int attempt = 0; attempt < 3 && fault != LinkFault::kNone; ++attempt) {

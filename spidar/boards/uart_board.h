@@ -45,6 +45,7 @@ class UartBoard final : public Board {
   /// Waits for each board for up to `patience_ns`.
   void find_stations(Transport& line, int64_t patience_ns);
   void find_all(int64_t patience_ns);
+  void require_same_stations();
   LinkFault exchange(const Station& station, const MotorVolts& volts, uart_motor::Reading& reading,
                      int64_t deadline_ns) noexcept;
   LinkFault exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
@@ -56,6 +57,7 @@ class UartBoard final : public Board {
   const std::vector<std::unique_ptr<Transport>> lines_;
   std::vector<Station> stations_;
   size_t motors_ = 0;
+  std::string first_description_;  ///< when it was opened first
   EncoderCounts counts_{16};
   std::array<uint8_t, uart_motor::kMaxCycleLength> out_{};
   std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};

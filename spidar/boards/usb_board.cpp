@@ -21,21 +21,32 @@ int rotary_of(const std::string& id) {
 UsbSearch::UsbSearch(BoardKinds kinds, std::string name, std::string id)
     : kinds_(std::move(kinds)), name_(std::move(name)), id_(std::move(id)) {}
 
-/// The devices with the path or serial number in the id; without one, all of them.
-std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
-  std::vector<Candidate> all, named;
-  for (const BoardKind* kind : kinds_) {
-    for (UsbDeviceInfo& device : list_usb_devices(kind->usb.vendor, kind->usb.product)) {
-      const bool meant = !id_.empty() && (device.path == id_ || device.serial == id_);
-      (meant ? named : all).push_back({kind, std::move(device)});
-    }
-  }
-  return named.empty() ? all : named;
+DeviceIdentity UsbSearch::Candidate::identity() const {
+  return {std::string(kind->title) + " (" + kind->usb.text() + ")", device.serial, device.path};
 }
 
-/// The same, of which there is at least one.
+/// All devices of these kinds, those with the path or serial number in the id first.
 std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
-  std::vector<Candidate> found = candidates();
+  std::vector<Candidate> all;
+  for (const BoardKind* kind : kinds_)
+    for (UsbDeviceInfo& device : list_usb_devices(kind->usb.vendor, kind->usb.product))
+      all.push_back({kind, std::move(device)});
+  std::stable_partition(all.begin(), all.end(),
+                        [this](const Candidate& one) { return is_named(one); });
+  return all;
+}
+
+bool UsbSearch::is_named(const Candidate& candidate) const {
+  return !id_.empty() && (candidate.device.path == id_ || candidate.device.serial == id_);
+}
+
+/// At least one: those with the path or serial number in the id; without one, all of them.
+std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
+  std::vector<Candidate> found = plugged_in();
+  if (!found.empty() && is_named(found.front()))
+    found.erase(std::find_if_not(found.begin(), found.end(),
+                                 [this](const Candidate& one) { return is_named(one); }),
+                found.end());
   if (found.empty()) {
     std::string names;
     for (const BoardKind* kind : kinds_)
@@ -48,9 +59,7 @@ std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
 
 /// Whether the id identifies the board.
 bool UsbSearch::is_clear(const std::vector<Candidate>& found) const {
-  const UsbDeviceInfo& first = found.front().device;
-  const bool by_name = !id_.empty() && (first.path == id_ || first.serial == id_);
-  return found.size() == 1 && (by_name || id_.empty());
+  return found.size() == 1 && (is_named(found.front()) || id_.empty());
 }
 
 /// Whether only the boards themselves tell.
@@ -59,22 +68,46 @@ bool UsbSearch::is_to_ask(const std::vector<Candidate>& found) const {
 }
 
 void UsbSearch::require_one() const {
-  const std::vector<Candidate> found = plugged_in();
+  const std::vector<Candidate> found = candidates();
   if (!is_clear(found) && !is_to_ask(found)) open_matching(found, {}, {});
 }
 
-void UsbSearch::open(const Open& open, const std::function<void()>& close) const {
+void UsbSearch::open(const Open& open, const std::function<void()>& close) {
+  if (first_.known()) return open_again(open, close);
+  const std::vector<Candidate> found = candidates();
+  Candidate opened = found.front();
+  if (is_clear(found)) {
+    first_rotary_ = open(opened);
+  } else {
+    opened = open_matching(found, open, close);
+    first_rotary_ = rotary_of(id_);
+  }
+  first_.require(name_, opened.identity());
+}
+
+/// Boards without a serial number are told from each other by their switches, too.
+void UsbSearch::open_again(const Open& open, const std::function<void()>& close) const {
   const std::vector<Candidate> found = plugged_in();
-  if (is_clear(found))
-    open(found.front());
-  else
-    open_matching(found, open, close);
+  const auto same = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
+    return first_.is(candidate.identity());
+  });
+  if (same == found.end()) {
+    const bool other = !found.empty() && !found.front().kind->usb.shared;
+    if (other) throw first_.other(name_, found.front().identity());
+    throw DeviceError(name_ + ": " + first_.text() + " is not plugged in", DeviceTrouble::kAbsent);
+  }
+  const int rotary = open(*same);
+  if (rotary == first_rotary_) return;
+  close();
+  DeviceIdentity changed = same->identity();
+  changed.model += ", rotary switch " + std::to_string(rotary);
+  throw first_.other(name_, changed);
 }
 
 /// Asks each candidate and keeps the one that reports the wanted rotary switch. Without an id,
 /// keeps any that reports the right kind of device.
-void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& open,
-                              const std::function<void()>& close) const {
+UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& open,
+                                              const std::function<void()>& close) const {
   const int wanted = rotary_of(id_);
   std::string listed, trouble;
   for (const Candidate& candidate : found) {
@@ -82,7 +115,7 @@ void UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& o
     if (!is_to_ask(found)) continue;
     try {
       const int rotary = open(candidate);
-      if (rotary == wanted) return;
+      if (rotary == wanted) return candidate;
       listed += " (rotary switch " + std::to_string(rotary) + ")";
       close();
     } catch (const DeviceError& error) {

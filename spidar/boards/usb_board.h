@@ -11,6 +11,7 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/transports/device_identity.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {
@@ -36,11 +37,14 @@ using BoardKinds = std::vector<const BoardKind*>;
 int rotary_of(const std::string& id);
 
 /// To be used for every opening, because the address changes when a device is plugged in again.
+/// Later openings find the device of the first one, wherever it is if it has a serial number.
 class UsbSearch {
  public:
   struct Candidate {
     const BoardKind* kind = nullptr;
     UsbDeviceInfo device;
+
+    DeviceIdentity identity() const;
   };
   /// Opens a candidate and returns its rotary switch, −1 without one. Throws DeviceError.
   using Open = std::function<int(const Candidate&)>;
@@ -51,7 +55,7 @@ class UsbSearch {
 
   /// Opens the device that is meant. `close` closes one that was opened and is another. Throws
   /// DeviceError, which lists what there is.
-  void open(const Open& open, const std::function<void()>& close) const;
+  void open(const Open& open, const std::function<void()>& close);
   /// Throws as open() would before it opens anything.
   void require_one() const;
 
@@ -60,12 +64,16 @@ class UsbSearch {
   bool is_clear(const std::vector<Candidate>& found) const;
   bool is_to_ask(const std::vector<Candidate>& found) const;
   std::vector<Candidate> candidates() const;
-  void open_matching(const std::vector<Candidate>& found, const Open& open,
-                     const std::function<void()>& close) const;
+  bool is_named(const Candidate& candidate) const;
+  Candidate open_matching(const std::vector<Candidate>& found, const Open& open,
+                          const std::function<void()>& close) const;
+  void open_again(const Open& open, const std::function<void()>& close) const;
 
   const BoardKinds kinds_;
   const std::string name_;
   const std::string id_;
+  FirstDevice first_;
+  int first_rotary_ = -1;
 };
 
 /// Finds its board in every open(), see UsbSearch. `BoardType` is Board or ForceBoard.
@@ -118,7 +126,7 @@ class UsbBoardOf : public BoardType {
 
   const std::string name_;
   const std::string profile_name_, profile_board_;
-  const UsbSearch search_;
+  UsbSearch search_;
   std::vector<Kind> kinds_;
   Kind* used_ = nullptr;
   std::string used_path_;

@@ -50,11 +50,26 @@ bool HapticLoop::reopen() noexcept {
   grip_->close();
   try {
     grip_->open();
+  } catch (const DeviceError& error) {
+    refuse(error.trouble() == DeviceTrouble::kAbsent ? "" : error.what());
+    return false;
   } catch (...) {
     return false;
   }
+  refuse("");
   energise();
   return true;
+}
+
+void HapticLoop::refuse(const std::string& reason) {
+  const bool again = reason == std::exchange(newest_refusal_, reason);
+  const std::lock_guard<std::mutex> lock(refusal_mutex_);
+  refusal_ = again ? reason : "";
+}
+
+std::string HapticLoop::refusal() const {
+  const std::lock_guard<std::mutex> lock(refusal_mutex_);
+  return refusal_;
 }
 
 /// Starts from zero after the grip was opened.

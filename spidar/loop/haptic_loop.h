@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -113,6 +115,11 @@ class HapticLoop {
   /// dropped until some are taken.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
+  /// Why a lost device cannot be opened again although something is there, such as another device
+  /// under its name; empty while nothing is, and when the reason is new, because it may pass: udev
+  /// needs a moment to permit what is plugged in.
+  std::string refusal() const;
+
   /// Its description, name and health.
   const Grip& grip() const noexcept { return *grip_; }
 
@@ -148,6 +155,7 @@ class HapticLoop {
  private:
   void energise() noexcept;
   void lose() noexcept;
+  void refuse(const std::string& reason);
   void follow_limits(double dt_s) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void count_gap(const TickRecord& record) noexcept;
@@ -193,6 +201,9 @@ class HapticLoop {
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;
   LoopCounters counters_;
+  std::string newest_refusal_;        // of the latest reopen()
+  mutable std::mutex refusal_mutex_;  // locked only while the device is lost
+  std::string refusal_;
 };
 
 }  // namespace spidar

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "spidar/boards/sound_board.h"
+#include "spidar/printable.h"
 #include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 
@@ -21,7 +22,7 @@ std::vector<BoardInfo> list_sound() {
   for (const SoundCard& card : list_sound_cards()) {
     BoardInfo& board = boards.emplace_back();
     board.device = "sound:" + card.id;
-    board.name = card.name;
+    board.name = printable(card.name);
     board.path = card.id;
     board.accessible = true;
     board.note = "for shakers that are connected to it; loudspeakers hum";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dirent.h>
@@ -13,6 +14,8 @@
 #include <memory>
 #include <system_error>
 #include <unistd.h>
+
+#include "spidar/printable.h"
 
 namespace spidar {
 namespace {
@@ -32,7 +35,7 @@ std::string beginning(const std::string& path) {
 /// The first line of an attribute; empty when it cannot be read.
 std::string attribute(const std::string& path) {
   const std::string text = beginning(path);
-  return text.substr(0, text.find('\n'));
+  return printable(text.substr(0, text.find('\n')));
 }
 
 /// Bits as sysfs prints them: hexadecimal words of the size of a long, the highest first.
@@ -76,6 +79,7 @@ std::vector<EvdevInfo> list_force_feedback() {
     info.name = attribute(device + "name");
     info.serial = attribute(device + "uniq");
     info.id = attribute(device + "id/vendor") + ":" + attribute(device + "id/product");
+    info.place = attribute(device + "phys");
     info.accessible = access(info.path.c_str(), R_OK | W_OK) == 0;
     devices.push_back(info);
   }
@@ -84,10 +88,29 @@ std::vector<EvdevInfo> list_force_feedback() {
   return devices;
 }
 
-std::string evdev_driver(const std::string& path) {
+DeviceIdentity evdev_identity(int file) {
+  input_id id{};
+  call_ioctl(file, EVIOCGID, &id);
+  std::array<char, 16> numbers{};
+  std::snprintf(numbers.data(), numbers.size(), "%04x:%04x", id.vendor, id.product);
+  std::array<char, 256> name{}, serial{}, place{};  // the first line, as in sysfs
+  const auto line = [](const std::array<char, 256>& text) {
+    return printable({text.data(), std::strcspn(text.data(), "\n")});
+  };
+  call_ioctl(file, EVIOCGNAME(name.size() - 1), name.data());
+  call_ioctl(file, EVIOCGUNIQ(serial.size() - 1), serial.data());
+  call_ioctl(file, EVIOCGPHYS(place.size() - 1), place.data());
+  return EvdevInfo{{}, line(name), line(serial), numbers.data(), line(place)}.identity();
+}
+
+std::string without_links(const std::string& path) {
   std::error_code error;
-  std::filesystem::path file = std::filesystem::canonical(path, error);
-  if (error) file = path;
+  const std::filesystem::path file = std::filesystem::canonical(path, error);
+  return error ? path : file.string();
+}
+
+std::string evdev_driver(const std::string& path) {
+  const std::filesystem::path file = without_links(path);
   // The parent of an input device is the device that the driver is bound to, for example on the HID
   // bus. Its uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c of the
   // kernel).
@@ -150,7 +173,7 @@ bool has_pedals(const EvdevTraits& traits) noexcept {
 
 }  // namespace
 
-EvdevTraits evdev_traits(int file) noexcept {
+EvdevTraits evdev_traits(int file) {
   EvdevTraits traits;
   input_id id{};
   if (call_ioctl(file, EVIOCGID, &id) >= 0) {
@@ -158,6 +181,9 @@ EvdevTraits evdev_traits(int file) noexcept {
     traits.product = id.product;
   }
   call_ioctl(file, EVIOCGNAME(traits.name.size() - 1), traits.name.data());
+  const std::string name = printable(traits.name.data());  // no longer than before
+  traits.name = {};
+  std::copy(name.begin(), name.end(), traits.name.begin());
   traits.axes = codes<ABS_CNT>(file, EV_ABS);
   traits.keys = codes<KEY_CNT>(file, EV_KEY);
   return traits;

@@ -12,6 +12,8 @@
 #include <sys/ioctl.h>
 #include <vector>
 
+#include "spidar/transports/device_identity.h"
+
 namespace spidar {
 
 /// Makes a call again that a signal has interrupted.
@@ -43,18 +45,28 @@ BitSet<Bits> codes(int file, unsigned type) noexcept {
   return bits;
 }
 
+/// All texts are printable().
 struct EvdevInfo {
   std::string path;         ///< "/dev/input/event5"
   std::string name;         ///< from the driver; may be empty
   std::string serial;       ///< empty if it has none
   std::string id;           ///< vendor and product: "046d:c24f"
+  std::string place;        ///< "usb-0000:00:14.0-2/input0"; may be empty
   bool constant = false;    ///< supports directional force; otherwise it only rumbles
   bool accessible = false;  ///< this process may open it
+
+  DeviceIdentity identity() const { return {name + " (" + id + ")", serial, place}; }
 };
 
 /// Returns input devices with FF_CONSTANT, then those with only FF_RUMBLE, sorted by number. Reads
 /// the kernel's description in /sys/class/input; opens no device.
 std::vector<EvdevInfo> list_force_feedback();
+
+/// The same of an open one.
+DeviceIdentity evdev_identity(int file);
+
+/// Without links; unchanged where there is no such file.
+std::string without_links(const std::string& path);
 
 /// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
 /// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
@@ -64,12 +76,12 @@ std::string evdev_driver(const std::string& path);
 struct EvdevTraits {
   uint16_t vendor = 0;
   uint16_t product = 0;
-  std::array<char, 80> name{};
+  std::array<char, 80> name{};  ///< printable()
   BitSet<ABS_CNT> axes{};
   BitSet<KEY_CNT> keys{};
 };
 
-EvdevTraits evdev_traits(int file) noexcept;
+EvdevTraits evdev_traits(int file);
 
 /// How many axes have a force, where the USB ID says so: 1 for a wheel, 2 for a joystick; else 0.
 int axes_by_id(const EvdevTraits& traits) noexcept;

@@ -92,28 +92,44 @@ void EvdevTransport::fail(const std::string& path, const std::string& what,
                     trouble_of(error), location);
 }
 
+/// The path of the device that is to be opened.
+std::string EvdevTransport::find() {
+  if (!first_.known() && !path_.empty()) return path_;
+  const std::vector<EvdevInfo> devices = list_force_feedback();
+  for (const EvdevInfo& device : devices)
+    if (first_.is(device.identity())) return device.path;
+  for (const EvdevInfo& device : devices) {
+    if (!path_.empty() && device.path != without_links(path_)) continue;
+    if (first_.known()) throw first_.other(name_, device.identity());
+    return device.path;
+  }
+  throw DeviceError(
+      name_ + (first_.known() ? ": " + first_.text() + " is not plugged in"
+                              : ": no joystick, wheel or gamepad with force feedback is plugged "
+                                "in, or the kernel has no driver for it"),
+      DeviceTrouble::kAbsent);
+}
+
 void EvdevTransport::open() {
   close();
-  std::string path = path_;
-  if (path.empty()) {
-    const std::vector<EvdevInfo> devices = list_force_feedback();
-    if (devices.empty())
-      throw DeviceError(
-          name_ +
-              ": no joystick, wheel or gamepad with force feedback is plugged in, or the "
-              "kernel has no driver for it",
-          DeviceTrouble::kAbsent);
-    path = devices.front().path;
-  }
+  const std::string path = find();
   file_ = uninterrupted([&] { return ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC); });
   if (file_ < 0) fail(path, "cannot be opened");
   int version = 0;
   if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
+  try {
+    // Asked of the open file: since it was listed, its number may have gone to another device.
+    first_.require(name_, evdev_identity(file_));
+  } catch (...) {
+    close();
+    throw;
+  }
   const std::string driver = evdev_driver(path);
   starts_centred_ =
       std::find(kCentringDrivers.begin(), kCentringDrivers.end(), driver) != kCentringDrivers.end();
   const EvdevTraits traits = evdev_traits(file_);
+  device_name_ = traits.name;
   find_buttons(traits);
   find_axes(path, traits);
 }
@@ -156,7 +172,7 @@ ff::Description EvdevTransport::describe() const noexcept {
   description.effects = static_cast<uint8_t>(std::clamp(effects, 0, 255));
   description.axes = static_cast<uint8_t>((right_axis_ >= 0) + (up_axis_ >= 0));
   description.buttons = static_cast<uint8_t>(buttons_.size());
-  call_ioctl(file_, EVIOCGNAME(description.name.size() - 1), description.name.data());
+  description.name = device_name_;
   return description;
 }
 

@@ -3,6 +3,7 @@
 /// Access to force-feedback devices of Linux through evdev.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,9 +19,9 @@ namespace spidar {
 /// the file open closes it or ends.
 class EvdevTransport final : public Transport {
  public:
-  /// `name` is for messages. An empty `path` means the first device of list_force_feedback(),
-  /// determined in every open(). `axes` is 1 for a wheel, 2 for a joystick, and 0 if is_wheel() is
-  /// to tell.
+  /// `name` is for messages. An empty `path` means the first device of list_force_feedback(). Later
+  /// openings look for the one that was opened first, under whatever number it is now. `axes` is 1
+  /// for a wheel, 2 for a joystick, and 0 if is_wheel() is to tell.
   EvdevTransport(std::string name, std::string path, int axes = 0);
   ~EvdevTransport() override;
 
@@ -35,6 +36,7 @@ class EvdevTransport final : public Transport {
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what,
                          SourceLocation location = SourceLocation::here());
+  std::string find();
   void find_axes(const std::string& path, const EvdevTraits& traits);
   void find_buttons(const EvdevTraits& traits);
   LinkFault send(ByteView packet, MutableBytes reply, size_t& received) noexcept;
@@ -45,7 +47,9 @@ class EvdevTransport final : public Transport {
   const std::string name_;
   const std::string path_;
   const int axes_;
+  FirstDevice first_;
   int file_ = -1;
+  std::array<char, 80> device_name_{};
   bool starts_centred_ = false;
   /// The number of axes follows from the USB ID.
   bool axes_by_id_ = false;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <linux/serial.h>
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "spidar/device.h"
+#include "spidar/printable.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/transports/transport.h"
 
@@ -42,6 +44,33 @@ std::vector<TtyLine> list_tty_lines(const std::string& folder) {
   std::sort(lines.begin(), lines.end(),
             [](const TtyLine& a, const TtyLine& b) { return a.path < b.path; });
   return lines;
+}
+
+DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path line = fs::canonical(path, error);
+  if (error) line = path;
+  fs::path device =
+      fs::canonical(sysfs + "/class/tty/" + line.filename().string() + "/device", error);
+  if (error) device.clear();
+  const auto attribute = [&device](const char* name) {
+    std::ifstream file(device / name);
+    std::string text;
+    std::getline(file, text);
+    return printable(text);
+  };
+  // The line is a part of an interface of the adapter, which is the first device with a vendor.
+  std::string interface;
+  for (; device.has_relative_path(); device = device.parent_path()) {
+    if (interface.empty()) interface = attribute("bInterfaceNumber");
+    const std::string vendor = attribute("idVendor");
+    if (vendor.empty()) continue;
+    return {attribute("product") + " (" + vendor + ":" + attribute("idProduct") + ") interface " +
+                interface,
+            attribute("serial"), device.filename().string()};
+  }
+  return {"serial line", "", line.string()};
 }
 
 namespace {
@@ -104,9 +133,18 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
 
 void TtyTransport::open() {
   close();
+  // What it does on being opened is not known of another device.
+  if (first_.known() && access(path_.c_str(), F_OK) == 0)
+    first_.require(name_, tty_identity(path_));
   file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) fail("cannot be opened");
   if (!lock_device(file_)) fail("cannot be locked");
+  try {
+    first_.require(name_, tty_identity(path_));
+  } catch (...) {
+    close();
+    throw;
+  }
   if (!set_raw(file_, baud_)) fail("cannot be set to " + std::to_string(baud_) + " baud");
   ask_for_low_latency(file_);
   // DTR and RTS low, as published; not every line has them.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "spidar/transports/device_identity.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
@@ -19,6 +20,10 @@ struct TtyLine {
 /// Returns the lines of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted.
 /// Opens none.
 std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
+
+/// The USB adapter of a line, with the number of its interface; a line without an adapter is known
+/// by its path. `sysfs` is where the kernel describes its devices.
+DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs = "/sys");
 
 /// Raw mode, 8N1, no flow control, and low latency if the driver supports it.
 class TtyTransport final : public Transport {
@@ -42,6 +47,7 @@ class TtyTransport final : public Transport {
   const std::string name_;
   const std::string path_;
   const int baud_;
+  FirstDevice first_;
   int file_ = -1;
 };
 

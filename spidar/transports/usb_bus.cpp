@@ -6,11 +6,13 @@
 #include <array>
 #include <cstdio>
 #include <fcntl.h>
+#include <string_view>
 #include <unistd.h>
 
 #include <libusb.h>
 
 #include "spidar/device.h"
+#include "spidar/printable.h"
 
 namespace spidar {
 namespace {
@@ -32,9 +34,8 @@ std::string kernel_serial(const std::string& path) {
   std::array<char, 256> text{};
   const ssize_t length = read(file, text.data(), text.size());
   close(file);
-  std::string serial(text.data(), length > 0 ? static_cast<size_t>(length) : 0);
-  serial.erase(std::find(serial.begin(), serial.end(), '\n'), serial.end());
-  return serial;
+  const std::string_view serial(text.data(), length > 0 ? static_cast<size_t>(length) : 0);
+  return printable(serial.substr(0, serial.find('\n')));
 }
 
 }  // namespace

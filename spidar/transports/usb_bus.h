@@ -19,7 +19,7 @@ struct UsbDeviceInfo {
   int bus = 0;
   int address = 0;          ///< changes each time the device is plugged in
   std::string path;         ///< the port: "1-2.3"
-  std::string serial;       ///< empty if it has none
+  std::string serial;       ///< printable(); empty if it has none
   bool accessible = false;  ///< this process may write to it
 
   /// "/dev/bus/usb/001/004"

@@ -21,6 +21,13 @@ void erase_effect(EvdevPort::Effect& effect) {
   effect.right = effect.up = effect.rumble = 0;
 }
 
+/// As the kernel answers when it is asked for a text. Returns its length, or −errno.
+int put_text(const char* text, void* argument, size_t size) {
+  if (*text == '\0') return -ENOENT;
+  std::snprintf(static_cast<char*>(argument), size, "%s", text);
+  return static_cast<int>(std::strlen(static_cast<char*>(argument)) + 1);
+}
+
 std::vector<unsigned> pressed(const EvdevPort& port) {
   std::vector<unsigned> codes;
   const std::vector<unsigned> keys = key_bits(port.kind);
@@ -30,6 +37,12 @@ std::vector<unsigned> pressed(const EvdevPort& port) {
 }
 
 }  // namespace
+
+bool is_playing(const EvdevPort& port, const EvdevPort::Effect& effect) {
+  const int64_t end_ns = effect.began_ns + effect.length_ms * kSecond_ns / 1000;
+  const bool ended = port.expires && effect.length_ms > 0 && monotonic_now_ns() > end_ns;
+  return effect.plays && !ended;
+}
 
 void erase_effects(EvdevPort& port) {
   for (EvdevPort::Effect& effect : port.effect) erase_effect(effect);
@@ -47,7 +60,8 @@ void reset(EvdevPort& port) {
   port.query_error = port.event_error = port.setting_error = 0;
   port.failing = -1;
   port.keeps_spring = false;
-  port.expires = port.hangs = port.cuts_events = port.signals = false;
+  port.expires = port.hangs = port.cuts_events = port.signals = port.refuses_stops = false;
+  port.gain_with_force = 0;
 }
 
 bool EvdevDriver::is_interrupted() {
@@ -140,10 +154,9 @@ int EvdevDriver::query(unsigned long request, void* argument) {
     *static_cast<input_id*>(argument) = {BUS_USB, id.vendor, id.product, 1};
     return 0;
   }
-  if (number == _IOC_NR(EVIOCGNAME(0))) {
-    std::snprintf(static_cast<char*>(argument), size, "%s", name_of(port_.kind));
-    return static_cast<int>(std::strlen(static_cast<char*>(argument)) + 1);
-  }
+  if (number == _IOC_NR(EVIOCGNAME(0))) return put_text(port_.name.data(), argument, size);
+  if (number == _IOC_NR(EVIOCGUNIQ(0))) return put_text(port_.serial.data(), argument, size);
+  if (number == _IOC_NR(EVIOCGPHYS(0))) return put_text(port_.place.data(), argument, size);
   if (number == _IOC_NR(EVIOCGBIT(EV_FF, 0))) return put_bits(ff_bits(port_.kind), argument, size);
   if (number == _IOC_NR(EVIOCGBIT(EV_ABS, 0)))
     return put_bits(abs_bits(port_.kind), argument, size);
@@ -168,12 +181,15 @@ int EvdevDriver::event(const ff::Event& event) {
   if (port_.setting_error != 0 && (event.code == FF_GAIN || event.code == FF_AUTOCENTER))
     return -port_.setting_error;
   if (event.code == FF_GAIN) {
+    for (const EvdevPort::Effect& effect : port_.effect)
+      if (event.value == ff::kFullGain && is_playing(port_, effect)) ++port_.gain_with_force;
     port_.gain = event.value;
     ++port_.settings;
   } else if (event.code == FF_AUTOCENTER) {
     port_.autocentre = event.value;
     ++port_.settings;
   } else if (event.code < port_.effect.size() && port_.effect[event.code].used) {
+    if (port_.refuses_stops && event.value == 0) return -EIO;
     port_.effect[event.code].plays = event.value > 0;
     port_.effect[event.code].began_ns = monotonic_now_ns();
     if (event.value > 0) ++port_.plays;

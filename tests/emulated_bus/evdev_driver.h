@@ -15,6 +15,9 @@ namespace spidar::test {
 
 void erase_effects(EvdevPort& port);
 
+/// Whether it was started and has not ended.
+bool is_playing(const EvdevPort& port, const EvdevPort::Effect& effect);
+
 /// As after plugging it in, without faults.
 void reset(EvdevPort& port);
 

@@ -163,10 +163,19 @@ bool evdev_write(int file, const void* bytes, size_t length, long& result) {
   return true;
 }
 
-EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver) {
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver,
+                           const EvdevIdentity& identity) {
   unplug_from(state, number);
   EvdevPort& port = state.evdev[number];
   reset(port);
+  const std::string place =
+      identity.place ? identity.place : "usb-emulated-" + std::to_string(number) + "/input0";
+  const auto keep = [](auto& into, const std::string& text) {
+    std::snprintf(into.data(), into.size(), "%s", text.c_str());
+  };
+  keep(port.place, place);
+  keep(port.serial, identity.serial);
+  keep(port.name, identity.name ? identity.name : name_of(kind));
   const std::string driven_by = driver ? driver : driver_of(kind);
   // hid-pidff starts with the centring spring at its full strength.
   if (driven_by == "hid-generic" || driven_by == "hid-universal-pidff") port.autocentre = 0xFFFF;
@@ -179,8 +188,9 @@ EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const
   put_file(sysfs + "/device/uevent",
            "DRIVER=" + driven_by + "\nHID_ID=0003:00001209:00000001\nMODALIAS=hid:b0003g0001\n");
   put_file(sysfs + "/capabilities/ff", sysfs_bits(ff_bits(kind)));
-  put_file(sysfs + "/name", std::string(name_of(kind)) + "\n");
-  put_file(sysfs + "/uniq", "\n");
+  put_file(sysfs + "/name", std::string(port.name.data()) + "\n");
+  put_file(sysfs + "/uniq", std::string(identity.serial) + "\n");
+  put_file(sysfs + "/phys", place + "\n");
   const UsbId id = usb_id_of(kind);
   put_file(sysfs + "/id/vendor", hex(id.vendor));
   put_file(sysfs + "/id/product", hex(id.product));
@@ -192,8 +202,9 @@ EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const
   return port;
 }
 
-EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver) {
-  return plug_evdev_into(bus(), number, kind, driver);
+EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver,
+                      const EvdevIdentity& identity) {
+  return plug_evdev_into(bus(), number, kind, driver, identity);
 }
 
 void unplug_evdev(size_t number) {
@@ -205,9 +216,7 @@ EvdevLevels evdev_levels(size_t number) {
   erase_if_abandoned(port);
   EvdevLevels levels;
   for (const EvdevPort::Effect& effect : port.effect) {
-    const int64_t end_ns = effect.began_ns + effect.length_ms * kSecond_ns / 1000;
-    const bool ended = port.expires && effect.length_ms > 0 && monotonic_now_ns() > end_ns;
-    if (!effect.plays || ended) continue;
+    if (!is_playing(port, effect)) continue;
     levels.right += effect.right;
     levels.up += effect.up;
     levels.rumble += effect.rumble;

@@ -14,7 +14,8 @@ namespace spidar::test {
 struct BusState;
 
 /// plug_evdev() for use while the bus is being created.
-EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver);
+EvdevPort& plug_evdev_into(BusState& state, size_t number, EvdevKind kind, const char* driver,
+                           const EvdevIdentity& identity = {});
 
 /// Location of `path` of /dev/input or /sys/class/input; other paths are returned unchanged.
 std::string evdev_path(const char* path);

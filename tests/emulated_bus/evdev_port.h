@@ -42,6 +42,9 @@ struct EvdevPort {
 
   std::atomic<EvdevKind> kind{EvdevKind::kNone};
   std::atomic<uint64_t> inode{0};  ///< of its file; a new one each time it is plugged in
+  std::array<char, 32> serial{};
+  std::array<char, 32> place{};  ///< where it is plugged in
+  std::array<char, 64> name{};
   /// Position of the stick, −1000 … 1000: to the right, and towards the user, like ABS_X and ABS_Y.
   std::array<std::atomic<int>, 2> axis{};
   std::atomic<int> axis_end{0};      ///< largest value that the axes announce; 1000 when plugged in
@@ -62,15 +65,18 @@ struct EvdevPort {
   // What the driver does wrong. Errors are values of errno; 0: none.
   /// Time that an upload takes. A smaller value ends one that is under way.
   std::atomic<int> upload_ms{0};
-  std::atomic<int> upload_error{0};      ///< of uploads
-  std::atomic<int> failing{-1};          ///< how many of the next uploads fail with it; −1: all
-  std::atomic<bool> hangs{false};        ///< uploads do not return until this is false
-  std::atomic<int> hanging{0};           ///< uploads that do not return
-  std::atomic<int> query_error{0};       ///< of every question for the position
-  std::atomic<int> event_error{0};       ///< of every event: play, gain, autocentre
-  std::atomic<int> setting_error{0};     ///< of gain and autocentre
-  std::atomic<bool> cuts_events{false};  ///< accepts only half of every event
-  std::atomic<bool> signals{false};      ///< a signal interrupts every other call
+  std::atomic<int> upload_error{0};        ///< of uploads
+  std::atomic<int> failing{-1};            ///< how many of the next uploads fail with it; −1: all
+  std::atomic<bool> hangs{false};          ///< uploads do not return until this is false
+  std::atomic<int> hanging{0};             ///< uploads that do not return
+  std::atomic<int> query_error{0};         ///< of every question for the position
+  std::atomic<int> event_error{0};         ///< of every event: play, gain, autocentre
+  std::atomic<int> setting_error{0};       ///< of gain and autocentre
+  std::atomic<bool> cuts_events{false};    ///< accepts only half of every event
+  std::atomic<bool> refuses_stops{false};  ///< the end of an effect is an error
+  /// How often the gain was raised to its full value while an effect played.
+  std::atomic<int> gain_with_force{0};
+  std::atomic<bool> signals{false};  ///< a signal interrupts every other call
   /// The stick centres itself, whatever autocentre is.
   std::atomic<bool> keeps_spring{false};
 
@@ -82,9 +88,17 @@ struct EvdevPort {
 
 constexpr size_t kEvdevPorts = 6;
 
+/// What tells an emulated device from others of its kind.
+struct EvdevIdentity {
+  const char* serial = "";
+  const char* place = nullptr;  ///< null: a place for each number
+  const char* name = nullptr;   ///< null: that of its kind
+};
+
 /// Lists the device so that it can be opened, with fresh effects and counters. Sysfs names `driver`
 /// as its kernel driver, by default the one of driver_of(); the driver determines `autocentre`.
-BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver = nullptr);
+BUS_API EvdevPort& plug_evdev(size_t number, EvdevKind kind, const char* driver = nullptr,
+                              const EvdevIdentity& identity = {});
 
 /// From now on its open files return ENODEV.
 BUS_API void unplug_evdev(size_t number);

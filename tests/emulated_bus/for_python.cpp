@@ -44,6 +44,10 @@ BUS_API uint64_t bus_files_opened() {
 BUS_API void evdev_plug(int number, int kind) {
   plug_evdev(static_cast<size_t>(number), static_cast<EvdevKind>(kind));
 }
+/// In a place that another number may get later.
+BUS_API void evdev_plug_at(int number, int kind, const char* place) {
+  plug_evdev(static_cast<size_t>(number), static_cast<EvdevKind>(kind), nullptr, {"", place});
+}
 BUS_API void evdev_unplug(int number) {
   unplug_evdev(static_cast<size_t>(number));
 }

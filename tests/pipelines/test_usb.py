@@ -248,7 +248,7 @@ class Boards(Pipelines):
 
 class Joysticks(Pipelines):
     def play(self):
-        bus.evdev_plug(0, Evdev.STICK)
+        bus.evdev_plug_at(0, Evdev.STICK, b"port 1")
         pipeline = self.start(BALL + "ff ! fakesink sync=true")
         wait_for(lambda: not bus.evdev_at_rest(0))
         return pipeline
@@ -274,7 +274,11 @@ class Joysticks(Pipelines):
         self.assertEqual(self.next_device(pipeline), ("opened", "ff", True))
         bus.evdev_unplug(0)
         self.assertEqual(self.next_device(pipeline), ("lost", "ff", True))
-        bus.evdev_plug(1, Evdev.STICK)
+        # Its number goes to another device, which gets no force.
+        bus.evdev_plug_at(0, Evdev.WHEEL, b"port 2")
+        self.assertEqual(self.next_device(pipeline), ("refused", "ff", True))
+        self.assertTrue(bus.evdev_at_rest(0))
+        bus.evdev_plug_at(1, Evdev.STICK, b"port 1")
         self.assertEqual(self.next_device(pipeline), ("back", "ff", False))
 
     def test_what_is_not_felt_is_said_once(self):

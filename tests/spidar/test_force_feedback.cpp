@@ -266,16 +266,32 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-TEST_F(ForceFeedback, IsTakenBackWhereverItIsPluggedIn) {
-  plug_evdev(0, EvdevKind::kStick);
+TEST_F(ForceFeedback, IsTakenBackUnderWhateverNumber) {
+  const EvdevIdentity stick{"", "usb-1/input0"};
+  plug_evdev(0, EvdevKind::kStick, nullptr, stick);
   const FeltPlayer player;
   player.push(1, 0);
   wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
   unplug_evdev(0);
   wait_for([&] { return player.now().last.device == DeviceState::kLost; });
   EXPECT_EQ(player.session->grip().health().last_fault, LinkFault::kGone);
-  plug_evdev(3, EvdevKind::kStick);
+  plug_evdev(3, EvdevKind::kStick, nullptr, stick);
   wait_for([] { return is_level(evdev_levels(3).right, 1, 1); });
+}
+
+/// A name is what a device says of itself: a terminal must not obey it.
+TEST_F(ForceFeedback, ItsNameIsHarmless) {
+  plug_evdev(0, EvdevKind::kStick, nullptr, {"\x1b[2J", nullptr, "\x1b]0;title\x07\x9bStick"});
+  const std::vector<BoardInfo> boards = list_boards();
+  EXPECT_EQ(boards[0].name, "?]0;title??Stick");
+  EXPECT_EQ(boards[0].serial, "?[2J");
+  {
+    const FeltPlayer player;
+    EXPECT_EQ(player.session->opened(),
+              "?]0;title??Stick at 20 % of its strength, force feedback on two axes");
+  }
+  bus().evdev[0].upload_error = ENOSPC;
+  EXPECT_NE(opening("ff").find("\"?]0;title??Stick\" does not take"), std::string::npos);
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {

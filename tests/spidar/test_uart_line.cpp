@@ -170,6 +170,73 @@ TEST_F(UartLines, OpenSaysWhatIsWrong) {
             std::string::npos);
 }
 
+TEST_F(UartLines, OnlyTheSameBoardsComeBack) {
+  const TemporaryFolder folder;
+  const std::filesystem::path link = folder.path / "line";
+  const auto point_to = [&](const UartLine& line) {
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(line.path(), link);
+  };
+  UartLine line({first_motors, {{4, kB5M}}}), other({second_motors, {{4, kB5M}}});
+  point_to(line);
+  const auto board = device("uart:" + link.string());
+  board->open();
+  board->close();
+  point_to(other);
+  try {
+    board->open();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("is another device"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(second.updates, 0u);
+  point_to(line);
+  board->open();
+  board->close();
+  // The adapter is the same, and what is connected to it is not.
+  line.connect({second_motors, {{5, kB5M}}});
+  try {
+    board->open();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("these are other boards"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(TtyList, AnAdapterIsKnownWhateverItsNumber) {
+  const TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  const auto plug_in = [&](const std::string& port, const std::string& serial, const char* tty) {
+    const fs::path adapter = folder.path / "devices" / port;
+    const fs::path device = adapter / (port + ":1.1") / tty;
+    fs::create_directories(device / "tty" / tty);
+    const auto put = [](const fs::path& file, const std::string& text) {
+      std::ofstream(file) << text << "\n";
+    };
+    put(adapter / "idVendor", "0403");
+    put(adapter / "idProduct", "6011");
+    put(adapter / "product", "Quad\x1b[2J");
+    if (!serial.empty()) put(adapter / "serial", serial);
+    put(device.parent_path() / "bInterfaceNumber", "01");
+    const fs::path entry = folder.path / "class" / "tty" / tty;
+    fs::create_directories(entry);
+    fs::create_directory_symlink(device, entry / "device");
+    return tty_identity(std::string("/dev/") + tty, folder.path);
+  };
+  const DeviceIdentity first = plug_in("1-2", "A", "ttyUSB7"),
+                       moved = plug_in("1-3", "A", "ttyUSB8"),
+                       other = plug_in("1-4", "B", "ttyUSB9");
+  EXPECT_EQ(first.text(), "Quad?[2J (0403:6011) interface 01, serial number A");
+  EXPECT_EQ(first, moved);
+  EXPECT_NE(first, other);
+  const DeviceIdentity here = plug_in("1-5", "", "ttyUSB10"),
+                       there = plug_in("1-6", "", "ttyUSB11");
+  EXPECT_EQ(here, tty_identity("/dev/ttyUSB10", folder.path));
+  EXPECT_NE(here, there);
+}
+
 TEST(TtyList, ListsAdaptersAndNamedLines) {
   const TemporaryFolder temporary;
   const std::string folder = temporary.path;

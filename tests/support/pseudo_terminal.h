@@ -42,6 +42,14 @@ class UartLine {
   }
 
   const std::string& path() const { return path_; }
+  /// Other boards, behind the same adapter.
+  void connect(EmulatedUart boards) {
+    stop_ = true;
+    thread_.join();
+    stop_ = false;
+    boards_ = std::move(boards);
+    thread_ = std::thread([this] { run(); });
+  }
   /// The boards neither receive nor answer.
   void set_silent(bool silent) { silent_ = silent; }
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/printable.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace spidar {
+namespace {
+
+/// A character at the beginning of a text.
+struct Character {
+  uint32_t code = 0;
+  size_t length = 0;  ///< bytes; 0: it is not UTF-8 (RFC 3629)
+};
+
+Character first_of(std::string_view text) noexcept {
+  const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
+  if (byte(0) < 0x80) return {byte(0), 1};
+  const size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC0 || byte(0) >= 0xF8 || text.size() < length) return {};
+  uint32_t code = byte(0) & (0x7Fu >> length);
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return {};
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  constexpr std::array<uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  if (code < kLeast[length] || code > 0x10FFFF || surrogate) return {};
+  return {code, length};
+}
+
+bool is_harmless(uint32_t code) noexcept {
+  const auto within = [code](uint32_t first, uint32_t last) {
+    return code >= first && code <= last;
+  };
+  return !(code < 0x20 || within(0x7F, 0x9F) ||                // control characters
+           within(0x2028, 0x202E) || within(0x2066, 0x2069));  // ends of lines, directions
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string printed;
+  while (!text.empty()) {
+    const Character character = first_of(text);
+    const size_t length = character.length > 0 ? character.length : 1;
+    if (character.length > 0 && is_harmless(character.code))
+      printed += text.substr(0, length);
+    else
+      printed += '?';
+    text.remove_prefix(length);
+  }
+  return printed;
+}
+
+}  // namespace spidar

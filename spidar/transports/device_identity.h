@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Which device it is that a name means, so that a lost one comes back only as itself.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "spidar/device_error.h"
+
+namespace spidar {
+
+/// As far as the system tells. All texts are printable().
+struct DeviceIdentity {
+  std::string model;   ///< name, vendor and product: "Logitech G29 (046d:c24f)"
+  std::string serial;  ///< empty if it has none
+  std::string place;   ///< where it is connected: a port, or an address; empty if nobody knows
+
+  /// The same model and serial number or, without one, in the same place. What has neither cannot
+  /// be told from others, and is never the same.
+  bool operator==(const DeviceIdentity& other) const {
+    if (model != other.model || serial != other.serial) return false;
+    return !serial.empty() || (!place.empty() && place == other.place);
+  }
+  bool operator!=(const DeviceIdentity& other) const { return !(*this == other); }
+
+  std::string text() const {
+    if (!serial.empty()) return model + ", serial number " + serial;
+    return model + (place.empty() ? "" : " at " + place);
+  }
+};
+
+/// The device that was opened first. A name may mean another one later, to which the system has
+/// given the number or the port: one with another strength and another profile, perhaps in another
+/// hand. It gets no force before somebody starts again, which asks all that is asked at the start.
+class FirstDevice {
+ public:
+  bool known() const noexcept { return first_.has_value(); }
+  bool is(const DeviceIdentity& found) const { return first_ && *first_ == found; }
+  std::string text() const { return first_ ? first_->text() : ""; }
+
+  /// To be called when a device has been opened: throws other() for another one than at first.
+  void require(const std::string& name, const DeviceIdentity& found) {
+    if (!first_)
+      first_ = found;
+    else if (!is(found))
+      throw other(name, found);
+  }
+
+  /// What is there instead.
+  DeviceError other(const std::string& name, const DeviceIdentity& found) const {
+    const bool unknown = found.serial.empty() && found.place.empty();
+    const std::string why = unknown ? " may be another device than the one that was lost"
+                                    : " is another device than the one that was lost, " + text();
+    return DeviceError(name + ": " + found.text() + why +
+                           ": it gets no force. Plug that one in again, or stop and start to use "
+                           "this one",
+                       DeviceTrouble::kSettings);
+  }
+
+ private:
+  std::optional<DeviceIdentity> first_;
+};
+
+}  // namespace spidar

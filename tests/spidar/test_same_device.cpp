@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A device that is lost comes back only as itself: no force goes to another one that its name
+/// means by then.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/session/device_factory.h"
+#include "spidar/session/haptic_session.h"
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/support/felt_player.h"
+
+namespace spidar::test::same_device_test {
+namespace {
+
+class SameDevice : public testing::Test {
+ protected:
+  SameDevice() { clear_bus(); }
+  ~SameDevice() override { clear_bus(); }
+
+  static std::unique_ptr<Grip> grip(const std::string& spec, const char* profile) {
+    BoardSettings settings;
+    settings.guardian = false;
+    settings.threaded = false;
+    return make_grip(spec, load_profile(profile), settings);
+  }
+};
+
+/// The message of open(); empty on success.
+std::string opening(Grip& grip) {
+  grip.close();
+  try {
+    grip.open();
+    return {};
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+}
+
+bool is_refused(const std::string& said) {
+  return said.find("is another device than the one that was lost") != std::string::npos &&
+         said.find("it gets no force") != std::string::npos;
+}
+
+/// A port of the bus, and which device is in it at first, then, and at the end.
+struct Case {
+  const char* spec;
+  UsbKind kind, then;
+  const char *serial, *then_serial;
+};
+
+TEST_F(SameDevice, IsTheOnlyOneThatComesBackOnUsb) {
+  for (const Case& c : {
+           Case{"usb", UsbKind::kSh4, UsbKind::kSh4, "AAA", "BBB"},
+           {"usb:1-1", UsbKind::kSh4, UsbKind::kSh4, "AAA", "BBB"},
+           {"usb:1-1", UsbKind::kSh4, UsbKind::kSh4, "AAA", ""},
+           {"usb:1-1", UsbKind::kSh4, UsbKind::kSh4, "", "BBB"},
+           {"usb", UsbKind::kSh4, UsbKind::kSimple, "", ""},
+           {"falcon", UsbKind::kFalcon, UsbKind::kFalcon, "AAA", "BBB"},
+       }) {
+    SCOPED_TRACE(std::string(c.spec) + " " + c.serial + " " + c.then_serial);
+    // Its source names no board.
+    const auto grip = SameDevice::grip(c.spec, "spidar-g645");
+    const auto plug_in = [](size_t port, UsbKind kind, const char* serial) {
+      UsbPort& plugged = plug(port, kind, serial);
+      plugged.falcon.loaded = true;
+      return &plugged;
+    };
+    plug_in(0, c.kind, c.serial);
+    ASSERT_EQ(opening(*grip), "");
+    unplug(0);
+    EXPECT_FALSE(is_refused(opening(*grip)));
+    const UsbPort* const other = plug_in(0, c.then, c.then_serial);
+    const uint64_t updates = other->updates;
+    for (int times = 0; times < 2; ++times) {
+      const std::string said = opening(*grip);
+      EXPECT_TRUE(is_refused(said)) << said;
+    }
+    EXPECT_EQ(other->updates, updates) << "it was opened";
+    // In another port if its serial number tells that it is the same.
+    if (*c.serial) {
+      plug_in(2, c.kind, c.serial);
+    } else {
+      unplug(0);
+      plug_in(0, c.kind, c.serial);
+    }
+    EXPECT_EQ(opening(*grip), "");
+    EXPECT_NE(grip->description().find(*c.serial ? "1-3" : "1-1"), std::string::npos)
+        << grip->description();
+    clear_bus();
+  }
+}
+
+TEST_F(SameDevice, WithoutASerialNumberIsInItsPortAndHasItsSwitch) {
+  plug(0, UsbKind::kSh4).inputs = 0x30;
+  const auto grip = SameDevice::grip("usb", "spidar-g645");
+  ASSERT_EQ(opening(*grip), "");
+  unplug(0);
+  plug(1, UsbKind::kSh4).inputs = 0x30;
+  const std::string elsewhere = opening(*grip);
+  EXPECT_TRUE(is_refused(elsewhere)) << elsewhere;
+  plug(0, UsbKind::kSh4).inputs = 0x50;
+  const std::string other_switch = opening(*grip);
+  EXPECT_TRUE(is_refused(other_switch)) << other_switch;
+  EXPECT_NE(other_switch.find("rotary switch 5"), std::string::npos) << other_switch;
+  plug(0, UsbKind::kSh4).inputs = 0x30;
+  EXPECT_EQ(opening(*grip), "");
+}
+
+/// Other devices have the USB ID of this one, so they are no reason to report anything.
+TEST_F(SameDevice, OfASharedIdIsAbsentUntilItIsBack) {
+  plug(1, UsbKind::kMouse, "AAA");
+  const auto mouse = SameDevice::grip("mouse", kDefaultProfile);
+  ASSERT_EQ(opening(*mouse), "");
+  unplug(1);
+  const UsbPort& other = plug(1, UsbKind::kMouse, "BBB");
+  EXPECT_NE(opening(*mouse).find("AAA is not plugged in"), std::string::npos);
+  EXPECT_EQ(other.updates, 0u);
+  plug(0, UsbKind::kMouse, "AAA");
+  EXPECT_EQ(opening(*mouse), "");
+}
+
+struct StickCase {
+  const char* spec;
+  EvdevIdentity first, other;
+  EvdevKind kind = EvdevKind::kStick;
+  bool comes_back = true;
+};
+
+TEST_F(SameDevice, IsTheOnlyOneThatComesBackAmongSticks) {
+  for (const StickCase& c :
+       {StickCase{"ff", {"1"}, {"2"}},
+        {"ff", {"", "port 1"}, {"", "port 2"}},
+        {"ff:/dev/input/event0", {"1"}, {"2"}},
+        {"ff:/dev/input/event0", {"1", "port 1"}, {"", "port 1"}},
+        {"ff:/dev/input/event0", {"", "port 1"}, {"", "port 1", "Another Stick"}},
+        {"ff", {"", "port 1"}, {"", "port 1"}, EvdevKind::kWheel},
+        // Nothing tells it from another one.
+        {"ff", {"", ""}, {"", ""}, EvdevKind::kStick, false}}) {
+    SCOPED_TRACE(std::string(c.spec) + " " + c.first.serial + " " + c.other.serial);
+    plug_evdev(0, EvdevKind::kStick, nullptr, c.first);
+    const FeltPlayer player(c.spec);
+    player.push(1, 0);
+    wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
+    unplug_evdev(0);
+    EvdevPort& other = plug_evdev(0, c.kind, nullptr, c.other);
+    wait_for([&] { return !player.loop().refusal().empty(); });
+    EXPECT_NE(player.loop().refusal().find("it gets no force"), std::string::npos)
+        << player.loop().refusal();
+    EXPECT_TRUE(player.loop().lost());
+    EXPECT_EQ(other.plays, 0u);
+    EXPECT_EQ(other.settings, 0u);
+    if (c.comes_back) {
+      // Beside the other one, under another number.
+      plug_evdev(4, EvdevKind::kStick, nullptr, c.first);
+      wait_for([] { return is_level(evdev_levels(4).right, 1, 1); });
+      EXPECT_TRUE(player.loop().refusal().empty());
+      EXPECT_EQ(other.plays, 0u);
+    }
+    clear_bus();
+  }
+}
+
+}  // namespace
+}  // namespace spidar::test::same_device_test
