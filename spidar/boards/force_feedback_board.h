@@ -31,7 +31,7 @@ class ForceFeedbackBoard final : public ForceBoard {
       : name_(std::move(name)),
         reach_m_(half_picture_m(profile.geometry)),
         effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {}
-  ~ForceFeedbackBoard() override { close(); }
+  ~ForceFeedbackBoard() override { effects_->close(false); }
 
   void open() override {
     reopening_ = false;

@@ -27,9 +27,13 @@ MutableBytes bytes_of(Structure& structure) noexcept {
   return {reinterpret_cast<uint8_t*>(&structure), sizeof structure};
 }
 
-std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& bytes) noexcept {
+LastWill::InputEvent event_of(const ff::EventBytes& bytes) noexcept {
   const std::optional<ff::Event> event = ff::decode_event(bytes);
-  const LastWill::InputEvent kept{event->code, event->value};
+  return {event->code, event->value};
+}
+
+std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& bytes) noexcept {
+  const LastWill::InputEvent kept = event_of(bytes);
   std::array<uint8_t, sizeof kept> packet{};
   std::memcpy(packet.data(), &kept, sizeof kept);
   return packet;
@@ -62,8 +66,13 @@ StickEffects::StickEffects(std::string name, std::unique_ptr<Transport> transpor
       updates_(updates),
       options_(options) {}
 
+/// Of a driver that has not returned.
+bool StickEffects::thread_runs() const {
+  return ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
 void StickEffects::open() {
-  if (ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+  if (thread_runs())
     throw DeviceError(
         name_ + ": its driver has not returned from a call yet; plug the device in again",
         DeviceTrouble::kBusy);
@@ -75,6 +84,7 @@ void StickEffects::open() {
         },
         *transport_);
     if (fault != LinkFault::kNone) throw no_answer(name_, fault);
+    former_settings_ = former_settings();
     begin_effects();
     start_updates();
   } catch (...) {
@@ -88,7 +98,7 @@ void StickEffects::start_updates() {
   cycle_ = 0;
   for (auto& force_N : force_N_) force_N = 0;
   pulled_ = reopening_ = false;
-  has_settings_ = gain_set_ = centring_off_ = false;
+  has_settings_ = false;
   ff::Position position;
   const LinkFault fault =
       transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
@@ -147,28 +157,41 @@ LinkFault StickEffects::take_settings() noexcept {
   if (has_settings_ || !pulled_) return LinkFault::kNone;
   LinkFault fault = LinkFault::kNone;
   // Also when these fail, because they may have arrived nevertheless.
-  if (description_.gain) {
-    gain_set_ = true;
+  settings_changed_ = true;
+  if (description_.gain)
     fault = send(ff::encode_gain(static_cast<int>(std::lround(ff::kFullGain * gain())))).fault;
-  }
-  if (fault == LinkFault::kNone && description_.autocentre) {
-    centring_off_ = true;
+  if (fault == LinkFault::kNone && description_.autocentre)
     fault = send(ff::encode_autocentre(0)).fault;
-  }
   has_settings_ = fault == LinkFault::kNone;
   return fault;
 }
 
+std::vector<ff::EventBytes> StickEffects::former_settings() const {
+  std::vector<ff::EventBytes> events;
+  if (description_.gain && gain() < 1) events.push_back(ff::encode_gain(ff::kFullGain));
+  if (!description_.autocentre || !description_.starts_centred) return events;
+  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms)
+    events.push_back(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms));
+  return events;
+}
+
 void StickEffects::return_settings() noexcept {
-  if (gain_set_ && gain() < 1) send(ff::encode_gain(ff::kFullGain));
-  gain_set_ = false;
-  if (!centring_off_ || !description_.starts_centred) return;
-  centring_off_ = false;
-  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
-    if (send(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms)).fault != LinkFault::kNone)
-      return;
+  if (!std::exchange(settings_changed_, false)) return;
+  for (const ff::EventBytes& event : former_settings_) {
+    if (send(event).fault != LinkFault::kNone) return;
     if (updates_ == Updates::kOwnThread) sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
+}
+
+void StickEffects::return_settings_later() noexcept {
+  if (thread_runs() || !settings_changed_) return;
+  try {
+    transport_->open();
+  } catch (const std::exception&) {
+    return;  // unplugged, after which its driver begins anew
+  }
+  return_settings();
+  transport_->close();
 }
 
 Transfer StickEffects::upload(size_t effect, int level) noexcept {
@@ -271,7 +294,8 @@ void StickEffects::close(bool reopening) noexcept {
   reopening_ = reopening;
   if (!thread_.joinable()) {
     // If the driver hangs, the thread ends the effects.
-    if (updates_ == Updates::kInCycle) end_effects();
+    if (updates_ == Updates::kInCycle && effect_count_ > 0) end_effects();
+    if (!reopening) return_settings_later();
     return;
   }
   stop_ = true;
@@ -283,11 +307,16 @@ void StickEffects::close(bool reopening) noexcept {
 }
 
 void StickEffects::end_effects() noexcept {
+  bool rests = true;
   for (size_t i = 0; i < effect_count_; ++i) {
     if (effects_[i].number == ff::kNewEffect) continue;
     if (effects_[i].level != 0 || !effects_[i].known) upload(i, 0);
-    send(ff::encode_play(effects_[i].number, false));
+    const bool stopped = send(ff::encode_play(effects_[i].number, false)).fault == LinkFault::kNone;
+    rests = rests && (stopped || (effects_[i].level == 0 && effects_[i].known));
   }
+  // More gain would make an effect stronger that has not been stopped; it ends by itself.
+  if (!rests && !reopening_ && updates_ == Updates::kOwnThread)
+    sleep_until_ns(monotonic_now_ns() + ff::kEffect_ms * kMs);
   if (!reopening_) return_settings();
   effect_count_ = 0;
   transport_->close();
@@ -296,7 +325,13 @@ void StickEffects::end_effects() noexcept {
 std::vector<LastWill> StickEffects::last_wills() const {
   const auto first = in_will(ff::encode_play(effects_[0].number, false));
   const auto last = in_will(ff::encode_play(effects_[effect_count_ - 1].number, false));
-  return wills(*transport_, {first, last});
+  std::vector<LastWill> will = wills(*transport_, {first, last});
+  static_assert(1 + kCentring_ms / kUpdate_ms <= LastWill::kMaxSettings);
+  static_assert(kUpdate_ms == kSetting_ms);
+  for (LastWill& last_will : will)
+    for (const ff::EventBytes& event : former_settings_)
+      last_will.setting[last_will.settings++] = event_of(event);
+  return will;
 }
 
 }  // namespace spidar

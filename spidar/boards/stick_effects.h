@@ -182,7 +182,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
 
   /// Throws DeviceError.
   void open();
-  /// The centring spring stays off if `reopening`, for a hand that still holds the stick.
+  /// The centring spring stays off if `reopening`, for a hand that still holds the stick; the next
+  /// closing returns it, also if the device is not opened any more.
   void close(bool reopening) noexcept;
   /// Sets the force in newtons, right and up, and whether forces are switched on. Returns what the
   /// exchange is to report. Does not wait.
@@ -216,8 +217,13 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// which earlier programs or the driver may have left otherwise, and which would scale the force
   /// or add to it. Until both have been accepted, no level is set.
   LinkFault take_settings() noexcept;
-  /// Gain to full and, if the driver had turned it on, autocentre by a ramp.
+  /// What makes the settings what they were: gain to full and, if the driver had turned it on,
+  /// autocentre by a ramp. Events that are kUpdate_ms apart.
+  std::vector<ff::EventBytes> former_settings() const;
   void return_settings() noexcept;
+  /// Those of a device that was closed to be reopened, and was not.
+  void return_settings_later() noexcept;
+  bool thread_runs() const;
   int wanted_level(size_t effect) const noexcept;
   /// Reads the position, sets one level, starts effects again, and notes how it ended.
   void update() noexcept;
@@ -246,8 +252,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   std::atomic<bool> pulled_{false};    ///< since it was opened
   std::atomic<int64_t> cycled_ns_{0};  ///< the latest cycle()
   bool has_settings_ = false;          ///< take_settings() has succeeded
-  bool gain_set_ = false;              ///< gain may not be full
-  bool centring_off_ = false;          ///< autocentre may be off
+  bool settings_changed_ = false;  ///< and not returned; since then, other openings may have been
+  std::vector<ff::EventBytes> former_settings_;  ///< of the open device
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
   StickPosition position_;

@@ -30,21 +30,27 @@ struct LastWill {
   };
   static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
   static constexpr size_t kMaxLength = 512;
-  static constexpr uint32_t kMagic = 0x53504735;  // "SPG5": this layout
+  static constexpr size_t kMaxSettings = 24;
+  static constexpr uint32_t kMagic = 0x53504736;  // "SPG6": this layout
 
   uint32_t magic = kMagic;
   Wire wire = Wire::kUsb;
   uint32_t interface_number = 0;
   uint32_t endpoint = 0;
   uint32_t packets = 0;
+  uint32_t settings = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
+  /// Of an input device: what makes its settings what they were before it was driven, one event
+  /// every kSetting_ms. Sent after the packets when the host has ended and its motors had pulled.
+  std::array<InputEvent, kMaxSettings> setting{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
   /// open file, so that the host's claim is also valid for the guardian. The number of the
   /// descriptor is different in each process.
   int file = -1;
 };
-static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength),
+static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength) +
+                                      LastWill::kMaxSettings * 8,
               "the layout must be the same in 32-bit and 64-bit programs");
 
 /// A host that exchanges with its board sends a message at least every kBeat_ms. If its motors pull
@@ -53,6 +59,7 @@ static_assert(sizeof(LastWill) == 6 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// the host assumes the same of its guardian, so that a stopped guardian is noticed within 100 ms,
 /// also at rest.
 constexpr int kBeat_ms = 10;
+constexpr int kSetting_ms = 5;
 constexpr int kSilence_ms = 50;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kAnswer_ms = 800;  // under a sanitizer, programs are up to ten times slower
@@ -81,7 +88,7 @@ enum class GuardianWord : char {
 /// is killed or while it is stopped. A guardian is a small separate program (spidar-guardian) that
 /// has the device's open file and packets of zeros. It sends these packets when this process ends,
 /// even if another process has inherited its files, and when motors pull and watch() was not called
-/// for kSilence_ms.
+/// for kSilence_ms. When this process has ended, it also returns the settings of an input device.
 ///
 /// To be used by one thread at a time. In a forked child of the process that created it, it does
 /// nothing.
@@ -110,7 +117,8 @@ class Guardian {
 
   /// Makes the guardian zero the motors now, for the case that the board is released but the motors
   /// could not be zeroed. Returns after kEnd_s at the latest; the guardian goes on trying until the
-  /// board takes the zeros or is gone.
+  /// board takes the zeros or is gone. The effects of an input device end by themselves, and are
+  /// erased with its end.
   void carry_out() noexcept;
 
   static constexpr int kEnd_s = 2;

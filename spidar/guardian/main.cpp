@@ -25,6 +25,7 @@
 
 #include "spidar/guardian/guardian.h"
 #include "spidar/guardian/sleep_inhibitor.h"
+#include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace {
@@ -32,9 +33,12 @@ namespace {
 using spidar::GuardianWord;
 using spidar::HostWord;
 using spidar::LastWill;
+namespace ff = spidar::ff;
 
 constexpr int kRetry_ms = 10;
 constexpr int kTransfer_ms = 20;
+/// By then the effects of an input device have ended by themselves.
+constexpr int kInputRetries = ff::kEffect_ms / kRetry_ms;
 
 /// Whether a file will never take a packet again: its device is gone, or it is none. Of these the
 /// kernel's usbfs gives only ENODEV and ESHUTDOWN; an emulation that this process does not see
@@ -76,13 +80,28 @@ bool send_usb(LastWill& will) {
   return true;
 }
 
-/// Like send_usb(). The file is non-blocking. `gone` is the error of a file whose device is gone,
-/// besides ENODEV and ENXIO.
-bool write_all(int file, const uint8_t* bytes, size_t length, int gone) {
+/// Whether the next attempt to write may succeed.
+bool may_pass(int error) {
+  return error == EAGAIN || error == EINTR || error == ENOMEM || error == ENOBUFS;
+}
+
+/// Of a tty, EIO and others: it was pulled out. Of a socket, EPIPE, ECONNRESET and others: its
+/// connection has ended.
+bool ends_stream(int error) {
+  return !may_pass(error);
+}
+
+/// A driver that fails (EIO) may work again.
+bool ends_input(int error) {
+  return error == ENODEV || error == ENXIO || error == EBADF;
+}
+
+/// Like send_usb(). The file is non-blocking.
+bool write_all(int file, const uint8_t* bytes, size_t length, bool (*ends)(int error)) {
   for (size_t sent = 0; sent < length;) {
     const ssize_t more = write(file, bytes + sent, length - sent);
-    if (more < 0 && errno != EAGAIN && errno != EINTR)
-      return errno == gone || errno == ENXIO || errno == ENODEV;
+    if (more < 0 && ends(errno)) return true;
+    if (more < 0 && !may_pass(errno)) return false;
     if (more > 0) sent += static_cast<size_t>(more);
     pollfd room{file, POLLOUT, 0};
     if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
@@ -90,22 +109,25 @@ bool write_all(int file, const uint8_t* bytes, size_t length, int gone) {
   return true;
 }
 
-bool send_stream(const LastWill& will, int gone) {
+bool send_stream(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i)
-    if (!write_all(will.file, will.packet[i].data(), will.length[i], gone)) return false;
+    if (!write_all(will.file, will.packet[i].data(), will.length[i], ends_stream)) return false;
   return true;
+}
+
+bool send_event(int file, const LastWill::InputEvent& wanted) {
+  input_event event{};
+  event.type = EV_FF;
+  event.code = static_cast<uint16_t>(wanted.code);
+  event.value = wanted.value;
+  return write_all(file, reinterpret_cast<const uint8_t*>(&event), sizeof event, ends_input);
 }
 
 bool send_input(const LastWill& will) {
   for (uint32_t i = 0; i < will.packets; ++i) {
     LastWill::InputEvent wanted;
     std::memcpy(&wanted, will.packet[i].data(), sizeof wanted);
-    input_event event{};
-    event.type = EV_FF;
-    event.code = static_cast<uint16_t>(wanted.code);
-    event.value = wanted.value;
-    if (!write_all(will.file, reinterpret_cast<const uint8_t*>(&event), sizeof event, ENODEV))
-      return false;
+    if (!send_event(will.file, wanted)) return false;
   }
   return true;
 }
@@ -115,21 +137,36 @@ bool send_packets(LastWill& will) {
     case LastWill::Wire::kUsb:
       return send_usb(will);
     case LastWill::Wire::kTerminal:
-      return send_stream(will, EIO);
+    case LastWill::Wire::kSocket:
+      return send_stream(will);
     case LastWill::Wire::kInput:
       return send_input(will);
-    case LastWill::Wire::kSocket:
-      return send_stream(will, EPIPE);  // after ECONNRESET, too
   }
   return true;  // receive() has refused others
 }
 
-/// Returns when the zeros have arrived or the device is gone. A board may recover at any time, and
-/// pulls until then.
-void carry_out(LastWill& will) {
-  while (!send_packets(will)) {
-    const timespec duration{0, kRetry_ms * 1'000'000};
-    nanosleep(&duration, nullptr);
+void sleep_ms(int milliseconds) {
+  const timespec duration{0, milliseconds * 1'000'000};
+  nanosleep(&duration, nullptr);
+}
+
+/// Returns true when the zeros have arrived or the device is gone. A board may recover at any time,
+/// and pulls until then. The effects of an input device do not, and the kernel erases them when
+/// nobody has its file any more, so that to end is better than to try for ever.
+bool carry_out(LastWill& will) {
+  for (int retries = 0; !send_packets(will); ++retries) {
+    if (will.wire == LastWill::Wire::kInput && retries == kInputRetries) return false;
+    sleep_ms(kRetry_ms);
+  }
+  return true;
+}
+
+/// To be called at rest: more gain would make a force stronger. A driver that fails has no more
+/// attempts.
+void return_settings(const LastWill& will) {
+  for (uint32_t i = 0; i < will.settings; ++i) {
+    if (!send_event(will.file, will.setting[i])) return;
+    sleep_ms(spidar::kSetting_ms);
   }
 }
 
@@ -152,7 +189,7 @@ bool receive(LastWill& will, int& host) {
   will.file = files[0];
   host = files[1];
   if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
-      will.wire > LastWill::Wire::kSocket)
+      will.settings > LastWill::kMaxSettings || will.wire > LastWill::Wire::kSocket)
     return false;
   for (uint32_t i = 0; i < will.packets; ++i)
     if (will.length[i] > LastWill::kMaxLength) return false;
@@ -164,8 +201,9 @@ bool say(GuardianWord word) {
 }
 
 /// Carries out the will whenever the host is silent while its motors pull. Returns true when the
-/// host has ended, and false when it has dismissed its guardian.
-bool watch(int host, LastWill& will) {
+/// host has ended, and false when it has dismissed its guardian. `pulled`: whether its motors ever
+/// did.
+bool watch(int host, LastWill& will, bool& pulled) {
   bool pulling = false, zeroed = false, failed = false;
   spidar::SleepInhibitor inhibitor;
   for (;;) {
@@ -186,6 +224,7 @@ bool watch(int host, LastWill& will) {
       if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
       if (word == HostWord::kDismissed) return false;
       pulling = word == HostWord::kPulling;
+      pulled |= pulling;
       inhibitor.hold(pulling);
     }
     say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
@@ -219,6 +258,7 @@ int main() {
   if (chdir("/") != 0) return 1;
   ask_for_promptness();
   if (!say(GuardianWord::kWatching)) return 1;
-  if (watch(host, will)) carry_out(will);
+  bool pulled = false;
+  if (watch(host, will, pulled) && carry_out(will) && pulled) return_settings(will);
   return 0;
 }

@@ -66,4 +66,11 @@ inline pid_t guardian_process(pid_t of = getpid()) {
   return 0;
 }
 
+/// Its parent may not have taken note of its end yet.
+inline bool has_ended(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return !(status >> number >> name >> state) || state == "Z";
+}
+
 }  // namespace spidar::test

@@ -317,6 +317,54 @@ TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
     EXPECT_EQ(event.code, expected[i].code);
     EXPECT_EQ(event.value, expected[i].value);
   }
+  // The gain, and the spring in steps.
+  ASSERT_EQ(will.settings, 21u);
+  EXPECT_EQ(will.setting[0].code, uint32_t{FF_GAIN});
+  EXPECT_EQ(will.setting[0].value, 0xFFFF);
+  EXPECT_EQ(will.setting[20].code, uint32_t{FF_AUTOCENTER});
+  EXPECT_EQ(will.setting[20].value, 0xFFFF);
+}
+
+/// A player that stood still closes its device to open it again, and leaves the spring off for that
+/// time. If it does not come back, nobody else turns it on.
+TEST_F(ForceFeedbackFaults, SettingsReturnWhenAReopeningFails) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  auto board = std::make_unique<ForceFeedbackBoard>("ff", load_profile(kDefaultProfile),
+                                                    std::make_unique<EvdevTransport>("ff", ""),
+                                                    ForceFeedbackBoard::Updates::kOwnThread);
+  const auto take_settings = [&] {
+    board->open();
+    ForceReading reading;
+    wait_for([&] {
+      board->cycle({{1, 0, 0}, true}, reading, 0);
+      return port.gain != 0xFFFF && port.gain != 0 && port.autocentre == 0;
+    });
+  };
+  take_settings();
+  board->expect_reopening();
+  board->close();
+  EXPECT_EQ(port.autocentre, 0);
+  port.upload_error = ENOSPC;
+  EXPECT_THROW(board->open(), DeviceError);
+  port.upload_error = 0;
+  board.reset();
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+  EXPECT_EQ(port.gain, 0xFFFF);
+}
+
+/// Full gain would make an effect five times as strong that could not be stopped.
+TEST_F(ForceFeedbackFaults, TheGainReturnsWhenEffectsHaveEnded) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "iforce");
+  port.expires = true;
+  {
+    const FeltPlayer player;
+    player.push(1, 0);
+    wait_for([] { return evdev_levels(0).right != 0; });
+    port.upload_error = EIO;
+    port.refuses_stops = true;
+  }
+  EXPECT_EQ(port.gain, 0xFFFF);
+  EXPECT_EQ(port.gain_with_force, 0);
 }
 
 /// The scheduling policy of a thread with this name.
