@@ -31,6 +31,7 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
   errors_in_a_row_ = fault == LinkFault::kNone ? 0 : errors_in_a_row_ + 1;
+  if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(name(), fault, late_ns));
   if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors)
     throw DeviceError(loss_text(name(), health().last_fault, late_ns));
 }
@@ -40,6 +41,11 @@ template class Hold<Eigen::Vector3d, GripReading>;
 
 StringHold::StringHold(StringDevice& device, const Profile& profile, Pace pace)
     : Hold(std::move(pace)), device_(device), profile_(profile) {
+  open();
+}
+
+void StringHold::open() {
+  start_anew();
   device_.open();
 }
 
@@ -56,10 +62,14 @@ LinkFault StringHold::put_out(const StringVector& tension_N) noexcept {
 void StringHold::release() {
   const StringVector from_N = value_;
   constexpr int kTicks = static_cast<int>(HapticLoop::kRelease_s / kTick_s + 0.5);
-  for (int left = kTicks - 1; left >= 0; --left) {
-    pace_();
-    value_ = from_N * left / kTicks;
-    exchange();
+  try {
+    for (int left = kTicks - 1; left >= 0; --left) {
+      pace_();
+      value_ = from_N * left / kTicks;
+      exchange();
+    }
+  } catch (const StoodStill&) {
+    // They are at zero.
   }
 }
 
@@ -69,7 +79,22 @@ void StringHold::reverse_motor(int string) {
 
 ForceHold::ForceHold(Grip& grip, Pace pace) : Hold(std::move(pace)), grip_(grip) {
   command_.dt_s = kTick_s;
+  open();
+}
+
+void ForceHold::open() {
+  start_anew();
+  command_.power = 0;
+  command_.fresh = false;
   grip_.open();
+}
+
+void ForceHold::release() {
+  try {
+    go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
+  } catch (const StoodStill&) {
+    // It is at zero.
+  }
 }
 
 ForceHold::~ForceHold() {

@@ -23,10 +23,36 @@ namespace spidar {
 /// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
 
+/// This program got no processor time, or was stopped, for so long that the guardian has set the
+/// motors to zero. What was begun can be repeated, see repeated().
+class StoodStill : public DeviceError {
+ public:
+  using DeviceError::DeviceError;
+};
+
 /// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
 /// or its guardian ended, that is what the text names. `late_ns`: since the exchange before; 0: not
 /// known.
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
+
+/// Does `part` of a test, less than a second that begins at rest, and again when this program stood
+/// still meanwhile, after it has opened the device of `hold` and begun anew by `begin`. Throws
+/// StoodStill when that happens each time: nothing can be measured on such a machine.
+template <typename AnyHold, typename Begin, typename Part>
+bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
+  constexpr int kRepetitions = 10;
+  for (int left = kRepetitions;; --left) {
+    try {
+      if (left < kRepetitions) {
+        hold.open();
+        if (!begin()) return false;
+      }
+      return part();
+    } catch (const StoodStill&) {
+      if (left == 0) throw;
+    }
+  }
+}
 
 /// What the holds of strings and of a grip have in common. The value changes linearly. Every
 /// function throws DeviceError, which says what happened, when the device is lost, or has not
@@ -74,6 +100,13 @@ class Hold {
     return fault == LinkFault::kNone;
   }
 
+  /// Nothing is put out since.
+  void start_anew() {
+    value_ = Value::Zero();
+    errors_in_a_row_ = 0;
+    last_ns_ = 0;
+  }
+
   const Pace pace_;
   Value value_ = Value::Zero();
 
@@ -94,6 +127,9 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   ~StringHold();
   StringHold(const StringHold&) = delete;
   StringHold& operator=(const StringHold&) = delete;
+
+  /// Again, after it was lost.
+  void open();
 
   /// Ramps to zero; does not end early.
   void release();
@@ -121,6 +157,11 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
   ~ForceHold();
   ForceHold(const ForceHold&) = delete;
   ForceHold& operator=(const ForceHold&) = delete;
+
+  /// Again, after it was lost: with forces switched off.
+  void open();
+  /// Ramps to zero.
+  void release();
 
   bool go(const Eigen::Vector3d& force_N, double seconds) {
     command_.power = 1;

@@ -70,7 +70,9 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   ForceHold hold(grip, pace);
   const GripAbilities can = grip.abilities();
   test.description = grip.description();
-  test.complete = hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s);
+  const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
+  test.complete = repeated(
+      hold, [] { return true; }, begin);
   if (test.complete && !grip.reading().knows_pose())
     throw DeviceError(grip.name() + ": " + to_string(grip.reading().trouble));
   for (size_t axis = 0; axis < test.moved_m.size(); ++axis) {
@@ -78,7 +80,9 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
     Pushes mean;
     for (const double side : {1.0, -1.0, -1.0, 1.0})
-      test.complete = test.complete && push(hold, side * push_N * along, mean);
+      test.complete = test.complete && repeated(hold, begin, [&] {
+                        return push(hold, side * push_N * along, mean);
+                      });
     test.moved_m[axis] = mean.moved_m;
     const double least = StickTest::kLeast_m / std::abs(mean.place_m);
     test.least_spring[axis] = spring_that_pulls_back(least);
@@ -86,7 +90,7 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
     if (std::abs(mean.moved_m) >= StickTest::kLeast_m && back >= least)
       test.spring[axis] = spring_that_pulls_back(back);
   }
-  hold.go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
+  hold.release();
   return test;
 }
 

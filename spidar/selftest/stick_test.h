@@ -29,8 +29,9 @@ struct StickTest {
 };
 
 /// Pushes four times along each axis that the device has, for 0.2 s: to one side, twice to the
-/// other, and back, so that a drift cancels. Lets it go for 0.3 s after each. Throws DeviceError
-/// when the device is lost, or does not know where it is.
+/// other, and back, so that a drift cancels. Lets it go for 0.3 s after each. A push is repeated
+/// when this program stood still. Throws DeviceError when the device is lost, or does not know
+/// where it is.
 StickTest test_stick(Grip& grip, const Pace& pace, double push_N);
 
 }  // namespace spidar

@@ -31,12 +31,19 @@ class Asking {
   void run(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
     for (int i = 0; i < profile_.geometry.count; ++i)
       if (answers.reversed[static_cast<size_t>(i)]) hold_.reverse_motor(i);
-    answers.complete =
-        hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay() && ask_all(motors, answers);
+    answers.complete = repeated(
+                           hold_, [] { return true; }, [this] { return begin(); }) &&
+                       ask_all(motors, answers);
     hold_.release();
   }
 
  private:
+  bool begin() {
+    pulling_ = -1;
+    rested_ = false;
+    return hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay();
+  }
+
   bool ask_all(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
@@ -81,6 +88,11 @@ class Asking {
   };
 
   bool pull(int motor, const StringVector& pulled_N, Pull& result) {
+    return repeated(
+        hold_, [this] { return begin(); }, [&] { return pull_once(motor, pulled_N, result); });
+  }
+
+  bool pull_once(int motor, const StringVector& pulled_N, Pull& result) {
     StringVector pulled, after;
     if (!rested_ && !average(at_rest_)) return false;
     pulling_ = motor;
@@ -112,10 +124,15 @@ class Asking {
   bool turn(int motor) {
     StringVector without_N = rest_N_;
     without_N[motor] = 0;
-    if (!hold_.go(without_N, settings_.ramp_s)) return false;
+    const auto slacken = [&] { return hold_.go(without_N, settings_.ramp_s); };
+    if (!repeated(
+            hold_, [this] { return begin(); }, slacken))
+      return false;
     hold_.reverse_motor(motor);
     rested_ = false;
-    return hold_.go(rest_N_, settings_.ramp_s) && stay();
+    const auto tighten = [this] { return hold_.go(rest_N_, settings_.ramp_s) && stay(); };
+    return repeated(
+        hold_, [this] { return begin(); }, tighten);
   }
 
   bool stay() {

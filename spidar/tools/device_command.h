@@ -4,13 +4,16 @@
 /// the person at the terminal.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "spidar/boards/board.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/realtime/thread_setup.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/session/board_list.h"
 #include "spidar/tools/cli_program.h"
@@ -117,6 +120,20 @@ bool interrupted();
 /// Waits until a millisecond after the last call, or not at all if that has passed; returns false
 /// when interrupted.
 Pace every_millisecond();
+
+/// What `work` returns or throws, which moves a device: it runs as the haptic loop does, with
+/// real-time priority where that is permitted. A guardian allows no pause of more than kSilence_ms.
+template <typename Work>
+auto in_real_time(const Work& work) {
+  std::packaged_task<decltype(work())()> task([&work] {
+    request_exact_timers();
+    request_real_time();
+    return work();
+  });
+  auto result = task.get_future();
+  start_thread("spidar-test", std::move(task)).join();
+  return result.get();
+}
 
 /// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
 bool confirm(const std::string& question);

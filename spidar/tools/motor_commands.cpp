@@ -134,7 +134,7 @@ int pull(const PullOptions& options) {
     return kFailed;
   }
   catch_signals();
-  const Lengths lengths = run(chosen, options);
+  const Lengths lengths = in_real_time([&] { return run(chosen, options); });
   if (!lengths.complete) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;

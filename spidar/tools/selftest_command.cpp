@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <array>
-#include <future>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -11,7 +10,6 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/realtime/thread_setup.h"
 #include "spidar/selftest/delay_test.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
@@ -70,7 +68,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
     return kFailed;
   catch_signals();
   const double push_N = stick ? chosen.grip->abilities().largest_force_N / 2 : options.newton;
-  const StickTest test = test_stick(*chosen.grip, every_millisecond(), push_N);
+  const StickTest test =
+      in_real_time([&] { return test_stick(*chosen.grip, every_millisecond(), push_N); });
   if (!test.complete) {
     std::cerr << "interrupted; the force is zero\n";
     return kInterrupted;
@@ -90,38 +89,51 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return right ? kDone : kFailed;
 }
 
-/// A device that does not report its position: whether these are felt, and where, only a person
-/// knows.
-int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
+/// A pulse in each direction, or one if there is only a strength. Returns what the device says of
+/// itself then; nothing when it was interrupted.
+std::optional<std::string> pulse(Grip& grip, double push_N) {
   constexpr double kRise_s = 0.05, kPulse_s = 0.5;
-  const GripAbilities can = chosen.grip->abilities();
-  const double push_N = can.largest_force_N / 2;
+  const GripAbilities can = grip.abilities();
+  ForceHold hold(grip, every_millisecond());
+  const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
+  bool whole = repeated(
+      hold, [] { return true; }, begin);
+  for (size_t axis = 0; axis < (can.direction ? kSides.size() : 1) && whole; ++axis) {
+    if (!can.force[axis]) continue;
+    std::cout << (can.direction ? kSides[axis] : "strength") << "  a pulse of 0.5 s" << std::endl;
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    whole = repeated(hold, begin, [&] {
+      return hold.go(push_N * along, kRise_s) && hold.stay(kPulse_s) &&
+             hold.go(Eigen::Vector3d::Zero(), kRise_s) && hold.stay(kPulse_s);
+    });
+  }
+  return whole ? std::optional(grip.description()) : std::nullopt;
+}
+
+/// A device that does not report its position, or only rumbles: whether these are felt, and where,
+/// only a person knows.
+int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
+  const double push_N = chosen.grip->abilities().largest_force_N / 2;
   if (!may_move(options.device, options.yes,
                 formatted("Push %s with %.1f N, one direction after the other?",
                           chosen.name().c_str(), push_N)))
     return kFailed;
   catch_signals();
-  ForceHold hold(*chosen.grip, every_millisecond());
-  bool whole = hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s);
-  for (size_t axis = 0; axis < kSides.size() && whole; ++axis) {
-    if (!can.force[axis]) continue;
-    std::cout << kSides[axis] << "  a pulse of 0.5 s" << std::endl;
-    const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
-    whole = hold.go(push_N * along, kRise_s) && hold.stay(kPulse_s) &&
-            hold.go(Eigen::Vector3d::Zero(), kRise_s) && hold.stay(kPulse_s);
-  }
-  if (!whole) {
+  const std::optional<std::string> felt = in_real_time([&] { return pulse(*chosen.grip, push_N); });
+  if (!felt) {
     std::cerr << "interrupted; the force is zero\n";
     return kInterrupted;
   }
-  std::cout << chosen.grip->description()
-            << "\nThe device has taken them; only you know what was felt.\n";
+  std::cout << *felt << "\nThe device has taken them; only you know what was felt.\n";
   return kDone;
 }
 
-/// Whether it takes a force and reports its position.
-bool answers_pushes(const ChosenDevice& chosen) {
-  return chosen.grip && chosen.grip->abilities().position[0];
+/// Whether it moves to where it is pushed, and says so. Only the open device knows.
+bool answers_pushes(Grip& grip) {
+  grip.open();
+  const GripAbilities can = grip.abilities();
+  grip.close();
+  return can.direction && can.position[0];
 }
 
 bool is_confirmed(const SelftestOptions& options, const std::string& device) {
@@ -139,15 +151,8 @@ DelayTest shake(StringDevice& device, const Profile& profile) {
       "up "
       "to %g N for %.0f s; Ctrl-C ends that.\n",
       DelayTestSettings().peak_N, DelayTestSettings().seconds());
-  // As the haptic loop runs: pauses of a busy machine cost seconds that are evaluated.
-  std::packaged_task<DelayTest()> task([&] {
-    request_exact_timers();
-    request_real_time();
-    return measure_delay(device, profile, every_millisecond(), monotonic_now_ns);
-  });
-  std::future<DelayTest> result = task.get_future();
-  start_thread("spidar-delay", std::move(task)).join();
-  return result.get();
+  return in_real_time(
+      [&] { return measure_delay(device, profile, every_millisecond(), monotonic_now_ns); });
 }
 
 int interrupted_test() {
@@ -157,8 +162,9 @@ int interrupted_test() {
 
 int selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
-  if (answers_pushes(chosen)) return test_push_command(options, chosen);
-  if (chosen.grip) return pulse_command(options, chosen);
+  if (chosen.grip)
+    return answers_pushes(*chosen.grip) ? test_push_command(options, chosen)
+                                        : pulse_command(options, chosen);
   require_strings(chosen.board, "selftest");
   options.output.check();
   if (!is_confirmed(options, chosen.name())) return kFailed;
@@ -167,8 +173,9 @@ int selftest(const SelftestOptions& options) {
   WiringTestSettings settings;
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.device, profile);
-  const auto [answers, report] =
-      test_wiring(*chosen.device, profile, every_millisecond(), settings, tell_to_hold_still);
+  const auto [answers, report] = in_real_time([&] {
+    return test_wiring(*chosen.device, profile, every_millisecond(), settings, tell_to_hold_still);
+  });
   if (!answers.complete) return interrupted_test();
   Json json;
   if (options.json)
@@ -225,7 +232,8 @@ void add_selftest(Program& program) {
       "pushes it to each side for 0.2 s, four times. Hold its grip loosely at the centre. Of a\n"
       "joystick or wheel (ff), likewise, with half of the force that its gain allows, and whether\n"
       "a spring pulls it back although it is switched off. Take the hand away. A device without a\n"
-      "position, such as a sound card, gets a pulse in each direction, which only you can feel.\n\n"
+      "position, such as a sound card, or that only rumbles, gets pulses, which only you can "
+      "feel.\n\n"
       "Exit status: 0 the wiring is as in the profile, 1 it is not, or drive_lag_s is too small "
       "or\n"
       "was not found, or not confirmed, or no device, 2 wrong usage, 130 interrupted.");

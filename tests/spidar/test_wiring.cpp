@@ -2,13 +2,16 @@
 // Copyright 2026 the gst-spidar authors
 // Finds the wiring from answers computed from the geometry, and from the simulated device, whose
 // hand and motors differ from the assumed ones.
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -59,7 +62,63 @@ TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
   EXPECT_NE(unknown.find("stood still, because"), std::string::npos) << unknown;
 }
 
+/// Its guardian sets the motors to zero after each of these numbers of exchanges.
+class PausedDevice final : public StringDevice {
+ public:
+  PausedDevice(const Profile& profile, std::vector<int> pauses)
+      : real_(profile, SimulatedDevice::Time::kFixedStep), pauses_(std::move(pauses)) {}
+  void open() override {
+    real_.open();
+    lost_ = false;
+    ++opened;
+  }
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    ++exchanges_;
+    lost_ = lost_ || std::find(pauses_.begin(), pauses_.end(), exchanges_) != pauses_.end();
+    return lost_ ? LinkFault::kStoodStill : real_.exchange(volts, reading);
+  }
+  void close() noexcept override { real_.close(); }
+  LinkHealth health() const noexcept override {
+    LinkHealth health;
+    if (lost_) health.last_fault = LinkFault::kStoodStill;
+    return health;
+  }
+  const std::string& name() const noexcept override { return real_.name(); }
+
+  int opened = 0;
+
+ private:
+  SimulatedDevice real_;
+  const std::vector<int> pauses_;
+  int exchanges_ = 0;
+  bool lost_ = false;
+};
+
 }  // namespace
+
+TEST(Wiring, IsFoundAlthoughTheProgramStoodStill) {
+  const Profile profile = load_profile("spidar-gcc");
+  SimulatedDevice undisturbed(profile, SimulatedDevice::Time::kFixedStep);
+  const WiringAnswers right = ask_wiring(undisturbed, profile, at_once);
+  // While the strings are tightened, in pulls, and in the release.
+  for (const std::vector<int>& pauses :
+       {std::vector<int>{50}, {700, 1900, 2500}, {400, 401, 402}, {8000, 8100, 8200, 8300}}) {
+    PausedDevice device(profile, pauses);
+    const WiringAnswers answers = ask_wiring(device, profile, at_once);
+    EXPECT_TRUE(answers.complete);
+    EXPECT_EQ(faults_of(judge_wiring(profile, answers)), faults_of(judge_wiring(profile, right)));
+    EXPECT_TRUE(judge_wiring(profile, answers).as_profile());
+  }
+}
+
+TEST(Wiring, IsNotLookedForOnAMachineThatStandsStillForEver) {
+  const Profile profile = load_profile("spidar-gcc");
+  std::vector<int> always(100'000);
+  std::iota(always.begin(), always.end(), 100);
+  PausedDevice device(profile, always);
+  EXPECT_THROW(ask_wiring(device, profile, at_once), StoodStill);
+  EXPECT_EQ(device.opened, 11);
+}
 
 TEST(Wiring, OfEveryShippedProfileIsFoundToBeRight) {
   for (const std::string& name : list_profiles()) {

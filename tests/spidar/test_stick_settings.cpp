@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// spidarctl selftest on a joystick or gamepad of the emulated bus.
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/guardian_victim.h"
+#include "tests/support/temporary_folder.h"
+
+namespace spidar::test::stick_settings_test {
+namespace {
+
+class StickSettings : public testing::Test {
+ protected:
+  StickSettings() { clear_bus(); }
+  ~StickSettings() override { clear_bus(); }
+
+  /// What it prints is in log().
+  ChildProcess selftest() const {
+    return ChildProcess(
+        {"sh", "-c", "exec " SPIDARCTL " selftest ff --yes >" + log_.string() + " 2>&1"},
+        {"LD_PRELOAD=" EMULATED_BUS_LIBRARY});
+  }
+  std::string log() const {
+    std::ifstream file(log_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  const TemporaryFolder folder_;
+  const std::filesystem::path log_ = folder_.path / "log";
+};
+
+TEST_F(StickSettings, AreReturnedHoweverASelftestEnds) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  for (const bool stopped : {false, true}) {
+    for (const int signal : {SIGTERM, SIGQUIT, SIGKILL}) {
+      ChildProcess test = selftest();
+      wait_for([&] { return !evdev_levels(0).at_rest() || !test.lives(); });
+      ASSERT_TRUE(test.lives()) << log();
+      EXPECT_EQ(port.autocentre, 0);
+      if (stopped) {
+        test.send(SIGSTOP);
+        wait_for([&] { return evdev_levels(0).at_rest(); });
+        if (signal != SIGKILL) test.send(SIGCONT);
+      }
+      test.end(signal);
+      // Nobody has the device any more.
+      wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
+      EXPECT_EQ(port.gain, 0xFFFF) << signal << log();
+      EXPECT_EQ(port.autocentre, 0xFFFF) << signal << log();
+    }
+  }
+}
+
+/// The whole test, which a stop disturbs in one push only.
+TEST_F(StickSettings, ASelftestThatStoodStillGoesOn) {
+  EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
+  ChildProcess test = selftest();
+  wait_for([&] { return !evdev_levels(0).at_rest() || !test.lives(); });
+  ASSERT_TRUE(test.lives()) << log();
+  test.send(SIGSTOP);
+  wait_for([&] { return evdev_levels(0).at_rest(); });
+  test.send(SIGCONT);
+  // This stick does not move.
+  EXPECT_EQ(test.wait(), 1) << log();
+  EXPECT_NE(log().find("right    does not move"), std::string::npos) << log();
+  EXPECT_EQ(log().find("stood still"), std::string::npos) << log();
+  EXPECT_EQ(port.gain, 0xFFFF);
+  EXPECT_EQ(port.autocentre, 0xFFFF);
+}
+
+/// Its sticks are no grip that a force could move.
+TEST_F(StickSettings, APadThatOnlyRumblesRumbles) {
+  plug_evdev(0, EvdevKind::kPad);
+  ChildProcess test = selftest();
+  wait_for([&] { return evdev_levels(0).rumble > 0 || !test.lives(); });
+  ASSERT_TRUE(test.lives()) << log();
+  EXPECT_EQ(test.wait(), 0) << log();
+  EXPECT_NE(log().find("strength  a pulse of 0.5 s"), std::string::npos) << log();
+  EXPECT_EQ(log().find("does not move"), std::string::npos) << log();
+  EXPECT_TRUE(evdev_levels(0).at_rest());
+}
+
+}  // namespace
+}  // namespace spidar::test::stick_settings_test
