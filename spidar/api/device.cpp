@@ -8,12 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 #include <gst-spidar/device.h>
 
 #include "core/grip/picture_size.h"
+#include "spidar/api/of_this_process.h"
 #include "spidar/api/surface.h"
 #include "spidar/api/vectors.h"
 #include "spidar/loop/stiffness_limit.h"
@@ -67,6 +67,19 @@ void require_no_callback() {
         "another thread");
 }
 
+/// The device and what drives it.
+struct Driven {
+  Driven(const std::string& device, const spidar::Profile& profile)
+      : session(spidar::make_grip(device, profile)) {
+    session.loop().set_playback_clock(now_is_now());
+  }
+
+  std::mutex calls;        // one at a time of those that change anything
+  TouchedSurface surface;  // the loop must not outlive it
+  HapticSession session;
+  int64_t pushed_ns = 0;
+};
+
 /// What a device gives at most.
 struct DeviceRange {
   DeviceRange(const std::string& device, const spidar::Profile& profile, const spidar::Grip& grip) {
@@ -107,35 +120,35 @@ struct DeviceRange {
 // A nested class has the visibility of the enclosing class unless it states its own.
 struct __attribute__((visibility("hidden"))) Device::Impl {
   Impl(const std::string& device, const spidar::Profile& profile)
-      : session(spidar::make_grip(device, profile)), range(device, profile, session.grip()) {
-    session.loop().set_playback_clock(now_is_now());
-  }
+      : driven(device, profile),
+        name(driven.get()->session.grip().name()),
+        abilities(driven.get()->session.grip().abilities()),
+        range(device, profile, driven.get()->session.grip()) {}
 
-  /// One call at a time of those that change anything. Throws std::logic_error within a callback,
-  /// and std::runtime_error in a child that has a copy of this by fork().
-  std::unique_lock<std::mutex> alone() {
+  /// Throws std::logic_error within a callback, and std::runtime_error in a copy.
+  Locked<Driven> alone() const {
     require_no_callback();
-    if (is_copy()) throw std::runtime_error(kOtherProcess);
-    return std::unique_lock<std::mutex>(calls);
+    Driven* const mine = driven.get();
+    if (!mine) throw std::runtime_error(kOtherProcess);
+    return Locked(*mine);
   }
-  /// After fork(), the child has a copy of this without the thread that drives the device.
-  bool is_copy() const { return getpid() != owner; }
+  /// Nothing in a copy.
+  std::optional<spidar::LoopSnapshot> snapshot() const {
+    const Driven* const mine = driven.get();
+    if (!mine) return std::nullopt;
+    return mine->session.loop().snapshot();
+  }
 
-  const pid_t owner = getpid();
-  std::mutex calls;
-  TouchedSurface surface;  // the loop must not outlive it
-  HapticSession session;
+  const OfThisProcess<Driven> driven;
+  const std::string name;
+  const spidar::GripAbilities abilities;
   const DeviceRange range;
-  int64_t pushed_ns = 0;
 };
 
 Device::Device(const std::string& name, const std::string& profile)
     : impl_(std::make_unique<Impl>(name, profile_for(name, profile))) {}
 
-Device::~Device() {
-  // The device is that of the parent, and there is no thread to wait for.
-  if (impl_ && impl_->is_copy()) static_cast<void>(impl_.release());
-}
+Device::~Device() = default;
 
 Device::Device(Device&& other) noexcept = default;
 
@@ -151,14 +164,14 @@ bool Device::push(const Wrench& wrench) {
   if (!entry.wrench.is_finite()) throw std::invalid_argument("a wrench must be six finite numbers");
   const auto alone = impl_->alone();
   // The clock may stand still between two calls, but times must rise.
-  entry.time_ns = std::max(HapticSession::monotonic_now_ns(), impl_->pushed_ns + 1);
+  entry.time_ns = std::max(HapticSession::monotonic_now_ns(), alone->pushed_ns + 1);
   entry.hold_ns = kHold_ns;
-  impl_->pushed_ns = entry.time_ns;
-  return state() != DeviceState::kLost && impl_->session.loop().schedule(entry);
+  alone->pushed_ns = entry.time_ns;
+  return state() != DeviceState::kLost && alone->session.loop().schedule(entry);
 }
 
 void Device::rest() {
-  impl_->session.loop().cancel_scheduled();
+  if (Driven* const mine = impl_->driven.get()) mine->session.loop().cancel_scheduled();
 }
 
 void Device::set_callback(Callback callback, Energy energy) {
@@ -179,16 +192,17 @@ void Device::set_callback(Callback callback, Energy energy) {
     };
   }
   const auto alone = impl_->alone();
-  impl_->session.loop().callback().set(
+  alone->session.loop().callback().set(
       std::move(function), {energy == Energy::kPassive, impl_->range.surface.drive_lag_s});
 }
 
 std::string Device::callback_error() const {
   // A callback that runs has no error. The text of one that threw stays as long as no other one is
   // set.
-  if (calls_back) return {};
-  const std::lock_guard<std::mutex> alone(impl_->calls);
-  const spidar::WrenchCallback& callback = impl_->session.loop().callback();
+  Driven* const mine = impl_->driven.get();
+  if (calls_back || !mine) return {};
+  const std::lock_guard<std::mutex> alone(mine->calls);
+  const spidar::WrenchCallback& callback = mine->session.loop().callback();
   switch (callback.state()) {
     case spidar::WrenchCallback::State::kThrew:
       return std::string("the callback has thrown an exception: ") + callback.thrown();
@@ -206,55 +220,58 @@ void Device::set_limits(double max_force_N, double max_torque_Nm) {
   spidar::SafetyLimits limits;
   limits.max_force_N = max_force_N;
   limits.max_torque_Nm = max_torque_Nm;
-  const auto alone = impl_->alone();
-  impl_->session.loop().set_limits(limits);
+  impl_->alone()->session.loop().set_limits(limits);
 }
 
 bool Device::set_surface(const Surface& surface) {
   const auto alone = impl_->alone();
-  return impl_->surface.set(surface, impl_->range.surface, impl_->session.loop());
+  return alone->surface.set(surface, impl_->range.surface, alone->session.loop());
 }
 
 void Device::clear_surface() {
-  impl_->surface.clear();
+  if (Driven* const mine = impl_->driven.get()) mine->surface.clear();
 }
 
 std::optional<Pose> Device::pose() const {
-  const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
-  if (snapshot.last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
-  return to_api(snapshot.last.pose);
+  const auto snapshot = impl_->snapshot();
+  if (!snapshot || snapshot->last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  return to_api(snapshot->last.pose);
 }
 
 std::optional<Vector3> Device::velocity() const {
-  const spidar::LoopSnapshot snapshot = impl_->session.loop().snapshot();
-  if (snapshot.last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
-  const Eigen::Vector3d& velocity_m_s = snapshot.last.velocity.linear_m_s;
+  const auto snapshot = impl_->snapshot();
+  if (!snapshot || snapshot->last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  const Eigen::Vector3d& velocity_m_s = snapshot->last.velocity.linear_m_s;
   return Vector3{velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z()};
 }
 
 std::uint32_t Device::buttons() const {
-  const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
-  return tick.device == spidar::DeviceState::kLost ? 0 : tick.buttons;
+  const auto snapshot = impl_->snapshot();
+  const bool known = snapshot && snapshot->last.device != spidar::DeviceState::kLost;
+  return known ? snapshot->last.buttons : 0;
 }
 
 bool Device::held() const {
-  return impl_->session.loop().snapshot().last.held;
+  const auto snapshot = impl_->snapshot();
+  return snapshot && snapshot->last.held;
 }
 
 double Device::vibration_fraction() const {
-  return impl_->session.loop().snapshot().vibration.fraction;
+  const auto snapshot = impl_->snapshot();
+  return snapshot ? snapshot->vibration.fraction : 1;
 }
 
 Wrench Device::felt() const {
-  const spidar::TickRecord tick = impl_->session.loop().snapshot().last;
+  const auto snapshot = impl_->snapshot();
   // The strings already pull while the tensions ramp up, and still while they ramp down.
-  if (tick.device == spidar::DeviceState::kLost) return {};
-  return to_api(tick.delivered);
+  if (!snapshot || snapshot->last.device == spidar::DeviceState::kLost) return {};
+  return to_api(snapshot->last.delivered);
 }
 
 DeviceState Device::state() const {
-  if (impl_->is_copy()) return DeviceState::kLost;
-  switch (impl_->session.loop().snapshot().last.device) {
+  const auto snapshot = impl_->snapshot();
+  if (!snapshot) return DeviceState::kLost;
+  switch (snapshot->last.device) {
     case spidar::DeviceState::kLost:
       return DeviceState::kLost;
     case spidar::DeviceState::kIdle:
@@ -279,19 +296,23 @@ bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
 }
 
 std::string Device::last_fault() const {
-  if (impl_->is_copy()) return kOtherProcess;
-  const spidar::LinkFault fault = impl_->session.grip().health().last_fault;
-  return fault == spidar::LinkFault::kNone ? "" : to_string(fault);
+  const Driven* const mine = impl_->driven.get();
+  if (!mine) return kOtherProcess;
+  const spidar::LinkFault fault = mine->session.grip().health().last_fault;
+  const std::string refusal = mine->session.loop().refusal();
+  return (fault == spidar::LinkFault::kNone ? "" : to_string(fault)) +
+         (refusal.empty() ? "" : "; " + refusal);
 }
 
 std::string Device::warning() const {
-  if (impl_->is_copy()) return {};
-  const std::string trouble = impl_->session.vibration_trouble();
-  return trouble.empty() ? impl_->session.grip().warning() : trouble;
+  const Driven* const mine = impl_->driven.get();
+  if (!mine) return {};
+  const std::string trouble = mine->session.vibration_trouble();
+  return trouble.empty() ? mine->session.grip().warning() : trouble;
 }
 
 Capabilities Device::capabilities() const {
-  const spidar::GripAbilities abilities = impl_->session.grip().abilities();
+  const spidar::GripAbilities& abilities = impl_->abilities;
   Capabilities found;
   found.force_x = abilities.force[0];
   found.force_y = abilities.force[1];
@@ -309,7 +330,7 @@ Capabilities Device::capabilities() const {
 }
 
 const std::string& Device::name() const {
-  return impl_->session.grip().name();
+  return impl_->name;
 }
 
 std::vector<std::string> list_devices() {

@@ -6,6 +6,7 @@
 #include <gst-spidar/motion.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "spidar/api/of_this_process.h"
 #include "spidar/api/vectors.h"
 
 namespace gst_spidar {
@@ -49,11 +50,24 @@ spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   return result;
 }
 
+struct Analysis {
+  std::mutex calls;  // one at a time
+  spidar::MotionAnalyzer analyzer{settings_of({})};
+};
+
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
-  std::mutex calls;  // one at a time
-  spidar::MotionAnalyzer analyzer{settings_of({})};
+  /// Throws std::runtime_error in a copy.
+  Locked<Analysis> alone() const {
+    Analysis* const mine = analysis.get();
+    if (!mine)
+      throw std::runtime_error(
+          "this was made by the process that this one is a copy of (fork): make one in this one");
+    return Locked(*mine);
+  }
+
+  const OfThisProcess<Analysis> analysis;
 };
 
 MotionToWrench::MotionToWrench() : impl_(std::make_unique<Impl>()) {}
@@ -62,8 +76,8 @@ MotionToWrench::MotionToWrench(MotionToWrench&& other) noexcept = default;
 MotionToWrench& MotionToWrench::operator=(MotionToWrench&& other) noexcept = default;
 
 MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::nanoseconds time) {
-  const std::lock_guard<std::mutex> alone(impl_->calls);
-  const spidar::Frame& frame = impl_->analyzer.analyze(from_api(picture), time.count());
+  const auto alone = impl_->alone();
+  const spidar::Frame& frame = alone->analyzer.analyze(from_api(picture), time.count());
   MotionResult result;
   result.wrench = to_api(frame.wrench);
   result.velocity_x_px_s = frame.motion.velocity_px_s.x();
@@ -75,13 +89,11 @@ MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::na
 }
 
 void MotionToWrench::restart() {
-  const std::lock_guard<std::mutex> alone(impl_->calls);
-  impl_->analyzer.restart();
+  if (impl_->analysis.get()) impl_->alone()->analyzer.restart();
 }
 
 void MotionToWrench::configure(const MotionSettings& settings) {
-  const std::lock_guard<std::mutex> alone(impl_->calls);
-  impl_->analyzer.configure(settings_of(settings));
+  impl_->alone()->analyzer.configure(settings_of(settings));
 }
 
 }  // namespace v0

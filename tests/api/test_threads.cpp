@@ -8,7 +8,9 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <gst-spidar/c-api.h>
@@ -106,6 +108,82 @@ TEST(Threads, ShareAMotion) {
   motion.restart();
   motion.analyze(picture.grey, 0s);
   EXPECT_TRUE(motion.analyze(picture.grey, 40ms).has_picture_before);
+}
+
+/// Whether `call` returns true in a copy of this process, soon.
+bool in_a_copy(const std::function<bool()>& call) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    _exit(call() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool throws_of_fork(const std::function<void()>& call) {
+  try {
+    call();
+    return false;
+  } catch (const std::runtime_error& error) {
+    return std::string(error.what()).find("fork") != std::string::npos;
+  }
+}
+
+/// Whatever was locked, or was being written, in the moment of the copy.
+TEST(Threads, ACopyOfTheProcessHasNoDevice) {
+  Device device("sim");
+  ASSERT_TRUE(device.wait_until_running(30s));
+  // The callback does not end before `ends`, and set_callback() waits for that, with the lock.
+  std::atomic<bool> called{false}, ends{false};
+  device.set_callback([&](const GripState&) {
+    called = true;
+    while (called && !ends) std::this_thread::sleep_for(1ms);
+    return Wrench{};
+  });
+  while (!called) std::this_thread::sleep_for(1ms);
+  std::thread sets([&] { device.set_callback({}); });
+  const Picture picture;
+  Surface surface;
+  surface.picture = picture.grey;
+  for (int times = 0; times < 20; ++times) {
+    EXPECT_TRUE(in_a_copy([&] {
+      device.rest();
+      device.clear_surface();
+      const bool refuses = throws_of_fork([&] { device.push({}); }) &&
+                           throws_of_fork([&] { device.set_callback({}); }) &&
+                           throws_of_fork([&] { device.set_limits(1, 0.1); }) &&
+                           throws_of_fork([&] { device.set_surface(surface); });
+      const bool knows_nothing = !device.pose() && !device.velocity() && !device.held() &&
+                                 device.buttons() == 0 && device.felt().force_N.x == 0 &&
+                                 device.vibration_fraction() == 1 &&
+                                 device.callback_error().empty() && device.warning().empty();
+      return refuses && knows_nothing && device.state() == DeviceState::kLost &&
+             !device.wait_until_running(1ms) && device.name() == "sim" &&
+             device.capabilities().torque && device.last_fault().find("fork") != std::string::npos;
+    }));
+  }
+  ends = true;
+  sets.join();
+}
+
+TEST(Threads, ACopyOfTheProcessHasNoMotion) {
+  MotionToWrench motion;
+  const Picture picture;
+  std::atomic<bool> ends{false};
+  std::thread analyzes([&] {
+    for (auto time = 0ms; !ends; time += 40ms) motion.analyze(picture.grey, time);
+  });
+  for (int times = 0; times < 20; ++times) {
+    EXPECT_TRUE(in_a_copy([&] {
+      motion.restart();
+      return throws_of_fork([&] { motion.analyze(picture.grey, 0ms); }) &&
+             throws_of_fork([&] { motion.configure({}); });
+    }));
+  }
+  ends = true;
+  analyzes.join();
 }
 
 /// What the call throws within a callback of `device`.

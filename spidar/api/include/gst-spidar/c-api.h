@@ -297,7 +297,8 @@ typedef struct {
 } GstSpidarMotionResult;
 
 /*! Measures the motion of a picture and says what is to be felt of it: gst_spidar::MotionToWrench.
- * All functions are for any thread; only freeing is not. */
+ * All functions are for any thread; only freeing is not. After fork(), the child makes one of its
+ * own: those of a copy fail. */
 typedef struct GstSpidarMotion GstSpidarMotion;
 
 /*! The settings that a motion has at first, to change some of them. */

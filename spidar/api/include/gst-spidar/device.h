@@ -25,9 +25,10 @@ enum class DeviceState {
   kRunning,  ///< wrenches are rendered
   kIdle,     ///< no force was wanted for minutes and the motors are off; a wrench wakes it
   /// It does not answer, for example unplugged. It is opened again by itself as soon as it answers,
-  /// and wrenches are rendered again. Only a board that was without power while its grip was beside
-  /// the centre stays lost, with "counter jump" as its last_fault(): hold the grip at the centre,
-  /// close the device and open it anew.
+  /// and wrenches are rendered again. Another device under its name is not opened: last_fault()
+  /// names both. A board that was without power while its grip was beside the centre stays lost,
+  /// too, and its last_fault() begins with "counter jump": hold the grip at the centre, close the
+  /// device and open it anew.
   kLost,
 };
 

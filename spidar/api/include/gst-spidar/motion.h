@@ -63,7 +63,8 @@ struct MotionResult {
 
 /// Measures the motion of a picture and computes its wrench, with the defaults of the
 /// GStreamer element. All functions are for any thread: the library makes one call after another.
-/// Moving and destroying the object are not.
+/// Moving and destroying the object are not. After fork(), the child makes one of its own:
+/// analyze() and configure() of a copy throw std::runtime_error.
 class GST_SPIDAR_API MotionToWrench {
  public:
   /// With the settings that a MotionSettings has at first.
