@@ -96,18 +96,21 @@ std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
   return boards;
 }
 
+/// Those of this kind that are plugged in.
+void add_plugged_in(const DeviceKind& kind, std::vector<BoardInfo>& boards) {
+  for (BoardInfo& board : kind.list ? kind.list() : list_usb(kind)) {
+    describe(board, kind);
+    if (!board.memory_trouble.empty())
+      board.note += (board.note.empty() ? "" : "; ") + board.memory_trouble;
+    boards.push_back(std::move(board));
+  }
+}
+
 }  // namespace
 
 std::vector<BoardInfo> list_boards() {
   std::vector<BoardInfo> boards;
-  for (const DeviceKind& kind : devices()) {
-    for (BoardInfo& board : kind.list ? kind.list() : list_usb(kind)) {
-      describe(board, kind);
-      if (!board.memory_trouble.empty())
-        board.note += (board.note.empty() ? "" : "; ") + board.memory_trouble;
-      boards.push_back(std::move(board));
-    }
-  }
+  for (const DeviceKind& kind : devices()) add_plugged_in(kind, boards);
   boards.push_back(simulation("sim", nullptr));
   for (const DeviceKind& kind : devices())
     boards.push_back(simulation(std::string("sim:") + kind.board, &kind));
@@ -121,13 +124,15 @@ std::string default_profile(const std::string& device) {
 
 BoardInfo board_info(const std::string& device) {
   const DeviceName name(device);
+  const auto kinds = kinds_called(name.device);
   const std::string id = name.rest.substr(0, name.rest.find(','));  // options follow
-  const std::vector<BoardInfo> boards = list_boards();
+  // Nobody else is asked.
+  std::vector<BoardInfo> boards;
+  for (const DeviceKind* kind : kinds) add_plugged_in(*kind, boards);
   const BoardInfo* only = nullptr;
   int of_kind = 0;
   for (const BoardInfo& board : boards) {
     if (board.device == device) return board;
-    if (name.device == "sim" || DeviceName(board.device).device != name.device) continue;
     if (!id.empty() && (board.serial == id || board.path == id)) {
       BoardInfo found = board;
       if (id != name.rest) found.device = device;
@@ -144,7 +149,6 @@ BoardInfo board_info(const std::string& device) {
     return board;
   }
   BoardInfo absent = of_name(device);
-  const auto kinds = kinds_called(name.device);
   if (!kinds.empty() && kinds[0]->needs_rest() && id.empty()) absent.name.clear();
   if (id[0] == '/') {
     absent.path = id;

@@ -27,11 +27,48 @@ std::string known_names(bool with_elements) {
   return names;
 }
 
+/// What people call their device, and how it is named here.
+struct Word {
+  const char* word;
+  const char* name;
+};
+constexpr Word kWords[] = {
+    {"gamepad", "ff"},
+    {"joystick", "ff"},
+    {"wheel", "ff"},
+    {"controller", "ff"},
+    {"spidar", "usb, or uart:PATH with UART motor boards"},
+    {"haply", "inverse3"},
+    {"shaker", "sound:CARD"},
+    {"simulation", "sim"},
+};
+
 /// "; did you mean ff?"
 std::string meant_device(const std::string& device) {
   std::vector<std::string> names = {"sim", "none", "auto"};
   for (const DeviceKind& kind : devices()) names.emplace_back(kind.device);
   return meant(device, names);
+}
+
+/// What to write for a word of kWords; else empty.
+std::string called_here(const std::string& word) {
+  for (const Word& one : kWords)
+    if (word == one.word)
+      return "unknown device \"" + word + "\": here it is called " + one.name +
+             "; spidarctl list names what is plugged in";
+  return {};
+}
+
+/// A kind of device without saying which one: what is plugged in.
+DeviceError unclear(const DeviceKind& kind) {
+  const std::string names = kind.names;
+  std::string there;
+  for (const BoardInfo& board : kind.list()) there += (there.empty() ? "" : ", ") + board.device;
+  return DeviceError(
+      std::string("\"") + kind.device + "\" does not say which one: write " +
+          names.substr(0, names.find(',')) +
+          (there.empty() ? "; none is listed by name (spidarctl list)" : "; there are " + there),
+      DeviceTrouble::kSettings);
 }
 
 std::string simulated_names() {
@@ -64,7 +101,10 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
     return simulating(text, profile, [&] { return simulated_board(*kind, text, profile); });
   }
   const auto kinds = kinds_called(name.device);
-  if (kinds.empty() || !name.has_end || (kinds[0]->needs_rest() && name.rest.empty())) {
+  if (!kinds.empty() && kinds[0]->needs_rest() && name.rest.empty()) throw unclear(*kinds[0]);
+  const std::string called = called_here(text);
+  if (!called.empty()) throw DeviceError(called, DeviceTrouble::kSettings);
+  if (kinds.empty() || !name.has_end) {
     // Only an element does without a device, or chooses one: this is not asked about these names.
     const bool is_elements = text == "none" || text == "auto";
     throw DeviceError(

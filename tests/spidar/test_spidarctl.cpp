@@ -17,6 +17,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/spidarctl_command.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -79,13 +80,30 @@ TEST(Spidarctl, WrongUsageIsNamed) {
   }
 }
 
+/// A terminal obeys control characters, whoever has printed them.
+TEST(Spidarctl, ListsWhatADeviceSaysOfItselfHarmlessly) {
+  const TemporaryFolder folder;
+  const fs::path configuration = folder.path / "asound.conf";
+  std::ofstream(configuration) << "pcm.shaker { type null hint { show on description \"Name "
+                                  "\033]0;title\007\033[2J\xff\" } }\n";
+  const std::string list = "ALSA_CONFIG_PATH=" + configuration.string() + " " + SPIDARCTL + " list";
+  const std::string text = run(list).text;
+  if (text.find("sound:shaker") == std::string::npos) GTEST_SKIP() << "without ALSA";
+  expect_contains(text, "Name ?]0;title??[2J?");
+  EXPECT_EQ(text.find('\033'), std::string::npos) << text;
+  EXPECT_EQ(run(list + " --json").status, 0);
+}
+
 TEST(Spidarctl, WhatIsNotThereIsNamedBeforeAnythingMoves) {
   const std::pair<const char*, const char*> cases[] = {
       {"calibrate nothing", "unknown device \"nothing\""},
       {"info nothing", "unknown device \"nothing\""},
       {"info auto", "\"auto\" is not a device; known are: sim, sim:BOARD, usb,"},
       {"info none", "\"none\" is not a device; known are: sim, sim:BOARD, usb,"},
-      {"info uart", "unknown device \"uart\""},
+      {"info uart", "\"uart\" does not say which one: write uart:PATH"},
+      {"info sound", "\"sound\" does not say which one: write sound:CARD"},
+      {"info gamepad", "unknown device \"gamepad\": here it is called ff; spidarctl list"},
+      {"info spidar", "unknown device \"spidar\": here it is called usb, or uart:PATH"},
       {"monitor sim:mouse", "is for devices with strings"},
       {"calibrate sim:ff", "sim:ff: calibrate is for devices with strings"},
       {"calibrate ff", "ff: calibrate is for devices with strings"},

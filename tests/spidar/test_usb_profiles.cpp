@@ -90,8 +90,8 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   BoardSettings unguarded;
   unguarded.guardian = false;
   EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded)->open());
-  // A name that is not a device's gets the names that are.
-  expect_contains(refusal_of([] { profile_for("uart", ""); }), "known are: sim, ");
+  // A name that is no device's says how it would be named.
+  expect_contains(refusal_of([] { profile_for("uart", ""); }), "write uart:PATH");
   BoardInfo nothing;
   nothing.device = "uart";
   expect_contains(NoProfile(nothing).what(), " No profile that is known here fits it. ");

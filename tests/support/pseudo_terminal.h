@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <fcntl.h>
+#include <optional>
 #include <poll.h>
 #include <stdexcept>
 #include <string>
@@ -47,7 +48,7 @@ class UartLine {
     stop_ = true;
     thread_.join();
     stop_ = false;
-    boards_ = std::move(boards);
+    boards_.emplace(std::move(boards));
     thread_ = std::thread([this] { run(); });
   }
   /// The boards neither receive nor answer.
@@ -61,8 +62,8 @@ class UartLine {
       if (poll(&ready, 1, 5) <= 0) continue;
       const ssize_t got = read(master_, bytes.data(), bytes.size());
       if (got <= 0 || silent_) continue;
-      boards_.receive({bytes.data(), static_cast<size_t>(got)});
-      const size_t reply = boards_.reply(bytes);
+      boards_->receive({bytes.data(), static_cast<size_t>(got)});
+      const size_t reply = boards_->reply(bytes);
       if (reply > 0 && write(master_, bytes.data(), reply) < 0) return;
     }
   }
@@ -70,7 +71,7 @@ class UartLine {
   int master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   int slave_ = -1;
   std::string path_;
-  EmulatedUart boards_;
+  std::optional<EmulatedUart> boards_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> silent_{false};
   std::thread thread_;
