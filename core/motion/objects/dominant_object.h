@@ -37,7 +37,7 @@ class DominantObject {
 
   void reset();
 
-  /// docs/tracking.md has what other values do on real films.
+  /// On real films, 4 to 8 are alike; with 3, a tenth more changes.
   static constexpr double kClearly = 4;
   /// An eye takes 0.2 s and more to begin to turn to a new target.
   static constexpr double kReason_s = 0.3;
