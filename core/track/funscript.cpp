@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMiddle = 50;
-constexpr const char *kNotes = "gst-spidar", *kChannel = "channel", *kGain = "gain";
+constexpr const char *kNotesKey = "gst-spidar", *kChannelKey = "channel", *kGainKey = "gain";
 
 struct Action {
   size_t at_ms;
@@ -64,8 +64,8 @@ std::vector<Action> read_actions(const Json& root, size_t most_samples) {
 
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance, double gain) {
-  const Json notes = {{kChannel, channel}, {kGain, gain}};
-  write(R"({"version":"1.0","inverted":false,"range":100,")" + std::string(kNotes) +
+  const Json notes = {{kChannelKey, channel}, {kGainKey, gain}};
+  write(R"({"version":"1.0","inverted":false,"range":100,")" + std::string(kNotesKey) +
         "\":" + notes.dump() + R"(,"actions":[)");
   KeyframeChooser keyframes(tolerance, [&write](size_t index, double fraction) {
     write((index == 0 ? R"({"at":)" : R"(,{"at":)") + std::to_string(index) + R"(,"pos":)" +
@@ -81,9 +81,9 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
 
 std::optional<FunscriptNotes> read_funscript_notes(const std::string& text) {
   const Json root = Json::parse(text, nullptr, false);
-  const auto notes = root.is_object() ? root.find(kNotes) : root.end();
+  const auto notes = root.is_object() ? root.find(kNotesKey) : root.end();
   if (!root.is_object() || notes == root.end() || !notes->is_object()) return std::nullopt;
-  const Json channel = notes->value(kChannel, Json()), gain = notes->value(kGain, Json());
+  const Json channel = notes->value(kChannelKey, Json()), gain = notes->value(kGainKey, Json());
   if (!channel.is_number_unsigned() || !gain.is_number()) return std::nullopt;
   const FunscriptNotes found{channel.get<size_t>(), gain.get<double>()};
   if (found.channel >= kTrackChannels || !(found.gain > 0)) return std::nullopt;
