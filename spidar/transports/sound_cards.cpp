@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "spidar/device_error.h"
+#include "spidar/printable.h"
 #include "spidar/transports/quiet_alsa.h"
 
 namespace spidar {
@@ -40,8 +42,9 @@ void add_cards(std::vector<SoundCard>& found) {
     const int device = playing_device(control);
     if (device >= 0 && snd_ctl_card_info(control, info) == 0) {
       const std::string id = snd_ctl_card_info_get_id(info);
-      found.push_back({id, snd_ctl_card_info_get_name(info),
-                       "hw:CARD=" + id + ",DEV=" + std::to_string(device)});
+      found.push_back({id, printable(snd_ctl_card_info_get_name(info)),
+                       "hw:CARD=" + id + ",DEV=" + std::to_string(device),
+                       printable(snd_ctl_card_info_get_longname(info))});
     }
     snd_ctl_close(control);
   }
@@ -60,12 +63,35 @@ void add_configured(std::vector<SoundCard>& found) {
   for (void** hint = hints; *hint; ++hint) {
     const std::string id = text_of(*hint, "NAME"), name = text_of(*hint, "DESC");
     if (text_of(*hint, "IOID") == "Input" || id.find_first_of(":,") != std::string::npos) continue;
-    if (!plays_elsewhere(id)) found.push_back({id, name.substr(0, name.find('\n')), id});
+    if (!plays_elsewhere(id))
+      found.push_back({id, printable(name.substr(0, name.find('\n'))), id, "pcm." + id});
   }
   snd_device_name_free_hint(hints);
 }
 
 }  // namespace
+
+std::string names_of(const std::vector<SoundCard>& cards) {
+  std::string names;
+  for (const SoundCard& card : cards) names += (names.empty() ? "sound:" : ", sound:") + card.id;
+  return names.empty() ? "no card was found" : "there are " + names;
+}
+
+SoundCard chosen_card(const std::string& device, const std::string& id, const FirstDevice& first,
+                      const std::vector<SoundCard>& cards) {
+  const auto named =
+      std::find_if(cards.begin(), cards.end(), [&](const SoundCard& one) { return one.id == id; });
+  if (first.known()) {
+    const auto same = std::find_if(cards.begin(), cards.end(),
+                                   [&](const SoundCard& one) { return first.is(one.identity()); });
+    if (same != cards.end()) return *same;
+    if (named != cards.end()) throw first.other(device, named->identity());
+  }
+  if (named == cards.end())
+    throw DeviceError(device + ": there is no sound card \"" + id + "\"; " + names_of(cards),
+                      DeviceTrouble::kAbsent);
+  return *named;
+}
 
 bool plays_elsewhere(const std::string& id) {
   return std::find(std::begin(kElsewhere), std::end(kElsewhere), id) != std::end(kElsewhere);

@@ -7,12 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "spidar/transports/device_identity.h"
+
 namespace spidar {
 
 struct SoundCard {
   std::string id;  ///< of the card, "Controller", or of a device that the ALSA configuration names
-  std::string name;  ///< for people
-  std::string pcm;   ///< what ALSA calls it
+  std::string name;         ///< for people
+  std::string pcm;          ///< what ALSA calls it
+  std::string place = pcm;  ///< for a card on USB, the text has its port
+
+  DeviceIdentity identity() const { return {name, "", place}; }
 };
 
 /// What could be played on: cards, and devices of the ALSA configuration that are no way to other
@@ -21,6 +26,15 @@ std::vector<SoundCard> list_sound_cards();
 
 /// ALSA's number of a card; nothing for what its configuration names.
 std::optional<int> card_number(const std::string& id);
+
+/// The card with this id or, if `first` knows one, that card, whatever its id is by then: the
+/// kernel gives the id of a card that is gone to the next one of its name. Throws DeviceError for
+/// `device`.
+SoundCard chosen_card(const std::string& device, const std::string& id, const FirstDevice& first,
+                      const std::vector<SoundCard>& cards);
+
+/// "there are sound:Controller, sound:shaker"
+std::string names_of(const std::vector<SoundCard>& cards);
 
 /// Whether a PCM of ALSA's configuration plays somewhere else: on what a server or a setting
 /// chooses.

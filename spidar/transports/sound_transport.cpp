@@ -26,12 +26,6 @@ constexpr int64_t ns_of(snd_pcm_sframes_t frames) {
   return frames * kSecond_ns / sound::kRate_Hz;
 }
 
-std::string names_of(const std::vector<SoundCard>& cards) {
-  std::string names;
-  for (const SoundCard& card : cards) names += (names.empty() ? "sound:" : ", sound:") + card.id;
-  return names.empty() ? "no card was found" : "there are " + names;
-}
-
 }  // namespace
 
 /// A device that plays.
@@ -213,12 +207,9 @@ void SoundTransport::open() {
         name_ + ": \"" + id +
             "\" plays on whatever a server or a setting chooses; name the card: " + names_of(cards),
         DeviceTrouble::kSettings);
-  const auto card =
-      std::find_if(cards.begin(), cards.end(), [&](const SoundCard& one) { return one.id == id; });
-  if (card == cards.end())
-    throw DeviceError(name_ + ": there is no sound card \"" + id + "\"; " + names_of(cards),
-                      DeviceTrouble::kAbsent);
-  pcm_ = std::make_unique<Pcm>(name_, *card, settings_.channels);
+  const SoundCard card = chosen_card(name_, id, first_, cards);
+  pcm_ = std::make_unique<Pcm>(name_, card, settings_.channels);
+  first_.require(name_, card.identity());
   fed_.store({});
   lag_ns_ = 0;
   underruns_ = 0;

@@ -10,6 +10,7 @@
 
 #include "spidar/protocols/sound.h"
 #include "spidar/realtime/seqlock.h"
+#include "spidar/transports/device_identity.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {
@@ -53,6 +54,7 @@ class SoundTransport final : public Transport {
 
   const std::string name_;
   const sound::Settings settings_;
+  FirstDevice first_;
   std::unique_ptr<Pcm> pcm_;
   std::thread thread_;
   std::atomic<bool> stop_{false};

@@ -18,6 +18,7 @@
 #include "spidar/protocols/sound.h"
 #include "spidar/session/auto_device.h"
 #include "spidar/session/board_list.h"
+#include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 #include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
@@ -106,6 +107,29 @@ TEST(SoundCarrier, LeavesNoConstantLevel) {
       EXPECT_LT(most, period / M_PI + period / (2 * M_PI) + rounding + 1)
           << carrier_Hz << " Hz, force at " << force_Hz;
     }
+  }
+}
+
+/// The kernel gives the id of a card that was unplugged to the next one of its name.
+TEST(SoundCards, OnlyTheSameOneComesBack) {
+  const SoundCard shaker{"Device", "USB Audio", "hw:CARD=Device,DEV=0", "USB Audio at usb-1"};
+  const SoundCard moved{"Device_1", "USB Audio", "hw:CARD=Device_1,DEV=0", "USB Audio at usb-1"};
+  const SoundCard other{"Device", "USB Audio", "hw:CARD=Device,DEV=0", "USB Audio at usb-2"};
+  FirstDevice first;
+  const auto chosen = [&](const std::vector<SoundCard>& cards) {
+    return chosen_card("sound:Device", "Device", first, cards);
+  };
+  EXPECT_EQ(chosen({other}).place, other.place) << "the first one is any";
+  first.require("sound:Device", shaker.identity());
+  EXPECT_EQ(chosen({shaker}).id, "Device");
+  EXPECT_EQ(chosen({other, moved}).id, "Device_1");
+  EXPECT_THROW(chosen({}), DeviceError);
+  try {
+    chosen({other});
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("is another device"), std::string::npos)
+        << error.what();
   }
 }
 
