@@ -47,7 +47,7 @@ INSIDE = {
     '"Gtk"': ([PYTHON, "-c", "import gi; gi.require_version('Gtk', '4.0')"], "gir1.2-gtk-4.0"),
     "import gi": ([PYTHON, "-c", "import gi; gi.require_version('Gst', '1.0')"], "gir1.2-gstreamer-1.0"),
 }
-ENCODERS = ("x264enc", "openh264enc")  # one of which spidartrack show needs
+ENCODERS = ("x264enc", "openh264enc")  # one of which spidartrack needs to make a film
 WORKERS = 2
 LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
@@ -125,7 +125,7 @@ def missing_program(command):
     for element in ELEMENTS:
         if f" {element} " in command and subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode:
             return f"skipped: the element {element} is not installed (package gstreamer1.0-plugins-bad)"
-    if "spidartrack show" in command and all(
+    if re.search(r"spidartrack (show|export .*(/|--embed)$)", command) and all(
             subprocess.run(["gst-inspect-1.0", "--exists", element]).returncode for element in ENCODERS):
         return f"skipped: none of {', '.join(ENCODERS)} is installed"
     for word, (asks, owner) in INSIDE.items():
