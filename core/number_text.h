@@ -29,7 +29,7 @@ class NumberText {
   /// "-2.2250738585072014e-308", than which no double is longer; integers of 64 bits are shorter.
   static constexpr size_t kLongest = 24;
 
-  std::array<char, kLongest> text_;
+  std::array<char, kLongest> text_{};
   size_t length_;
 };
 
