@@ -51,6 +51,8 @@ class BlockField {
   bool has_picture() const { return has_picture_; }
 
   const PaddedImage& picture() const { return now_; }
+  /// The one before, as bright as this one.
+  const PaddedImage& before() const { return earlier_.front(); }
   const CoarseField& coarse() const { return coarse_; }
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
@@ -101,7 +103,6 @@ class BlockField {
                                const Eigen::Vector2i& beside_px = {0, 0}) const;
 
  private:
-  const PaddedImage& before() const { return earlier_.front(); }
   void resize(const PaddedImage& base);
   void reduce(const PaddedImage& base);
   void begin();

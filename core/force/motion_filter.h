@@ -70,10 +70,10 @@ class OneEuroFilter {
   bool started_ = false;
 };
 
-/// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is
-/// delayed by 1 / (2π (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) at any
-/// a: 2 px/s with the default β, which cannot be felt (DeadZone::kLeast_px_s).
-/// docs/feeling.md compares other values.
+/// Parameters of the OneEuroFilter. A velocity that changes at a steady a px/s² is delayed by
+/// 1 / (2π (min_cutoff + β a)): the error is less than 1 / (2π β) at any a, 2 px/s with the default
+/// β, which cannot be felt (DeadZone::kLeast_px_s). Where a changes faster than kRateCutoff_Hz it
+/// is more. docs/feeling.md has figures.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
   /// Hz for each px/s² of the reference frame, finite and ≥ 0.

@@ -17,5 +17,6 @@ int skew(int argc, char** argv);
 int tension(int argc, char** argv);
 int touch_strings(int argc, char** argv);
 int tracking(int argc, char** argv);
+int turns(int argc, char** argv);
 
 }  // namespace spidar::bench

@@ -34,6 +34,7 @@ const Benchmark kBenchmarks[] = {
      "[COUNT]         the tension solver, also on COUNT problems of each hard family"},
     {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
     {"tracking", tracking, "[WIDTHxHEIGHT…] speed and error on films of known motion"},
+    {"turns", turns, "                roll and growth of balls that turn and grow"},
 };
 
 }  // namespace

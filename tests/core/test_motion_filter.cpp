@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -71,7 +72,7 @@ TEST(OneEuroFilter, DoesNotDependOnTheDirectionOfTheAxes) {
   }
 }
 
-TEST(OneEuroFilter, TheDefaultDelayCannotBeFelt) {
+TEST(OneEuroFilter, TheDefaultDelayOfASteadyChangeCannotBeFelt) {
   const FilterSettings defaults;
   for (const double slope_px_s2 : {3.0, 30.0, 300.0, 3000.0}) {
     Filter1 filter;
@@ -84,6 +85,30 @@ TEST(OneEuroFilter, TheDefaultDelayCannotBeFelt) {
     }
     EXPECT_LT(worst_px_s, DeadZone::kLeast_px_s) << slope_px_s2;
   }
+}
+
+/// Largest error of a sway of ±200 px/s, in px/s, at the rates of films.
+double worst_of_sway_px_s(double sway_Hz) {
+  const FilterSettings defaults;
+  double worst_px_s = 0;
+  for (const double frames_1_s : {24.0, 30.0, 60.0}) {
+    Filter1 filter;
+    for (int n = 0; n < 10 * frames_1_s; ++n) {
+      const double x = 200 * std::sin(kTwoPi * sway_Hz * n / frames_1_s);
+      const double y =
+          filter.filter(Scalar(x), 1 / frames_1_s, defaults.min_cutoff_Hz, defaults.beta_s_px)[0];
+      if (n > 3 * frames_1_s) worst_px_s = std::max(worst_px_s, std::fabs(x - y));
+    }
+  }
+  return worst_px_s;
+}
+
+TEST(OneEuroFilter, IsOffByMoreWhereTheRateTurnsRound) {
+  // As docs/feeling.md rounds them.
+  EXPECT_EQ(std::lround(worst_of_sway_px_s(0.25)), 4);
+  EXPECT_EQ(std::lround(worst_of_sway_px_s(0.5)), 10);
+  EXPECT_EQ(std::lround(worst_of_sway_px_s(1)), 14);
+  EXPECT_EQ(std::lround(worst_of_sway_px_s(2)), 38);
 }
 
 TEST(MotionFilter, WithoutACutoffItIsTheVerySameMotion) {

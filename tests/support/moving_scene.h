@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Placement {
   double scale = 1;
   double angle_rad = 0;  ///< clockwise as seen on the screen
 
+  bool operator==(const Placement& other) const {
+    return centre_px == other.centre_px && scale == other.scale && angle_rad == other.angle_rad;
+  }
   /// Where a position of the frame is on the thing itself.
   Eigen::Vector2d on_thing(const Eigen::Vector2d& frame_px) const {
     return Eigen::Rotation2Dd(-angle_rad) * (frame_px - centre_px) / scale;
@@ -30,9 +34,11 @@ struct Placement {
 
 class MovingScene {
  public:
+  /// Grey level at a position, px from the centre.
+  using Skin = std::function<double(const Eigen::Vector2d& at_px)>;
   struct Disc {
     double radius_px;  ///< at scale 1
-    Texture texture;
+    Skin skin;
   };
 
   MovingScene(int width, int height, uint32_t seed = 1)
@@ -40,9 +46,11 @@ class MovingScene {
 
   void plain_background() { plain_ = true; }
   void add_disc(double radius_px) {
-    discs_.push_back(
-        {radius_px, Texture(seed_ + 1 + static_cast<uint32_t>(discs_.size()), kCell_px)});
+    const Texture texture(seed_ + 1 + static_cast<uint32_t>(discs_.size()), kCell_px);
+    add_disc(radius_px,
+             [texture](const Eigen::Vector2d& at_px) { return texture.at(at_px.x(), at_px.y()); });
   }
+  void add_disc(double radius_px, Skin skin) { discs_.push_back({radius_px, std::move(skin)}); }
 
   int width() const { return picture_.width; }
   int height() const { return picture_.height; }
@@ -50,9 +58,9 @@ class MovingScene {
   /// One placement for each disc; the last ones are in front. Valid until the next call.
   ImageView draw(const Placement& background, const std::vector<Placement>& discs) {
     const Eigen::Vector2d middle((width() - 1) / 2.0, (height() - 1) / 2.0);
+    if (!plain_) draw_behind(background, middle);
     picture_.fill([&](double x, double y) {
       const Eigen::Vector2d at = Eigen::Vector2d(x, y) - middle;
-      const Eigen::Vector2d behind = background.on_thing(at);
       double left = 1;  // fraction of the pixel that nothing in front covers
       double sum = 0;
       for (size_t i = discs.size(); i-- > 0 && left > 0;) {
@@ -60,21 +68,37 @@ class MovingScene {
         const double inside_px = (discs_[i].radius_px - on_disc.norm()) * discs[i].scale;
         const double cover = left * std::clamp(inside_px + 0.5, 0.0, 1.0);
         if (cover == 0) continue;
-        sum += cover * discs_[i].texture.at(on_disc.x(), on_disc.y());
+        sum += cover * discs_[i].skin(on_disc);
         left -= cover;
       }
       if (left == 0) return sum;
-      return sum + left * (plain_ ? 128 : background_.at(behind.x(), behind.y()));
+      const auto index = static_cast<size_t>(y * width() + x);
+      return sum + left * (plain_ ? 128 : behind_[index]);
     });
     return picture_.view();
   }
 
  private:
+  /// Once for each placement: it takes longer than the rest.
+  void draw_behind(const Placement& placement, const Eigen::Vector2d& middle_px) {
+    if (!behind_.empty() && placement == behind_at_) return;
+    behind_at_ = placement;
+    behind_.clear();
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) {
+        const Eigen::Vector2d at_px = placement.on_thing(Eigen::Vector2d(x, y) - middle_px);
+        behind_.push_back(background_.at(at_px.x(), at_px.y()));
+      }
+    }
+  }
+
   /// Structures of a dozen pixels, as large as the tracker's windows.
   static constexpr double kCell_px = 8;
   Picture picture_;
   uint32_t seed_;
   Texture background_;
+  std::vector<double> behind_;  ///< grey levels by rows, at …
+  Placement behind_at_;
   bool plain_ = false;
   std::vector<Disc> discs_;
 };

@@ -13,6 +13,7 @@
 #include "core/motion/layers/regions.h"
 #include "core/motion/layers/salience.h"
 #include "core/motion/objects/moving_object.h"
+#include "core/motion/objects/steady_rate.h"
 
 namespace spidar {
 
@@ -48,6 +49,7 @@ struct ObjectLife {
   Region region;        ///< in the last frame in which it was seen
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
   Expected expected;
+  SteadyRate roll, growth;
   /// Corners of the box that is drawn, in the field.
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero(), high_px = Eigen::Vector2d::Zero();
   State state = State::kSeen;
@@ -99,6 +101,12 @@ struct ObjectLife {
     };
     draw(low_px, seen.low_px);
     draw(high_px, seen.high_px);
+  }
+  /// Nothing shows how it turns and grows.
+  void turn_unseen(double interval_s) {
+    roll.miss(interval_s);
+    growth.miss(interval_s);
+    object.roll_rad_s = object.growth_1_s = 0;
   }
   /// Moves the position at which it is expected on.
   void go_on_unseen(double interval_s) {

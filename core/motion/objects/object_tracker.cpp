@@ -154,9 +154,20 @@ ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   life.region.relative_px = found.relative_px;
   object.tracks = found.tracks;
   object.model = found.model.kind;
-  object.growth_1_s = found.model.growth() / frame.interval_s;
-  object.roll_rad_s = found.model.roll_rad() / frame.interval_s;
+  turn(life, found, frame);
   return found;
+}
+
+/// How it turns and grows, unless it is not felt: what is not born yet, and layers of the scene.
+void ObjectTracker::turn(Life& life, const ObjectMotion& found, const FieldInFrame& frame) {
+  if (!life.is_born() || life.is_layer) return life.turn_unseen(frame.interval_s);
+  const Turn as_before{life.roll.expected(frame.interval_s),
+                       life.growth.expected(frame.interval_s)};
+  const Turn turn = turns_.measure(life.key, life.region, found, as_before, evidence_in(frame));
+  life.roll.see(turn.roll_rad, frame.interval_s);
+  life.growth.see(turn.growth, frame.interval_s);
+  life.object.roll_rad_s = life.roll.rate_1_s();
+  life.object.growth_1_s = life.growth.rate_1_s();
 }
 
 /// How far blocks outside an object are from the background in the direction in which it moves, as
@@ -261,8 +272,7 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   life.region.position_px = life.expected.position_px;
   life.velocity_px_s = life.expected.velocity_px_s;
   life.move_box(frame.interval_s);
-  object.growth_1_s = 0;
-  object.roll_rad_s = 0;
+  life.turn_unseen(frame.interval_s);
   object.prominence = 0;
   position(life, frame);
 }

@@ -21,6 +21,7 @@
 #include "core/motion/objects/moving_object.h"
 #include "core/motion/objects/object_life.h"
 #include "core/motion/objects/object_motion.h"
+#include "core/motion/objects/turn_meter.h"
 
 namespace spidar {
 
@@ -96,6 +97,7 @@ class ObjectTracker {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
   ObjectMotion measure(Life& life, const FieldInFrame& frame);
+  void turn(Life& life, const ObjectMotion& found, const FieldInFrame& frame);
   void position(Life& life, const FieldInFrame& frame) const;
   double noise_around(const Life& life);
 
@@ -103,6 +105,7 @@ class ObjectTracker {
   RegionFinder finder_;
   ObjectMeter meter_;
   ErrorBound bound_;
+  TurnMeter turns_;
   const std::vector<RelativeBlock>* relative_ = nullptr;
   bool camera_moves_ = false;
   const Background* background_ = nullptr;

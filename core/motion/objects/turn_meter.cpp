@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/motion/objects/turn_meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include <Eigen/Cholesky>
+
+namespace spidar {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+
+/// How far an edge may be from where the motion has it in each step, px of the field's picture: the
+/// start is right to about a pixel, and a thing that bends a little to a quarter of one.
+constexpr float kEdge_px[] = {1, 0.5F, 0.25F, 0.25F};
+/// A slope that is less than this many standard deviations of noise is none.
+constexpr float kSlopeSigmas = 3;
+/// Standard error of the direction of a slope, rad: of central differences on the rim of a disc
+/// that is one pixel soft.
+constexpr float kSlopeError = 0.14F;
+/// With less than this fraction of what seems to determine a parameter, errors of the slopes do:
+/// the rim of a plain disc does not show how it turns.
+constexpr double kLeastReliable = 0.75;
+/// Fraction of the pixels of a rigid thing that are within two standard deviations.
+constexpr double kRigid = 0.95;
+/// How far what a similarity does not explain may be from where the rest of it has it, px of the
+/// field's picture: half of what the motion of a block may be off.
+constexpr double kBends_px = kMostOff_px / 2.0;
+
+/// Grey level between pixels; nothing outside of the picture.
+struct Sample {
+  bool is_inside = false;
+  float grey = 0;
+  Vector2f fraction;
+
+  Sample(const PaddedImage& picture, const Vector2f& at_px) {
+    const auto right = static_cast<float>(picture.width() - 1);
+    const auto bottom = static_cast<float>(picture.height() - 1);
+    is_inside = at_px.x() >= 0 && at_px.x() <= right && at_px.y() >= 0 && at_px.y() <= bottom;
+    if (!is_inside) return;
+    const auto left = static_cast<int>(at_px.x());
+    const auto top = static_cast<int>(at_px.y());
+    fraction << at_px.x() - static_cast<float>(left), at_px.y() - static_cast<float>(top);
+    const uint8_t* const a = picture.row(top) + left;
+    const uint8_t* const b = a + picture.stride();
+    const float a0 = a[0], a1 = a[1], b0 = b[0], b1 = b[1];
+    const float upper = a0 + fraction.x() * (a1 - a0), lower = b0 + fraction.x() * (b1 - b0);
+    grey = upper + fraction.y() * (lower - upper);
+  }
+};
+
+/// The grey level of a pixel as interpolation would blur it where it was.
+template <typename Pixel>
+float now_blurred(const Pixel& pixel, const Sample& before) {
+  const Vector2f blur = before.fraction.cwiseProduct(Vector2f::Ones() - before.fraction);
+  return pixel.grey + blur.dot(pixel.bend);
+}
+
+template <typename Value>
+Value squared(Value value) {
+  return value * value;
+}
+
+/// Whether the normal equations have one solution.
+bool is_determined(const Eigen::LDLT<Eigen::Matrix4f>& equations) {
+  const Eigen::Vector4f pivots = equations.vectorD();
+  return pivots.minCoeff() > 1e-6F * pivots.maxCoeff();
+}
+
+/// A vector turned and stretched by `by`, as complex numbers.
+Vector2f turned(const Vector2f& by, const Vector2f& what) {
+  return {by.x() * what.x() - by.y() * what.y(), by.x() * what.y() + by.y() * what.x()};
+}
+
+/// (growth, roll) of the similarity that is nearest to a linear map A of displacements.
+Complex similarity_in(const Eigen::Matrix2d& A) {
+  return {(A(0, 0) + A(1, 1)) / 2, (A(1, 0) - A(0, 1)) / 2};
+}
+
+/// A of the motion of the background at a position.
+Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
+  constexpr double kStep_px = kBlock_px;
+  Eigen::Matrix2d A;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector2d step_px = kStep_px * Vector2d::Unit(axis);
+    A.col(axis) =
+        (model.displacement_px(at_px + step_px) - model.displacement_px(at_px - step_px)) /
+        (2 * kStep_px);
+  }
+  return A;
+}
+
+/// Leaves at most `most` of the values, evenly.
+template <typename Value>
+void thin_out(std::vector<Value>& values, size_t most) {
+  const size_t every = (values.size() + most - 1) / most;
+  if (every <= 1) return;
+  size_t kept = 0;
+  for (size_t i = 0; i < values.size(); i += every) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+}  // namespace
+
+TurnMeter::TurnMeter() {
+  slopes_.reserve(kMostBlocks * kBlockArea_px);
+  pixels_.reserve(kMostPixels);
+  sums_.reserve(kMostBlocks);
+}
+
+void TurnMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
+  blocks_.reserve(evidence.owners.size());
+  blocks_.clear();
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    if (evidence.owners[i] == key) blocks_.push_back(i);
+  }
+  thin_out(blocks_, kMostBlocks);
+  const auto n = static_cast<double>(blocks_.size());
+  const auto centre_px = [&](size_t block) -> Vector2d {
+    return evidence.field.blocks()[block].centre_px.cast<double>();
+  };
+  middle_px_.setZero();
+  for (const size_t block : blocks_) middle_px_ += centre_px(block) / n;
+  double square_px2 = kBlockArea_px / 6.0;  // of the pixels of a block
+  for (const size_t block : blocks_) {
+    square_px2 += (centre_px(block) - middle_px_).squaredNorm() / n;
+  }
+  reach_px_ = static_cast<float>(std::sqrt(square_px2));
+}
+
+/// Collects the pixels of the blocks that have a slope.
+void TurnMeter::collect_slopes(const BlockField& field) {
+  const PaddedImage& now = field.picture();
+  noise_grey2_ = std::max(squared(kRounding_grey), field.noise_grey2());
+  // Of twice a slope: each coordinate has the noise of a difference.
+  const float least2 = squared(kSlopeSigmas) * noise_grey2_;
+  slopes_.clear();
+  for (size_t k = 0; k < blocks_.size(); ++k) {
+    const Eigen::Vector2i corner_px = field.grid().corner_of(blocks_[k]);
+    for (int y = corner_px.y(); y < corner_px.y() + kBlock_px; ++y) {
+      const uint8_t* const above = now.row(y - 1);
+      const uint8_t* const row = now.row(y);
+      const uint8_t* const below = now.row(y + 1);
+      for (int x = corner_px.x(); x < corner_px.x() + kBlock_px; ++x) {
+        const int across = row[x + 1] - row[x - 1], down = below[x] - above[x];
+        if (static_cast<float>(across * across + down * down) < least2) continue;
+        slopes_.push_back({x, y, k});
+      }
+    }
+  }
+  thin_out(slopes_, kMostPixels);
+}
+
+/// `start` is about how the object moved.
+TurnMeter::Pixel TurnMeter::describe(const Place& place, const Parameters& start,
+                                     const ObjectEvidence& evidence) const {
+  const PaddedImage& now = evidence.field.picture();
+  const PaddedImage& before = evidence.field.before();
+  const uint8_t* const here = now.row(place.y) + place.x;
+  const int grey = *here, left = here[-1], right = here[1];
+  const int above = *(here - now.stride()), below = *(here + now.stride());
+  const auto half_of = [](int x, int y) -> Vector2f {
+    return Eigen::Vector2i(x, y).cast<float>() / 2;
+  };
+  const Vector2d centre_px(now.width() - 1, now.height() - 1);
+  Pixel pixel;
+  pixel.block = place.block;
+  pixel.at_px = Eigen::Vector2i(place.x, place.y).cast<float>();
+  pixel.rho = (pixel.at_px - (middle_px_ + centre_px / 2).cast<float>()) / reach_px_;
+  pixel.grey = static_cast<float>(grey);
+  pixel.slope = half_of(right - left, below - above);
+  pixel.bend = half_of(right + left - 2 * grey, below + above - 2 * grey);
+  // The background's are both what was at its place, and what is now where the object was.
+  const Vector2f behind_px = evidence.relative[blocks_[place.block]].background_px;
+  const Vector2f from_px = before_px(pixel, start);
+  const Sample there(before, pixel.at_px - behind_px), from(before, from_px);
+  const Sample uncovered(now, from_px + behind_px);
+  const bool is_seen = there.is_inside && from.is_inside && uncovered.is_inside;
+  pixel.behind2 =
+      is_seen ? std::min(squared(pixel.grey - there.grey), squared(uncovered.grey - from.grey)) : 0;
+  return pixel;
+}
+
+Vector2f TurnMeter::before_px(const Pixel& pixel, const Parameters& motion) const {
+  return pixel.at_px - motion.head<2>() - turned(motion.tail<2>(), pixel.rho);
+}
+
+TurnMeter::Sums TurnMeter::sum_up(const Parameters& motion, float edge_px,
+                                  const PaddedImage& before) {
+  sums_.assign(blocks_.size(), Sums());
+  for (const Pixel& pixel : pixels_) {
+    const Sample there(before, before_px(pixel, motion));
+    if (!there.is_inside) continue;
+    const float r = now_blurred(pixel, there) - there.grey;
+    if (r * r > pixel.behind2) continue;
+    const float slope2 = pixel.slope.squaredNorm();
+    const float variance = noise_grey2_ + squared(edge_px) * slope2;
+    const float w = squared(1 / (1 + r * r / (4 * variance))) / variance;
+    const Vector2f& g = pixel.slope;
+    const Vector2f& rho = pixel.rho;
+    const Eigen::Vector4f J(g.x(), g.y(), g.dot(rho), g.y() * rho.x() - g.x() * rho.y());
+    Sums& sums = sums_[pixel.block];
+    sums.information.noalias() += (w * J) * J.transpose();
+    sums.gradient += w * r * J;
+    sums.noise += w * (noise_grey2_ / 4 + squared(kSlopeError) * slope2) * rho.squaredNorm();
+  }
+  Sums all;
+  for (const Sums& sums : sums_) {
+    all.information += sums.information;
+    all.gradient += sums.gradient;
+    all.noise += sums.noise;
+  }
+  return all;
+}
+
+/// Variance of a parameter: that of the noise, or what the blocks disagree about, by a jackknife:
+/// each is left out once. Infinite where one block alone, or errors of the slopes, determine it.
+double TurnMeter::variance_px2(int parameter, const Sums& all,
+                               const Eigen::Matrix4f& covariance) const {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const double reliable = 1 - static_cast<double>(all.noise * covariance(parameter, parameter));
+  if (!(reliable > kLeastReliable)) return kUnknown;
+  const Eigen::Vector4f step = covariance * all.gradient;
+  double between_px2 = 0;
+  for (const Sums& sums : sums_) {
+    const Eigen::LDLT<Eigen::Matrix4f> others(all.information - sums.information);
+    if (!is_determined(others)) return kUnknown;
+    const Eigen::Vector4f off = sums.gradient - sums.information * step;
+    between_px2 += squared(static_cast<double>(others.solve(off)[parameter]));
+  }
+  const auto n = static_cast<double>(sums_.size());
+  const auto of_noise_px2 = static_cast<double>(covariance(parameter, parameter));
+  return std::max(of_noise_px2, (n - 1) / n * between_px2) / squared(reliable);
+}
+
+Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& found,
+                        const Turn& as_before, const ObjectEvidence& evidence) {
+  Turn turn;
+  collect_blocks(key, evidence);
+  if (blocks_.empty()) return turn;
+  collect_slopes(evidence.field);
+  // A displacement forth of a · (position before) is one back of a / (1 + a) · (position now).
+  const MotionModel& background = evidence.background.model;
+  const Vector2d from_px = middle_px_ - region.relative_px - region.background_px;
+  const Complex behind = similarity_in(linear_at(background, from_px));
+  const Complex itself = found.model.kind == ModelKind::kSimilarity
+                             ? similarity_in(found.model.linear)
+                             : Complex(as_before.growth.value, as_before.roll_rad.value);
+  const Complex back = (itself + behind) / (1.0 + itself + behind);
+  const Vector2d moved_px =
+      found.model.displacement_px(from_px) + background.displacement_px(from_px);
+  const double reach_px = static_cast<double>(reach_px_);
+  Parameters motion =
+      Eigen::Vector4d(moved_px.x(), moved_px.y(), back.real() * reach_px, back.imag() * reach_px)
+          .cast<float>();
+  pixels_.clear();
+  for (const Place& place : slopes_) pixels_.push_back(describe(place, motion, evidence));
+  Sums all;
+  Eigen::Matrix4f covariance;
+  for (const float edge_px : kEdge_px) {
+    all = sum_up(motion, edge_px, evidence.field.before());
+    const Eigen::LDLT<Eigen::Matrix4f> ldlt(all.information);
+    if (!is_determined(ldlt)) return turn;
+    motion -= ldlt.solve(all.gradient);
+    covariance = ldlt.solve(Eigen::Matrix4f::Identity());
+  }
+  const auto difference2 = [&](const Pixel& pixel, const Vector2f& there_px) {
+    const Sample there(evidence.field.before(), there_px);
+    return there.is_inside ? squared(now_blurred(pixel, there) - there.grey) : pixel.behind2;
+  };
+  // What bends says less of how the whole of it turns.
+  int own = 0, explained = 0;
+  for (const Pixel& pixel : pixels_) {
+    const float most2 = 4 * (noise_grey2_ + squared(kEdge_px[3]) * pixel.slope.squaredNorm());
+    if (pixel.behind2 < most2) continue;
+    ++own;
+    explained += difference2(pixel, before_px(pixel, motion)) < most2;
+  }
+  const double bends_px = kBends_px * std::max(0.0, kRigid - explained / std::max(1.0, 1.0 * own));
+  const Complex found_back = Complex(motion[2], motion[3]) / reach_px;
+  const Complex forth = found_back / (1.0 - found_back) - behind;
+  const auto estimate = [&](double value, int parameter) {
+    const double px2 = variance_px2(parameter, all, covariance) + squared(bends_px);
+    return Estimate{value, std::sqrt(px2) / reach_px, kSharedError_px / reach_px};
+  };
+  turn.growth = estimate(forth.real(), 2);
+  turn.roll_rad = estimate(std::arg(1.0 + forth), 3);
+  return turn;
+}
+
+}  // namespace spidar

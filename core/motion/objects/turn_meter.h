@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Measures how much an object turns and grows from one frame to the next.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/motion/layers/regions.h"
+#include "core/motion/objects/object_motion.h"
+
+namespace spidar {
+
+/// A value with its errors.
+struct Estimate {
+  double value = 0;
+  /// Standard error of what differs from frame to frame; infinite where nothing determines the
+  /// value.
+  double sigma = std::numeric_limits<double>::infinity();
+  double shared = 0;  ///< of what lasts: that of kSharedError_px
+};
+
+/// Of an object against the background, between two frames.
+struct Turn {
+  Estimate roll_rad;  ///< from x to y: clockwise as seen on the screen
+  Estimate growth;    ///< relative change of lengths
+};
+
+/// Fits a similarity to the pixels of an object by Gauss–Newton steps from its motion, with weights
+/// of Geman and McClure (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV
+/// 2004). Blocks that show one edge each say together how the object turns, where the motion of any
+/// of them is not known along its edge. Pixels that the background explains better are left out, in
+/// either picture: what an object uncovers pulls its rim.
+class TurnMeter {
+ public:
+  TurnMeter();
+
+  /// `found` is the motion of the object `key`, and `as_before` what it would turn and grow now if
+  /// it went on as it did.
+  Turn measure(uint32_t key, const Region& region, const ObjectMotion& found, const Turn& as_before,
+               const ObjectEvidence& evidence);
+
+  /// These bound the time of a frame: of more blocks or pixels, every second one is used, and so
+  /// on.
+  static constexpr size_t kMostBlocks = 32;
+  static constexpr size_t kMostPixels = 1024;
+
+ private:
+  /// Where something was in the picture before: x − (shift + (grow, turn) · ρ), where ρ is the
+  /// position from the middle of the object in units of reach_px_, as complex numbers. In px of the
+  /// field's picture.
+  using Parameters = Eigen::Vector4f;  ///< shift, grow, turn
+  /// A pixel with a slope.
+  struct Place {
+    int x, y;
+    size_t block;  ///< index in blocks_
+  };
+  struct Pixel {
+    size_t block;
+    Eigen::Vector2f at_px;
+    Eigen::Vector2f rho;
+    float grey;
+    Eigen::Vector2f slope;  ///< grey levels a pixel
+    Eigen::Vector2f bend;   ///< half of the second differences
+    float behind2;          ///< square of the difference if it is the background's, grey²
+  };
+  /// Over the pixels of a block, with r = now − before and J = ∂r / ∂parameters.
+  struct Sums {
+    Eigen::Matrix4f information = Eigen::Matrix4f::Zero();  ///< Σ w J Jᵀ
+    Eigen::Vector4f gradient = Eigen::Vector4f::Zero();     ///< Σ w J r
+    float noise = 0;  ///< what errors of the slopes add to the information on grow or turn
+  };
+
+  void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
+  void collect_slopes(const BlockField& field);
+  Pixel describe(const Place& place, const Parameters& start, const ObjectEvidence& evidence) const;
+  Eigen::Vector2f before_px(const Pixel& pixel, const Parameters& motion) const;
+  Sums sum_up(const Parameters& motion, float edge_px, const PaddedImage& before);
+  double variance_px2(int parameter, const Sums& all, const Eigen::Matrix4f& covariance) const;
+
+  std::vector<size_t> blocks_;
+  std::vector<Place> slopes_;
+  std::vector<Pixel> pixels_;
+  std::vector<Sums> sums_;                               ///< of each block
+  Eigen::Vector2d middle_px_ = Eigen::Vector2d::Zero();  ///< of the blocks
+  float reach_px_ = 1;                                   ///< root mean square distance from it
+  float noise_grey2_ = 1;
+};
+
+}  // namespace spidar
