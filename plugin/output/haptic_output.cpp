@@ -237,8 +237,8 @@ void HapticOutput::set_max_force(double max_force_N) {
     most_N = most_force_N_;
   }
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
-                      ("max-force=%g is more than the %.1f N that %s can give in every direction: "
-                       "the force is limited to these.",
+                      ("max-force=%g is more than the %.1f N that %s can give in every direction "
+                       "without throwing a grip that is let go: the force is limited to these.",
                        max_force_N, most_N, too_much_for.c_str()),
                       ("Set max-force to %.1f at most.", most_N));
 }

@@ -104,7 +104,8 @@ struct DeviceRange {
     if (wanted >= 0 && wanted <= most) return;
     std::ostringstream text;
     text << what << " must be 0 to " << std::setprecision(4) << most << ' ' << unit << ", which "
-         << giver << " can give in every direction, got " << wanted;
+         << giver << " can give in every direction without throwing a grip that is let go, got "
+         << wanted;
     throw std::invalid_argument(text.str());
   }
 

@@ -58,7 +58,9 @@ struct GripTraits {
 
 /// What a grip receives in a tick.
 struct GripCommand {
-  Wrench wrench;  ///< on the hand: within the limits, and no faster than they allow
+  Wrench wrench;  ///< on the hand: within the limits, and except by the brake no faster
+  /// The grip is faster than a hand: what throws it ends at once, and a damper begins at once.
+  bool brakes = false;
   /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
   bool fresh = false;
   /// Fraction of everything that pulls, 0 … 1: it rises after opening and falls before closing. At

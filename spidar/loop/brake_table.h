@@ -5,25 +5,30 @@
 /// test_released_grip.cpp; with another value, they show what is stated.
 #pragma once
 
+#include "spidar/grip/released_grip.h"
+
 namespace spidar::brake {
 
 // --- A grip, a hand
-constexpr double kUnheldGrip_kg = 0.1;   // mass without a hand: from a third of it to a fifth more
-constexpr double kFirmHand_N_m = 200;    // a firm hand has 300 or more, a light one 100
-constexpr double kLooseHand_N_m = 100;   // a softer hold is a loose hand or none
-constexpr double kFastest_m_s = 1.5;     // faster than any film moves a hand: 0.45
+constexpr double kUnheldGrip_kg = 0.1;          // as most: from a third of it to a fifth more
+constexpr double kFirmHand_N_m = 200;           // a firm hand has 300 or more, a light one 100
+constexpr double kLooseHand_N_m = 100;          // a softer hold is a loose hand or none
+constexpr double kFastest_m_s = kReleased_m_s;  // faster than any film moves a hand: 0.45
 constexpr double kFastest_rad_s = 20;    // a hand to and fro by 45°, 4 a second; a unheld grip: 40
 constexpr double kTellingForce_N = 0.1;  // less force moves a hand less than it moves by itself
 constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any force
 
 // --- Fading and damping
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it; 0.59: 1.006 m/s
-constexpr double kFadeTo_m_s = 1.0;      // the largest speed: no force along it
-constexpr double kDampedFrom_m_s = 0.6;  // as kFadeFrom_m_s, which comes first
-constexpr double kDamping_N_s_m = 7.5;   // stable up to π/2 · mass / delay: 8 for 50 g and 10 ms
+constexpr double kFadeTo_m_s = 1.0;      // no force along it: kReleased_J of 100 g
+constexpr double kHeavyFrom_m_s = 0.45;  // no film of 3 N moves a hand of 300 N/m faster
+constexpr double kHeavyTo_m_s = 0.57;    // kReleased_J of 300 g, 0.577
+constexpr double kLightWork_J = 0.012;   // 0.008: a hand of 300 N/m notices it, at 2 Hz
+constexpr double kHeavyWork_J = 0.026;   // half of kReleased_J, for lags and the return
+constexpr double kSpeedError_m_s = 0.1;  // by lag and noise: 0.2: a hand of 300 N/m notices it
+constexpr double kDamping_1_s = 150;     // by the mass: stable up to π/2 / delay, 157 for 10 ms
 constexpr double kEarlier_m_s = 0.3;     // by so much for a grip that has stored energy: else 1.09
 constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick, half a tick of hold
-constexpr double kLongestFall_s = 0.02;  // in a loose hand the acceleration is another by then
 
 // --- From the whole wrench to none, and back
 constexpr double kRelease_s = 0.01;  // full force at the slew limit, 3 N by 300 N/s

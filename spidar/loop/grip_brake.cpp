@@ -13,40 +13,35 @@ namespace {
 
 using namespace brake;
 
-/// How much longer `force_N` accelerates the grip along `velocity_m_s` than if it ended at once. It
-/// falls with `max_slew_N_s`, and what it does meanwhile, its present strength does in half of the
-/// time.
-double still_pushes_s(const Eigen::Vector3d& force_N, const Eigen::Vector3d& velocity_m_s,
-                      double max_slew_N_s) {
-  const double along_N_m_s = force_N.dot(velocity_m_s);
-  if (!(along_N_m_s > 0)) return 0;
-  const double along_N = along_N_m_s / velocity_m_s.norm();
-  return 0.5 * std::min(kLongestFall_s, along_N / non_negative(max_slew_N_s));
-}
-
 /// What is left of a force at `speed_m_s`.
-double left_at(double speed_m_s) {
-  constexpr double kWay_m_s = kFadeTo_m_s - kFadeFrom_m_s;
-  return std::clamp((kFadeTo_m_s - speed_m_s) / kWay_m_s, 0.0, 1.0);
+double left_at(double speed_m_s, const FadeBand& band) {
+  return std::clamp((band.to_m_s - speed_m_s) / (band.to_m_s - band.from_m_s), 0.0, 1.0);
 }
 
 /// Reduces the part of `vector` along `velocity` to the fraction that the speed leaves. A turn has
-/// the speed at the end of an arm of `metres`. `earlier_m_s` is added to the speed.
+/// the speed at the end of an arm of `metres`.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double metres,
-                      double earlier_m_s) {
+                      const FadeBand& band) {
   const double size = velocity.norm();
-  const double left = left_at(metres * size + earlier_m_s);
+  const double left = left_at(metres * size, band);
   if (left >= 1) return vector;
   const Eigen::Vector3d direction = velocity / size;
   return vector - (1 - left) * std::max(0.0, vector.dot(direction)) * direction;
 }
 
 /// The damping force in the same way.
-Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, double earlier_m_s) {
+Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, const FadeBand& band) {
   const double speed_m_s = metres * velocity.norm();
-  const double above_m_s = speed_m_s + earlier_m_s - kDampedFrom_m_s;
+  const double above_m_s = speed_m_s - band.from_m_s;
   if (!(above_m_s > 0)) return Eigen::Vector3d::Zero();
-  return -metres * metres * kDamping_N_s_m * above_m_s / speed_m_s * velocity;
+  return -metres * metres * band.damping_N_s_m * above_m_s / speed_m_s * velocity;
+}
+
+/// `vector` with no more along `velocity` than `most` has.
+Eigen::Vector3d without_excess(const Eigen::Vector3d& vector, const Eigen::Vector3d& most,
+                               const Eigen::Vector3d& velocity) {
+  const double excess = (vector - most).dot(velocity);
+  return excess > 0 ? vector - excess / velocity.squaredNorm() * velocity : vector;
 }
 
 }  // namespace
@@ -63,7 +58,7 @@ void GripBrake::reset() noexcept {
   given_m_s_.setZero();
   seen_m_s_.setZero();
   last_m_s_.setZero();
-  spun_s_ = 0;
+  spun_s_ = work_J_ = 0;
   located_ = balanced_ = false;
   if (!held()) release();
 }
@@ -83,6 +78,10 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   const Eigen::Vector3d& now_m_s = motion.velocity().linear_m_s;
   compare_with_force(position_m, now_m_s, dt_s);
   spun_s_ = motion.velocity().angular_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : 0;
+  // No grip that nobody holds has more energy than the heaviest at its speed.
+  const double speed_m_s = kSpeedError_m_s + std::max(now_m_s.norm(), then_.linear_m_s.norm());
+  work_J_ = std::clamp(work_J_ + dt_s * acting_N_.dot(now_m_s), 0.0,
+                       0.5 * kHeaviestGrip_kg * speed_m_s * speed_m_s);
   seen_m_s_ += now_m_s - last_m_s_;
   seen_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   last_m_s_ = now_m_s;
@@ -161,8 +160,18 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 
-Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double max_slew_N_s,
-                        double dt_s) noexcept {
+/// A grip that nobody holds has the energy that the strings have given it.
+FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
+  const double heavy =
+      std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0);
+  const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
+  const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
+                                    kLightestGrip_kg, kHeaviestGrip_kg);
+  return {kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s,
+          kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s, kDamping_1_s * mass_kg};
+}
+
+Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
   if (is_released(motion) || (resting_s_ <= 0 && yields(motion))) release();
   if (resting_s_ > 0) {
     resting_s_ -= dt_s;
@@ -170,19 +179,26 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double m
   } else {
     fraction_ = std::clamp(fraction_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
   }
-  const bool loose = loose_s_ > 0;
-  const double earlier_m_s = loose ? kEarlier_m_s : 0;
-  const double falls_s =
-      loose ? still_pushes_s(strings_N_, motion.velocity().linear_m_s, max_slew_N_s) : 0;
-  const GripVelocity then = motion.velocity_in(kLoop_s + drive_lag_s_ + falls_s);
-  const Eigen::Vector3d force_N =
-      faded(fraction_ * wanted.force_N, then.linear_m_s, 1, earlier_m_s) +
-      damping(then.linear_m_s, 1, earlier_m_s);
-  const Eigen::Vector3d torque_Nm =
-      faded(fraction_ * wanted.torque_Nm, then.angular_rad_s, radius_m_, earlier_m_s) +
-      damping(then.angular_rad_s, radius_m_, earlier_m_s);
+  then_ = motion.velocity_in(kLoop_s + drive_lag_s_);
+  band_ = band_at(motion.velocity().linear_m_s.norm());
+  damper_ = {damping(then_.linear_m_s, 1, band_), damping(then_.angular_rad_s, radius_m_, band_)};
   // The strings cannot do both: what a torque takes, the damper of the way misses.
-  return {force_N, left_at(then.linear_m_s.norm() + earlier_m_s) * torque_Nm};
+  left_ = {faded(fraction_ * wanted.force_N, then_.linear_m_s, 1, band_),
+           left_at(then_.linear_m_s.norm(), band_) *
+               faded(fraction_ * wanted.torque_Nm, then_.angular_rad_s, radius_m_, band_)};
+  return left_;
+}
+
+bool GripBrake::acts() const noexcept {
+  const double speed_m_s =
+      std::max(then_.linear_m_s.norm(), radius_m_ * then_.angular_rad_s.norm());
+  return resting_s_ > 0 || left_at(speed_m_s, band_) < 1;
+}
+
+Wrench GripBrake::cut(const Wrench& slewed, bool fresh) const noexcept {
+  if (!fresh) return left_at(then_.linear_m_s.norm(), band_) * slewed;
+  return {without_excess(slewed.force_N, left_.force_N, then_.linear_m_s),
+          without_excess(slewed.torque_Nm, left_.torque_Nm, then_.angular_rad_s)};
 }
 
 }  // namespace spidar

@@ -10,12 +10,22 @@
 
 namespace spidar {
 
+/// The speeds between which a force along the motion fades out, and what slows the grip down above
+/// the lower one.
+struct FadeBand {
+  double from_m_s = 0, to_m_s = 0;
+  double damping_N_s_m = 0;
+};
+
 /// Four measures against a force that accelerates a released grip:
 ///
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
 ///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
-///   fades out, because the damper needs the strings.
-/// - A damper acts above kDampedFrom_m_s.
+///   fades out, because the damper needs the strings. Both speeds are lower for a grip to which the
+///   strings have given more energy than a light one has at them: it is heavy, or in a hand. They
+///   are those of the time at which the force acts, foreseen by the present acceleration.
+/// - A damper acts above the lower speed. Its damping follows the mass, which is twice that energy
+///   by the square of the speed.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
 ///   faster than kFastest_rad_s, or moves as the strings alone would move a unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
@@ -28,8 +38,10 @@ namespace spidar {
 ///   a fast grip that has gone far along the force is one that yields, too. With a slow one, and
 ///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
 ///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
-///   that is reversed. The speed is then predicted for as long as the force that still acts along
-///   it needs to fall.
+///   that is reversed.
+///
+/// What fades out ends at once, at no slew limit: 10 N that fell by 300 N/s would throw a grip of
+/// 50 g at 3.5 m/s. It returns at the slew limit.
 ///
 /// The speeds, times and fractions are in brake_table.h, with their sources.
 ///
@@ -52,15 +64,22 @@ class GripBrake {
   /// rest, which is a part of it.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
-  /// What is left of the wrench that is wanted. `max_slew_N_s` is how fast the force may change
-  /// after the brake.
-  Wrench apply(const Wrench& wanted, const GripMotion& motion, double max_slew_N_s,
-               double dt_s) noexcept;
+  /// What is left of the wrench that is wanted.
+  Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
+
+  /// After apply(): whether cut() and damper() may change anything.
+  bool acts() const noexcept;
+  /// What is left of `slewed`, which follows the last apply() at the slew limit: along the motion
+  /// no more than that. If it is not `fresh`, it is on its way to rest, and all of it fades.
+  Wrench cut(const Wrench& slewed, bool fresh) const noexcept;
+  /// What slows the grip down, to be added to that.
+  const Wrench& damper() const noexcept { return damper_; }
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
   bool held() const noexcept { return fraction_ >= 1 && resting_s_ <= 0; }
 
  private:
+  FadeBand band_at(double speed_m_s) const noexcept;
   bool is_released(const GripMotion& motion) const noexcept;
   bool is_withstood() const noexcept;
   bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
@@ -87,6 +106,12 @@ class GripBrake {
   Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();
+  double work_J_ = 0;  ///< what the strings have given the grip since it was last at rest
+  // Of the last apply().
+  GripVelocity then_;  ///< when its force will act
+  FadeBand band_;
+  Wrench left_;
+  Wrench damper_;
   bool balanced_ = false;   ///< whether the strings at rest balance what has brought it there
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
   double loose_s_ = 0;      ///< for how long the grip still counts as one that has stored energy

@@ -222,9 +222,11 @@ void HapticLoop::ask_callback(TickRecord& record, double dt_s) noexcept {
   record.called_back = true;
 }
 
-/// A wrench is wanted, and may be exerted. After command() has found the state of this tick.
+/// A wrench is wanted, and may be exerted: limits of zero are a pause. After command() has found
+/// the state of this tick.
 bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
-  return has_wanted(record) && grip_->reading().knows_pose() && state_ != DeviceState::kClosing;
+  return has_wanted(record) && grip_->reading().knows_pose() && state_ != DeviceState::kClosing &&
+         (set_limits_.max_force_N > 0 || set_limits_.max_torque_Nm > 0);
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
@@ -240,10 +242,15 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   }
   const GripReading& grip = grip_->reading();
   const Wrench allowed = vibration_.fraction() * record.wanted;
-  const Wrench braked = grip_->traits().can_fly
-                            ? brake_.apply(allowed, grip.motion, limits_.max_slew_N_s, dt_s)
-                            : allowed;
-  record.commanded = safety_.apply(braked, is_fresh(record), dt_s, set_limits_);
+  const bool fresh = is_fresh(record), can_fly = grip_->traits().can_fly;
+  const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
+  record.commanded = safety_.apply(left, fresh, dt_s, set_limits_);
+  record.brakes = can_fly && brake_.acts();
+  if (record.brakes) {
+    const Wrench cut = brake_.cut(record.commanded, fresh);
+    safety_.continue_from(cut);
+    record.commanded = fresh ? limit_total(cut + brake_.damper(), limits_) : cut;
+  }
   // A force that turns aside falls by less than its step.
   limits_.max_force_N = std::max(limits_.max_force_N, record.commanded.force_N.norm());
   limits_.max_torque_Nm = std::max(limits_.max_torque_Nm, record.commanded.torque_Nm.norm());
@@ -256,6 +263,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
   command.fresh = is_fresh(record);
   command.power = power_;
   command.limits = limits_;
+  command.brakes = record.brakes;
   command.dt_s = dt_s;
   command.now_ns = record.monotonic_ns;
   const GripReading& grip = grip_->reading();

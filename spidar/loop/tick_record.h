@@ -77,6 +77,7 @@ struct TickRecord : GripReport {
   Wrench commanded;
   bool acknowledged = true;  ///< the device has answered
   GripVelocity velocity;     ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
+  bool brakes = false;       ///< see GripCommand
   bool held = true;  ///< false: nobody holds the grip, and the wrench is at rest or returning
   DeviceState device = DeviceState::kClosed;
   bool playing = false;

@@ -41,7 +41,7 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
 namespace {
 
 double limit_in_effect(double set, double before, double exerted, double step) {
-  return std::max(non_negative(set), std::min(before, exerted - step));
+  return std::max(non_negative(set), std::min(before, exerted) - step);
 }
 
 }  // namespace

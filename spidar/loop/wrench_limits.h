@@ -33,7 +33,8 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 /// The total limits in effect when `set` is wanted and `before` was in effect `dt_s` ago. A limit
 /// that is raised takes effect at once; the force approaches it at the slew limit. A limit that is
 /// lowered falls at the slew limit from what the hand gets, which is the larger one of `commanded`
-/// and `delivered`, until it is as low as wanted.
+/// and `delivered`, until it is as low as wanted. It does not stop at what the strings exert at
+/// rest, which is a part of `delivered` that no limit lowers.
 SafetyLimits limits_in_effect(const SafetyLimits& set, const SafetyLimits& before,
                               const Wrench& commanded, const Wrench& delivered,
                               double dt_s) noexcept;
@@ -83,6 +84,9 @@ class WrenchLimits {
   /// Returns the wrench to apply, `dt_s` after the last call. If not `fresh`, `wanted` is ignored,
   /// and the wrench applied last ramps to exactly zero.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
+
+  /// The next apply() continues from `at`, to which the brake has reduced the last result.
+  void continue_from(const Wrench& at) noexcept { slew_.reset(at); }
 
   /// The device did not receive the result of the last apply(): the next call continues from the
   /// wrench before it.

@@ -298,8 +298,8 @@ TEST(Device, WhatIsWrongIsNamed) {
   // Eight strings of 4.2 N on spidar-gcc give 7.29 N in the weakest direction.
   EXPECT_NO_THROW(device.set_limits(7.2, 0.1));
   EXPECT_EQ(message_of([&] { device.set_limits(7.3, 0.1); }),
-            "the largest force must be 0 to 7.2 N, which spidar-gcc can give in every direction, "
-            "got 7.3");
+            "the largest force must be 0 to 7.2 N, which spidar-gcc can give in every direction "
+            "without throwing a grip that is let go, got 7.3");
   EXPECT_THROW(device.set_limits(1e9, 0.1), std::invalid_argument);
   const double most_Nm = device.capabilities().largest_torque_Nm;
   EXPECT_NO_THROW(device.set_limits(3, most_Nm));

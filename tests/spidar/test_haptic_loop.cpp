@@ -247,6 +247,14 @@ TEST(HapticLoop, LoweredLimitIsApproachedAtTheSlewLimit) {
   }
 }
 
+// A pause takes no longer from more force, but the slew limit would.
+TEST(HapticLoop, LimitsOfZeroAreAPause) {
+  Limited driver(20, 0.1);
+  ASSERT_EQ(driver.last.commanded.force_N.norm(), 20);
+  driver.set(0, 0);
+  EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0);
+}
+
 TEST(HapticLoop, ALimitIsNoSaw) {
   Limited driver(3, 0.05);
   for (int i = 0; i < 400; ++i) {

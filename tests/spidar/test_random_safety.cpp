@@ -156,6 +156,7 @@ class Round {
     seen.told_N = tensions_N(device_.volts(), real_);
     seen.dt_s = 1e-3 * passed_ms;
     seen.size_N = size_N_;
+    seen.brakes = loop_->snapshot().last.brakes;
     seen.resting = !playing_ && rest_in_ns_ < 0;
     seen.felt = simulated_.felt();
     watch_.see(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");

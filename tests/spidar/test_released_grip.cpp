@@ -127,7 +127,7 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   const auto is_held_after = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       brake.see(Eigen::Vector3d::Zero(), spins, 1e-3);
-      brake.apply({}, spins, 300, 1e-3);
+      brake.apply({}, spins, 1e-3);
     }
     return brake.held();
   };
@@ -152,7 +152,7 @@ TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
       // No force has moved it: only the speed tells that there is no hand.
       brake.see(pose.position_m, motion, 1e-3);
     }
-    brake.apply({}, motion, 300, 1e-3);
+    brake.apply({}, motion, 1e-3);
     EXPECT_EQ(brake.held(), !is_faster);
   }
 }
@@ -164,7 +164,7 @@ TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {
     Wrench left;
     for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
       if (!knows_pose) brake.reset();
-      left = brake.apply(wanted, {}, 300, 1e-3);
+      left = brake.apply(wanted, {}, 1e-3);
     }
     return left.force_N.x();
   };

@@ -102,6 +102,17 @@ TEST(LimitsInEffect, FallFromWhatTheHandGets) {
   EXPECT_EQ(limits_in_effect(low, low, {}, {}, kTick_s).max_force_N, 0);
 }
 
+// Away from the centre the strings at rest pull, and that stays.
+TEST(LimitsInEffect, EndAtWhatWasSetWhateverTheStringsExertAtRest) {
+  SafetyLimits low, now;
+  low.max_force_N = 0.1;
+  low.max_torque_Nm = 0.001;
+  const Wrench at_rest{{0, 0.5, 0}, {0.02, 0, 0}};
+  for (int i = 0; i < 10; ++i) now = limits_in_effect(low, now, {}, at_rest, kTick_s);
+  EXPECT_EQ(now.max_force_N, 0.1);
+  EXPECT_EQ(now.max_torque_Nm, 0.001);
+}
+
 TEST(SlewLimit, NoTimeNoStep) {
   SlewLimit slew;
   for (const double dt : {0.0, -1.0, kNaN}) {

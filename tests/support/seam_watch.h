@@ -23,6 +23,7 @@ class SeamWatch {
     bool acknowledged = false;
     double dt_s = 0;    ///< since the tick before
     double size_N = 0;  ///< largest wrench that the limits allow, torque divided by the grip radius
+    bool brakes = false;    ///< tensions may change at once
     bool resting = false;   ///< at least 50 ms after the last wrench that was due
     bool released = false;  ///< the motors must be off
     FeltState felt;         ///< what acts on the grip

@@ -108,7 +108,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
 
   // See WrenchLimits. A lost device has nothing to command.
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
-  if (following_ && !lost) {
+  if (following_ && !lost && !record.brakes && !last_.brakes) {
     const double ramp = StaleRamp::kSteepest / limits.ramp_s;
     const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
     const double rate_Nm_s = std::max(limits.max_slew_Nm_s, ramp * largest_Nm_);

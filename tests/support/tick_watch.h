@@ -10,7 +10,8 @@
 namespace spidar::test {
 
 /// Checks every tick of a test, and fails it at the first violation of one of these conditions.
-/// Force and torque never exceed their limits. Their changes never exceed the slew limit. There is
+/// Force and torque never exceed their limits. Their changes never exceed the slew limit, except
+/// where the brake acts. There is
 /// exactly no force 50 ms after the last wrench that was due (counting only time in which the
 /// device answered), and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or
 /// by running time. The exceptions are the 40 ms in which the force fades in before the next frame,

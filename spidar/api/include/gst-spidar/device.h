@@ -148,8 +148,8 @@ class GST_SPIDAR_API Device {
   /// Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
   /// pushed. From the next millisecond on, what exceeds them falls by 300 N and 10 N m a second.
   /// Throws std::invalid_argument unless both are finite and not negative, and the profile's
-  /// strings can give them in every direction and about every axis, or they are at most what they
-  /// are at first.
+  /// strings can give them in every direction and about every axis without throwing a grip that a
+  /// hand lets go of, or they are at most what they are at first.
   void set_limits(double max_force_N, double max_torque_Nm);
 
   /// Lets the grip touch a surface, until another one or clear_surface(). Its force is added to

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// How strong a force may be on a grip that a hand may let go of at any time.
+#pragma once
+
+namespace spidar {
+
+/// Mass of a grip without a hand. No source states one: from a hollow sphere to one with motors.
+constexpr double kLightestGrip_kg = 0.034;
+constexpr double kHeaviestGrip_kg = 0.3;
+
+/// What a released grip may reach, see GripBrake.
+constexpr double kReleased_m_s = 1.5;
+constexpr double kReleased_J = 0.05;
+
+/// From when a hand lets go until a command knows it: up to a tick until the next reading, a second
+/// reading for a velocity, and a tick until the command that follows it.
+constexpr double kNoticed_s = 3e-3;
+
+/// The whole force accelerates a released grip until it is noticed and, on average, for the lag of
+/// the drives: to kReleased_m_s if the grip is one of kLightestGrip_kg. N.
+constexpr double released_force_N(double drive_lag_s) noexcept {
+  return kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s);
+}
+
+}  // namespace spidar

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A hand holds the grip against a force and lets go: how fast the strings throw it, by the
+/// simulation's truth. Short by default; SPIDAR_SWEEP=1 tries all profiles and more hands.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "spidar/grip/released_grip.h"
+#include "spidar/grip/string_grip.h"
+#include "spidar/loop/haptic_loop.h"
+#include "tests/support/let_go_device.h"
+#include "tests/support/random_motion.h"
+#include "tests/support/released_grip.h"
+
+namespace spidar::test::let_go_test {
+namespace {
+
+/// A grip of `mass_kg` in a hand of this stiffness and 8 N s/m.
+GripModel held(const Profile& profile, double mass_kg, double stiffness_N_m) {
+  GripModel model = grip_model_of(profile);
+  model.inertia_kg_m2 *= mass_kg / model.mass_kg;
+  model.mass_kg = mass_kg;
+  model.hand_stiffness_N_m = stiffness_N_m;
+  return model;
+}
+
+/// The largest speed after a hand has let go in a film of up to `force_N`, at a random moment.
+double thrown_m_s(const Profile& profile, const GripModel& hand, double force_N,
+                  RandomMotion& random) {
+  const Eigen::Vector3d towards = random.direction();
+  const double rate_Hz = random.chance(0.5) ? 0 : random.uniform(0.2, 3);
+  const int held_ms = 300 + random.some(1000);
+  constexpr int kReleased_ms = 1200;  // the force rests, and begins to return
+  constexpr int64_t kFrame_ns = 20 * kTick_ns;
+
+  LetGoDevice device(profile, hand, released(profile, hand.mass_kg));
+  SafetyLimits limits;
+  limits.max_force_N = force_N;
+  const auto loop =
+      std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);
+  loop->open();
+  int64_t now_ns = 0, next_ns = 0;
+  const auto tick = [&] {
+    now_ns += kTick_ns;
+    loop->tick(now_ns, now_ns);
+  };
+  for (int ms = 0; ms < 250; ++ms) tick();
+  const int64_t begun_ns = now_ns;
+  loop->set_playback_clock({now_ns, 0, 1, true});
+  double fastest_m_s = 0;
+  for (int ms = 0; ms < held_ms + kReleased_ms; ++ms) {
+    for (; next_ns <= now_ns - begun_ns + kFrame_ns; next_ns += kFrame_ns) {
+      const double wave = std::cos(2 * M_PI * rate_Hz * 1e-9 * static_cast<double>(next_ns));
+      loop->schedule({next_ns, 2 * kFrame_ns, {force_N * wave * towards, Eigen::Vector3d::Zero()}});
+    }
+    if (ms == held_ms) device.let_go();
+    tick();
+    if (ms >= held_ms) fastest_m_s = std::max(fastest_m_s, device.speed_m_s());
+  }
+  return fastest_m_s;
+}
+
+// Before what throws a grip ended at once, 10 N threw 50 g at 3.5 m/s, and 20 N at 5.9 m/s.
+TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
+  const bool all = std::getenv("SPIDAR_SWEEP") != nullptr;
+  const std::vector<std::string> names =
+      all ? list_profiles()
+          : std::vector<std::string>{kDefaultProfile, "spidar-g6o", "spidar-g6x3-v2-r",
+                                     "spidar-i05"};
+  RandomMotion random(71);
+  std::map<std::pair<double, double>, double> fastest_m_s;  // by force and mass
+  for (const std::string& name : names) {
+    const Profile profile = load_profile(name);
+    SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
+    const double most_N = StringGrip(profile, device).abilities().largest_force_N;
+    EXPECT_LE(most_N, released_force_N(profile.drive_lag_s)) << name;
+    for (const double force_N : {3.0, 0.5 * (3 + most_N), most_N}) {
+      for (const double mass_kg : {kLightestGrip_kg, 0.1, kHeaviestGrip_kg}) {
+        for (int n = 0; n < (all ? 30 : 4); ++n) {
+          const GripModel hand = held(profile, mass_kg, random.uniform(300, 1500));
+          const double speed_m_s = thrown_m_s(profile, hand, force_N, random);
+          double& worst_m_s = fastest_m_s[{std::round(force_N), mass_kg}];
+          worst_m_s = std::max(worst_m_s, speed_m_s);
+          EXPECT_LE(speed_m_s, kReleased_m_s)
+              << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
+          EXPECT_LE(0.5 * mass_kg * speed_m_s * speed_m_s, kReleased_J)
+              << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
+        }
+      }
+    }
+  }
+  for (const auto& [of, speed_m_s] : fastest_m_s)
+    std::printf("%2.0f N, %3.0f g: %.2f m/s\n", of.first, 1e3 * of.second, speed_m_s);
+}
+
+}  // namespace
+}  // namespace spidar::test::let_go_test
