@@ -18,10 +18,10 @@ namespace spidar {
 class NumberText {
  public:
   template <typename Number>
-  explicit NumberText(Number number) noexcept
-      : length_(static_cast<size_t>(
-            std::to_chars(text_.data(), text_.data() + text_.size(), number).ptr - text_.data())) {
+  explicit NumberText(Number number) noexcept {
     static_assert(std::is_arithmetic_v<Number> && sizeof number <= sizeof(uint64_t));
+    const char* const end = std::to_chars(text_.data(), text_.data() + text_.size(), number).ptr;
+    length_ = static_cast<size_t>(end - text_.data());
   }
   operator std::string_view() const noexcept { return {text_.data(), length_}; }
 
@@ -30,7 +30,7 @@ class NumberText {
   static constexpr size_t kLongest = 24;
 
   std::array<char, kLongest> text_{};
-  size_t length_;
+  size_t length_ = 0;
 };
 
 /// Nothing unless all of the text is one finite number.
