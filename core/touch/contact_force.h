@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-/// docs/touch.md explains why these values are stable.
+/// docs/strings.md explains why these values are stable.
 struct ContactSettings {
   double stiffness_N_m = 500;  ///< above 0, at most kMostStiffness_N_m
   /// Delay from a motion of the grip to the resulting force: half a tick for the zero-order hold,

@@ -110,7 +110,7 @@ class TensionCommand {
   /// Limit of each string's tension above its minimum, for each newton of the wrench (torque is
   /// divided by the grip radius). A higher limit does not deliver noticeably more of the wrench
   /// within 2 cm and 20°, and increases the error of the force if the assumed pose is wrong
-  /// (docs/safety.md).
+  /// (docs/strings.md).
   static constexpr double kTensionPerForce = 4;
 
   /// Two ticks: until the next exchange, and one that is late.

@@ -21,7 +21,7 @@ constexpr double kUnmeasuredLag_s = 0.005;
 /// last exchange.
 constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
 
-/// Delay from a motion of the grip to the resulting force: t_d in docs/touch.md.
+/// Delay from a motion of the grip to the resulting force: t_d in docs/strings.md.
 constexpr double surface_delay_s(double drive_lag_s) noexcept {
   return kLoopDelay_s + drive_lag_s;
 }
@@ -35,9 +35,9 @@ inline double most_stiffness_N_m(double drive_lag_s) noexcept {
 }
 
 /// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
-/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/touch.md). The damping that the hand
-/// must contribute grows with stiffness · delay, so a longer delay lowers the limit in proportion.
-/// Without a known delay, it is kUnmeasuredStiffness_N_m.
+/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/strings.md). The damping that the
+/// hand must contribute grows with stiffness · delay, so a longer delay lowers the limit in
+/// proportion. Without a known delay, it is kUnmeasuredStiffness_N_m.
 inline double most_stiffness_N_m(const Profile& profile) noexcept {
   const double most_N_m = most_stiffness_N_m(profile.drive_lag_s);
   return profile.drive_lag_known ? most_N_m : std::min(most_N_m, kUnmeasuredStiffness_N_m);

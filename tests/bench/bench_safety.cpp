@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Measures the numbers of docs/safety.md: how long each kind of stop takes at the device, which
+// Measures the numbers of docs/strings.md: how long each kind of stop takes at the device, which
 // force acts on the grip and what work the strings do until then; and the force at rest of every
 // profile. Uses the simulated device in simulated time, so the results are the same on every
 // machine.

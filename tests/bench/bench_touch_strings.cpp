@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Measures the energy that contacts add through the strings of the simulated device, as
-// docs/touch.md has it. The argument is the number of ticks for each scene and hand.
+// docs/strings.md has it. The argument is the number of ticks for each scene and hand.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

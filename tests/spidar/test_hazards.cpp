@@ -3,7 +3,7 @@
 /// Two faults at about the same time, of every pair of kinds, on every profile: the largest force
 /// and speed, and how long they last, by the simulated device's truth. Short by default;
 /// SPIDAR_TICKS=10000000 is the long run (--suite hazards), which prints the table of
-/// docs/safety.md. SPIDAR_SEED selects another seed, SPIDAR_SHOW=1 prints every round.
+/// docs/strings.md. SPIDAR_SEED selects another seed, SPIDAR_SHOW=1 prints every round.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

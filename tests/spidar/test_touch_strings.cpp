@@ -56,7 +56,7 @@ TEST(TouchStrings, NoContactAddsAnyToAFilm) {
   touch.film_N = 1;
   EXPECT_LE(explore_all(touch).worst_J, kBound_J);
   // A film that takes all of max-force. In a light hand a few contacts beside it do give some out
-  // (docs/touch.md).
+  // (docs/strings.md).
   touch.film_N = 3;
   EXPECT_LE(explore_all(touch, {kFirmHand}).worst_J, kBound_J);
 }
