@@ -52,8 +52,8 @@ std::string json_line(const Frame& frame) {
   Json objects = Json::array();
   for (const MovingObject& object : frame.objects) objects.push_back(json_of(object));
   const Json json = {
-      {"running_time_ns", frame.running_ns},
-      {"stream_time_ns", frame.stream_ns},
+      {"running_time_ns", frame.stamp.running_ns},
+      {"stream_time_ns", frame.stamp.stream_ns},
       {"interval_ns", frame.interval_ns},
       {"width_px", frame.width},
       {"height_px", frame.height},

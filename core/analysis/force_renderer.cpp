@@ -95,22 +95,23 @@ void ForceRenderer::configure(const AnalyzerSettings& settings) {
   choice_.set_kept(settings.kept);
 }
 
-Chosen ForceRenderer::choose(const Frame& frame, const FilmPlace& film) {
-  if (settings_.motion == MotionKind::kMean || frame.width == 0) return {};
-  return choice_.choose({frame.objects, frame.background ? &*frame.background : nullptr,
-                         frame.width, frame.height, frame.interval_s(),
-                         frame.picture == PictureKind::kFirst, film, settings_.boxes.get()});
+ChoiceFrame ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
+  return {frame.objects,         frame.background ? &*frame.background : nullptr,
+          frame.width,           frame.height,
+          frame.interval_s(),    frame.picture == PictureKind::kFirst,
+          frame.stamp.stream_ns, turn,
+          settings_.boxes.get()};
 }
 
-ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const FilmPlace& film,
+ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const Orientation& turn,
                                             const Chosen& choice) const {
   if (choice.is_free()) return free_motion(frame);
   if (choice.object) return relative_motion(*choice.object);
   if (choice.is_kept || !frame.background) return {};
   if (choice.rule->kind == FeelKind::kRegion) {
     const FeelRule& region = *choice.rule;
-    return motion_in_box(frame.objects, film.in_frame_px(region.position, region.far_corner,
-                                                         frame.width, frame.height));
+    return motion_in_box(frame.objects,
+                         choice_frame(frame, turn).px(region.position, region.far_corner));
   }
   if (choice.rule->kind == FeelKind::kCamera) {
     return camera_motion(*frame.background, frame.votes, frame.interval_s());
@@ -142,8 +143,10 @@ void ForceRenderer::restart() {
   choice_.reset();
 }
 
-void ForceRenderer::render(Frame& frame, const FilmPlace& film) {
-  const Chosen choice = choose(frame, film);
+void ForceRenderer::render(Frame& frame, const Orientation& turn) {
+  Chosen choice;
+  if (settings_.motion != MotionKind::kMean && frame.width != 0)
+    choice = choice_.choose(choice_frame(frame, turn));
   frame.choice = choice;
   frame.choice.object = nullptr;
   if (frame.picture == PictureKind::kFirst) {
@@ -156,7 +159,7 @@ void ForceRenderer::render(Frame& frame, const FilmPlace& film) {
     return;
   }
   frame.felt_object = felt_object(frame, settings_.motion, choice);
-  ImageMotion felt = motion_of_choice(frame, film, choice);
+  ImageMotion felt = motion_of_choice(frame, turn, choice);
   if (frame.picture == PictureKind::kSame) {
     filter_.stop();
     fade_.reset();

@@ -68,14 +68,14 @@ class ForceRenderer {
   void configure(const AnalyzerSettings& settings);
 
   /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order in which they
-  /// are shown, but for those that wait.
-  void render(Frame& frame, const FilmPlace& film = {});
+  /// are shown, but for those that wait; `turn` is that before they are shown.
+  void render(Frame& frame, const Orientation& turn = {});
   /// The next frame follows a seek or a discontinuity.
   void restart();
 
  private:
-  Chosen choose(const Frame& frame, const FilmPlace& film);
-  ImageMotion motion_of_choice(const Frame& frame, const FilmPlace& film,
+  ChoiceFrame choice_frame(const Frame& frame, const Orientation& turn) const;
+  ImageMotion motion_of_choice(const Frame& frame, const Orientation& turn,
                                const Chosen& choice) const;
   ImageMotion free_motion(const Frame& frame) const;
 

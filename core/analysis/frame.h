@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/choice/chosen.h"
+#include "core/frame_stamp.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/measured_frame.h"
 #include "core/wrench.h"
@@ -16,8 +17,7 @@ namespace spidar {
 
 /// The steps of the analysis fill it in, one after the other, and everybody else reads it.
 struct Frame : MeasuredFrame {
-  int64_t running_ns = -1;   ///< −1: not known
-  int64_t stream_ns = -1;    ///< position in the film; −1: not known
+  FrameStamp stamp;
   Chosen choice;             ///< without `object`
   uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
   ImageMotion motion;        ///< the one that is felt, unfiltered, in px/s of the frame

@@ -70,15 +70,15 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   if (was_by_points != by_points()) restart_measuring();
 }
 
-const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns,
-                                     const FilmPlace& film) {
+const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns,
+                                     const Orientation& turn) {
   if (last_running_ns_ && running_ns <= *last_running_ns_) restart();
-  frame_.running_ns = running_ns;
-  frame_.stream_ns = film.stream_ns;
-  film_ = film;
+  frame_.stamp.running_ns = running_ns;
+  frame_.stamp.stream_ns = stream_ns;
+  turn_ = turn;
   const bool is_anew = std::exchange(anew_, false);
   if (is_anew) renderer_.restart();
-  if (measure(image, running_ns)) renderer_.render(frame_, film);
+  if (measure(image, running_ns)) renderer_.render(frame_, turn);
   return frame_;
 }
 
@@ -90,12 +90,12 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
     return nullptr;
   }
   last_running_ns_ = running_ns;
-  frame_.running_ns = running_ns;
+  frame_.stamp.running_ns = running_ns;
   const Cadence::Step step = cadence_.see(PictureKind::kSame, running_ns);
   frame_.picture = step.waits ? PictureKind::kWaiting : PictureKind::kSame;
   if (!step.waits) {
     take(step);
-    renderer_.render(frame_, film_);
+    renderer_.render(frame_, turn_);
   }
   return &frame_;
 }

@@ -40,8 +40,10 @@ class MotionAnalyzer {
   /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
   /// Throws std::invalid_argument for a frame that require_usable() refuses.
-  /// `film` is for AnalyzerSettings::feel alone. The result is valid until the next call.
-  const Frame& analyze(const ImageView& image, int64_t running_ns, const FilmPlace& film = {});
+  /// The position in the film, and how the frame is turned before it is shown, are for
+  /// AnalyzerSettings::feel alone. The result is valid until the next call.
+  const Frame& analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns = 0,
+                       const Orientation& turn = {});
 
   /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns null
   /// when the picture has been repeated for too long, or when there is no previous picture: then it
@@ -67,7 +69,7 @@ class MotionAnalyzer {
   ForceRenderer renderer_;
   std::optional<int64_t> last_running_ns_;
   bool anew_ = true;
-  FilmPlace film_;
+  Orientation turn_;
   Frame frame_;
 };
 

@@ -27,25 +27,6 @@ struct PictureBox {
 
 using PictureBoxes = std::vector<PictureBox>;
 
-/// Where a frame is in its film. Places of rules and clicks are those of the picture as it is
-/// shown.
-struct FilmPlace {
-  int64_t stream_ns = 0;
-  Orientation turn;
-
-  /// A position of the picture as it is shown, in px from the middle of a frame of this size.
-  Eigen::Vector2d in_frame_px(const Eigen::Vector2d& position, int width, int height) const {
-    const Eigen::Vector2d coded = turn.stored_position(position);
-    return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
-  }
-  /// The same of a box with these two corners.
-  Eigen::AlignedBox2d in_frame_px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner,
-                                  int width, int height) const {
-    Eigen::AlignedBox2d box_px(in_frame_px(corner, width, height));
-    return box_px.extend(in_frame_px(far_corner, width, height));
-  }
-};
-
 /// An object that is kept because it was clicked.
 struct KeptObject {
   uint32_t click = 0;              ///< counts the clicks; 0: none is kept
@@ -72,19 +53,26 @@ struct Chosen {
   bool is_free() const { return !rule && !is_kept; }
 };
 
-/// What a choice needs of a frame.
+/// What a choice needs of a frame. Places of rules and clicks are those of the picture as it is
+/// shown.
 struct ChoiceFrame {
   const std::vector<MovingObject>& objects;
-  const Background* background;  ///< null when it is not known
-  int width, height;             ///< px
-  double interval_s;             ///< since the frame before; 0 when there is none
-  bool is_cut;                   ///< nothing in it was in the frame before
-  FilmPlace film;
+  const Background* background;         ///< null when it is not known
+  int width, height;                    ///< px
+  double interval_s;                    ///< since the frame before; 0 when there is none
+  bool is_cut;                          ///< nothing in it was in the frame before
+  int64_t stream_ns;                    ///< position in the film
+  Orientation turn;                     ///< of the frame before it is shown
   const PictureBoxes* boxes = nullptr;  ///< that came with it; null: none did
 
   /// A position of the picture as it is shown, from the middle of the frame.
   Eigen::Vector2d px(const Eigen::Vector2d& position) const {
-    return film.in_frame_px(position, width, height);
+    const Eigen::Vector2d coded = turn.stored_position(position);
+    return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
+  }
+  /// The same of a box with these two corners.
+  Eigen::AlignedBox2d px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner) const {
+    return Eigen::AlignedBox2d(px(corner)).extend(px(far_corner));
   }
 };
 

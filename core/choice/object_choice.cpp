@@ -21,8 +21,7 @@ ChoiceState BoxedObject::state() const {
 /// The object in sight that has most in common with the box for their size; null when that is not
 /// enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame& frame) const {
-  const Eigen::AlignedBox2d box_px =
-      frame.film.in_frame_px(box.position, box.far_corner, frame.width, frame.height);
+  const Eigen::AlignedBox2d box_px = frame.px(box.position, box.far_corner);
   const double box_px2 = area_px2(box_px);
   const MovingObject* best = nullptr;
   double best_fraction = 0;
@@ -75,7 +74,7 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame
   if (rule.kind == FeelKind::kLargest) {
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
   }
-  const Eigen::Vector2d direction = frame.film.turn.to_stored(rule.direction);
+  const Eigen::Vector2d direction = frame.turn.to_stored(rule.direction);
   return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height);
 }
 
@@ -213,7 +212,7 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     rule_ = &rule;
     best_ = 0;
     missed_ = false;
-    const double since_s = static_cast<double>(frame.film.stream_ns - rule.from_ns) * 1e-9;
+    const double since_s = static_cast<double>(frame.stream_ns - rule.from_ns) * 1e-9;
     seen_from_begin_ = since_s <= FollowedObject::kLook_s;
     ruled_.begin(frame.px(rule.position), since_s);
     boxed_.begin(rule.name.data());
@@ -261,7 +260,7 @@ Chosen ObjectChoice::choose(const ChoiceFrame& frame) {
     clicked_.cut();
     best_ = 0;
   }
-  const FeelRule* const rule = rules_ ? rules_->at(frame.film.stream_ns) : nullptr;
+  const FeelRule* const rule = rules_ ? rules_->at(frame.stream_ns) : nullptr;
   Chosen by_rules;
   if (rule) {
     by_rule(*rule, frame, by_rules);

@@ -10,16 +10,12 @@
 namespace spidar {
 namespace {
 
-/// When the sink shows a frame. Nothing when it cannot be rendered in time, for `problem`.
-std::optional<int64_t> time_of(const GstVideoFrame& frame, const GstSegment& segment,
-                               FrameProblem& problem) {
-  const bool has_time =
-      segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(GST_BUFFER_PTS(frame.buffer));
-  const GstClockTime shown = has_time ? shown_at(frame, segment) : GST_CLOCK_TIME_NONE;
-  if (is_time(shown)) return static_cast<int64_t>(shown);
-  const bool is_cut = has_time && !GST_CLOCK_TIME_IS_VALID(shown);
-  problem = is_cut ? FrameProblem::kNotShown : FrameProblem::kNoTimestamp;
-  return std::nullopt;
+bool has_time(GstBuffer* buffer, const GstSegment& segment) {
+  return segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(GST_BUFFER_PTS(buffer));
+}
+
+bool is_in_time(const FrameStamp& stamp) {
+  return is_time(static_cast<GstClockTime>(stamp.running_ns));
 }
 
 }  // namespace
@@ -88,11 +84,11 @@ void MotionState::change_rate(double multiplier, GstClockTime running_time, GstC
 }
 
 void MotionState::restart_timing() {
+  begin_epoch();
   live.restart_timing();
   {
     const std::lock_guard<std::mutex> lock(skip_mutex);
     schedule.restart();
-    track.restart();
     output.follower().set_skipped(0);
   }
   no_force.forget();
@@ -116,39 +112,46 @@ GstStructure* MotionState::describe() const {
 
 void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment) {
   report.begin();
-  const std::optional<int64_t> running_ns = time_of(frame, segment, report.problem);
-  if (!running_ns) {
-    if (report.problem == FrameProblem::kNoTimestamp) live.restart();
+  if (!has_time(frame.buffer, segment)) return pass_untimed();
+  const std::optional<FrameStamp> stamp =
+      stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch);
+  if (!stamp) {
+    report.problem = FrameProblem::kNotShown;
     return;
   }
+  if (!is_in_time(*stamp)) return pass_untimed();
   report.turn = orientation.turn();
   report.visible = visible_part(frame);
   report.motion = frame_settings.analyzer.motion;
   report.controller = frame_settings.analyzer.controller;
-  const PassingFrame passing{frame, segment, frame_settings, *running_ns};
+  const PassingFrame passing{frame, segment, frame_settings, *stamp};
   if (track.has_track()) {
     track.take(passing, report);
   } else {
     live.take(passing, report);
   }
   // The analysis has a time of its own, in which frames are as far apart as in the film.
-  report.frame.running_ns = *running_ns;
-  report.frame.stream_ns = static_cast<int64_t>(
-      gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(frame.buffer)));
+  report.frame.stamp = *stamp;
   if (!report.has_wrench()) return;
   report.device_no_force = no_force.of_device(output.snapshot());
   report.trace_error = trace.write(report);
   if (report.analyzed) stats.add(report.frame, report.took_ns);
 }
 
+/// A frame that cannot be rendered in time.
+void MotionState::pass_untimed() {
+  report.problem = FrameProblem::kNoTimestamp;
+  live.restart();
+}
+
 void MotionState::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
-  const GstClockTime running_time = running_time_of(segment, GST_BUFFER_PTS(buffer));
-  if (!is_time(running_time)) return live.restart();
-  const auto running_ns = static_cast<int64_t>(running_time);
+  const std::optional<FrameStamp> stamp =
+      has_time(buffer, segment) ? stamp_of(buffer, 0, segment, epoch) : std::nullopt;
+  if (!stamp || !is_in_time(*stamp)) return live.restart();
   if (track.has_track()) {
-    track.pass_gap(buffer, segment, running_ns);
+    track.pass_gap(*stamp);
   } else {
-    live.pass_gap(running_ns, orientation.turn());
+    live.pass_gap(*stamp, orientation.turn());
   }
 }
 

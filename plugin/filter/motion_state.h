@@ -58,6 +58,8 @@ struct MotionState {
 
   /// A frame with the settings `frame_settings`. What is only shown of it is not filled in yet.
   void process(const GstVideoFrame& frame, const GstSegment& segment);
+  /// The next frame does not follow the one before: a seek, another film, another rate.
+  void begin_epoch() { ++epoch; }
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
 
@@ -82,6 +84,7 @@ struct MotionState {
   StepWatch steps;  ///< state changes
 
   // Streaming thread.
+  uint32_t epoch = 0;            ///< FrameStamp
   FrameSettings frame_settings;  ///< of the frame that passes
   StreamOrientation orientation;
   LiveSource live{schedule, no_force, reliefs, output};
@@ -90,6 +93,9 @@ struct MotionState {
   FrameReport report;  ///< of the newest frame
   FeltTrack felt;
   BusWarnings warnings;
+
+ private:
+  void pass_untimed();
 };
 
 }  // namespace spidar

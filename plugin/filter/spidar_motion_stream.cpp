@@ -83,15 +83,16 @@ static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffe
     return;
   }
   const spidar::Frame& found = report.frame;
-  GST_LOG_OBJECT(
-      self,
-      "frame of %" GST_TIME_FORMAT
-      ": %.1f, %.1f px/s, %zu objects, %.3f, %.3f N in "
-      "%" G_GINT64_FORMAT " us%s%s",
-      GST_TIME_ARGS(static_cast<GstClockTime>(found.running_ns)), found.motion.velocity_px_s.x(),
-      found.motion.velocity_px_s.y(), found.objects.size(), found.wrench.force_N.x(),
-      found.wrench.force_N.y(), static_cast<gint64>(report.took_ns / 1000),
-      found.has_motion_before() ? "" : ", restarted", found.goes_on() ? ", goes on" : "");
+  GST_LOG_OBJECT(self,
+                 "frame of %" GST_TIME_FORMAT
+                 ": %.1f, %.1f px/s, %zu objects, %.3f, %.3f N in "
+                 "%" G_GINT64_FORMAT " us%s%s",
+                 GST_TIME_ARGS(static_cast<GstClockTime>(found.stamp.running_ns)),
+                 found.motion.velocity_px_s.x(), found.motion.velocity_px_s.y(),
+                 found.objects.size(), found.wrench.force_N.x(), found.wrench.force_N.y(),
+                 static_cast<gint64>(report.took_ns / 1000),
+                 found.has_motion_before() ? "" : ", restarted",
+                 found.goes_on() ? ", goes on" : "");
 }
 
 static bool device_goes_on(MotionState& state) {
@@ -120,7 +121,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   state.warnings.check_frame(report);
   state.warnings.check_touch(state.output, report, settings.touch);
   if (report.analyzed) {
-    const auto stream_time = static_cast<GstClockTime>(report.frame.stream_ns);
+    const auto stream_time = static_cast<GstClockTime>(report.frame.stamp.stream_ns);
     state.choice.check(report.frame.choice, settings.analyzer.kept, stream_time);
   }
   if (report.has_wrench() && settings.post_messages) {
@@ -185,7 +186,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       spidar::guarded(GST_ELEMENT(self), "looking for a track",
                       [self] { begin_to_load_track(self); });
       // What is scheduled stays: without a flush, its frames still wait for the screen.
-      state.live.restart();
+      state.begin_epoch();
       state.orientation.begin_stream();
       break;
     case GST_EVENT_TAG: {
@@ -199,9 +200,8 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gst_event_parse_segment(event, &segment);
       GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
       state.loader.await(kLongestWait);
-      if (!same_playback(trans->segment, *segment)) state.live.restart();
+      if (!same_playback(trans->segment, *segment)) state.begin_epoch();
       state.schedule.begin_segment();
-      state.track.restart();
       state.live.begin_segment();
       break;
     }

@@ -31,18 +31,14 @@ enum class FrameProblem {
   kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
 };
 
-/// Where a frame is in its film.
-struct FilmMoment {
-  std::shared_ptr<const std::string> path;  ///< null or empty: it is from no file
-  int64_t stream_ns = -1;                   ///< −1: not known
-  /// When the scene began, or what was seen of it: at a cut, or after a seek.
-  int64_t scene_ns = -1;
+/// The scene that a frame belongs to.
+struct FilmScene {
+  std::shared_ptr<const std::string> path;  ///< of the film; null or empty: it is from no file
+  /// When it began, or what was seen of it: at a cut, or after a seek. −1: not known.
+  int64_t begin_ns = -1;
   int64_t length_ns = 0;  ///< of the film; 0: not known
 
   std::string name() const { return path ? *path : ""; }
-  bool is_same_scene(const FilmMoment& other) const {
-    return scene_ns == other.scene_ns && (path == other.path || name() == other.name());
-  }
 };
 
 enum class TrackOwner {
@@ -84,7 +80,7 @@ struct FrameReport {
   ControllerSettings controller;
   uint32_t click = 0;  ///< number of the click whose object is kept; 0: none
   // Where it is drawn, or a meta is attached:
-  FilmMoment film;
+  FilmScene film;
   double speed_px_s = 0;  ///< that the controller was given, of the reference frame
   std::vector<OwnedTrack> tracks;
   std::vector<ImagePoint> lost;  ///< last positions of the lost points

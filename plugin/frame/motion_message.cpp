@@ -43,18 +43,18 @@ void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTi
                          const FrameReport& report, gint* unread) {
   if (g_atomic_int_get(unread) >= kMostUnread) return;
   const Frame& frame = report.frame;
-  GstStructure* s =
-      gst_structure_new("spidar-motion",                                                        //
-                        "timestamp", G_TYPE_UINT64, timestamp,                                  //
-                        "stream-time", G_TYPE_UINT64, static_cast<guint64>(frame.stream_ns),    //
-                        "running-time", G_TYPE_UINT64, static_cast<guint64>(frame.running_ns),  //
-                        "duration", G_TYPE_UINT64, duration,                                    //
-                        "repeated", G_TYPE_BOOLEAN, is_again(frame.picture) ? TRUE : FALSE,     //
-                        "features", G_TYPE_UINT, static_cast<guint>(frame.features),            //
-                        "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),       //
-                        "object", G_TYPE_UINT, frame.felt_object,                               //
-                        "track", G_TYPE_STRING, report.track ? report.track->c_str() : "",      //
-                        nullptr);
+  GstStructure* s = gst_structure_new(
+      "spidar-motion",                                                              //
+      "timestamp", G_TYPE_UINT64, timestamp,                                        //
+      "stream-time", G_TYPE_UINT64, static_cast<guint64>(frame.stamp.stream_ns),    //
+      "running-time", G_TYPE_UINT64, static_cast<guint64>(frame.stamp.running_ns),  //
+      "duration", G_TYPE_UINT64, duration,                                          //
+      "repeated", G_TYPE_BOOLEAN, is_again(frame.picture) ? TRUE : FALSE,           //
+      "features", G_TYPE_UINT, static_cast<guint>(frame.features),                  //
+      "tracked", G_TYPE_UINT, static_cast<guint>(frame.motion.tracked),             //
+      "object", G_TYPE_UINT, frame.felt_object,                                     //
+      "track", G_TYPE_STRING, report.track ? report.track->c_str() : "",            //
+      nullptr);
   set_motion(s, frame.motion.velocity_px_s, frame.wrench);
   gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
   describe_no_force(report.no_force, report.device_no_force, s);

@@ -27,20 +27,26 @@ GstClockTime nominal_duration(const GstVideoInfo& info) {
   return info.fps_n > 0 ? gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n) : 0;
 }
 
-GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment) {
-  const GstClockTime pts = GST_BUFFER_PTS(frame.buffer);
-  GstClockTime duration = GST_BUFFER_DURATION(frame.buffer);
-  if (!GST_CLOCK_TIME_IS_VALID(duration) && frame.info.fps_n > 0) {
-    duration = nominal_duration(frame.info);
-  }
+std::optional<FrameStamp> stamp_of(GstBuffer* buffer, GstClockTime nominal,
+                                   const GstSegment& segment, uint32_t epoch) {
+  const GstClockTime pts = GST_BUFFER_PTS(buffer);
+  GstClockTime duration = GST_BUFFER_DURATION(buffer);
+  if (!GST_CLOCK_TIME_IS_VALID(duration) && nominal > 0) duration = nominal;
   const bool has_end = GST_CLOCK_TIME_IS_VALID(duration) && duration < GST_CLOCK_TIME_NONE - pts;
   const GstClockTime end = has_end ? pts + duration : GST_CLOCK_TIME_NONE;
   guint64 from = 0, to = 0;
-  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) {
-    return GST_CLOCK_TIME_NONE;
-  }
-  const bool backwards = segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(to);
-  return gst_segment_to_running_time(&segment, GST_FORMAT_TIME, backwards ? to : from);
+  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, end, &from, &to)) return std::nullopt;
+  const GstClockTime shown = gst_segment_to_running_time(&segment, GST_FORMAT_TIME,
+                                                         segment.rate < 0 && has_end ? to : from);
+  if (!GST_CLOCK_TIME_IS_VALID(shown)) return std::nullopt;
+  FrameStamp stamp;
+  stamp.epoch = epoch;
+  stamp.stream_ns =
+      static_cast<int64_t>(gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from));
+  stamp.running_ns = static_cast<int64_t>(shown);
+  stamp.length_ns = has_end ? static_cast<int64_t>(to - from) : 0;
+  stamp.rate = segment.rate;
+  return stamp;
 }
 
 FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& frame,
@@ -56,8 +62,8 @@ FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& fra
   return running_ns < last_running_ns_ ? Order::kFalling : Order::kNext;
 }
 
-FrameTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
-  FrameTime time;
+PacedTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
+  PacedTime time;
   time.running_ns = time.paced_ns = running_ns;
   time.in_place = running_ns == last_running_ns_;
   if (last_running_ns_ < 0) return time;
@@ -70,13 +76,13 @@ FrameTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
   return time;
 }
 
-void FramePacer::take(const FrameTime& time, bool moved) {
+void FramePacer::take(const PacedTime& time, bool moved) {
   pass(time);
   ++frames_in_segment_;
   if (moved && time.since_ns > 0) last_interval_ns_ = time.since_ns;
 }
 
-void FramePacer::pass(const FrameTime& time) {
+void FramePacer::pass(const PacedTime& time) {
   last_running_ns_ = time.running_ns;
   last_paced_ns_ = time.paced_ns;
 }

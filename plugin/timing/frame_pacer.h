@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// When each frame is shown, and whether that can be.
+/// When each frame is shown, and whether that can be analysed.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <gst/video/video.h>
+
+#include "core/frame_stamp.h"
 
 namespace spidar {
 
@@ -25,12 +28,14 @@ inline GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time)
 /// As the caps state it; 0 where they do not.
 GstClockTime nominal_duration(const GstVideoInfo& info);
 
-/// Running time at which a sink shows the frame: when what is to be seen of it begins, which is its
-/// end when it is played backwards. GST_CLOCK_TIME_NONE when the sink drops it.
-GstClockTime shown_at(const GstVideoFrame& frame, const GstSegment& segment);
+/// When a sink shows a buffer that lasts for `nominal`, unless it says for how long, and where that
+/// is in the film. Nothing when the sink drops it. The segment is in time format, and the buffer
+/// has a PTS.
+std::optional<FrameStamp> stamp_of(GstBuffer* buffer, GstClockTime nominal,
+                                   const GstSegment& segment, uint32_t epoch);
 
-/// Where a frame lies on two scales of time, in ns.
-struct FrameTime {
+/// Where a frame lies on the time of the analysis.
+struct PacedTime {
   int64_t running_ns = 0;  ///< of the element
   int64_t paced_ns = 0;    ///< the distance to the frame before is that of showing them
   int64_t since_ns = 0;    ///< paced, since the frame before; 0 when there is none
@@ -49,12 +54,12 @@ class FramePacer {
 
   Order order(int64_t running_ns, const GstVideoFrame& frame, const GstSegment& segment) const;
   /// `rate_multiplier` as InstantRate has it.
-  FrameTime at(int64_t running_ns, double rate_multiplier) const;
+  PacedTime at(int64_t running_ns, double rate_multiplier) const;
 
   /// A frame was analysed; `moved` when something was measured since the frame before.
-  void take(const FrameTime& time, bool moved);
+  void take(const PacedTime& time, bool moved);
   /// A frame was passed that has no picture.
-  void pass(const FrameTime& time);
+  void pass(const PacedTime& time);
   void begin_segment() { frames_in_segment_ = 0; }
   /// Running time begins anew.
   void restart();

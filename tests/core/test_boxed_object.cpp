@@ -48,7 +48,7 @@ class Watcher {
   uint32_t see(const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
     const int64_t now_ns = int64_t{frames_++} * 40'000'000;
     const Chosen chosen = choice_.choose(
-        {objects, nullptr, kWidth, kHeight, kFrame_s, frames_ == 1, {now_ns, turn_}, &boxes});
+        {objects, nullptr, kWidth, kHeight, kFrame_s, frames_ == 1, now_ns, turn_, &boxes});
     state_ = chosen.state;
     return chosen.object ? chosen.object->id : 0;
   }

@@ -37,7 +37,7 @@ inline GstBuffer* bare_frame(GstClockTime pts) {
 inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
   GstBuffer* frame = bare_frame(pts);
   FrameReport report;
-  report.frame.running_ns = static_cast<int64_t>(pts);
+  report.frame.stamp.running_ns = static_cast<int64_t>(pts);
   report.frame.interval_ns = kExtractedFrame;
   report.frame.wrench = wrench;
   attach_motion_meta(frame, report, 16, 16);

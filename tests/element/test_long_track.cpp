@@ -65,13 +65,13 @@ class LongTrack : public testing::TestWithParam<const char*> {
   void play(int from_ms, int to_ms) {
     std::map<int64_t, TrackSample> given;
     const int step_ms = from_ms < to_ms ? kFrame_ms : -kFrame_ms;
-    replay.restart();
+    ++epoch;
     for (int at_ms = from_ms; at_ms != to_ms; at_ms += step_ms) {
-      const FramePosition frame{at_ms * kMs_ns, 0, kFrame_ms * kMs_ns,
-                                from_ms < to_ms ? 1.0 : -1.0};
+      const FrameStamp frame{epoch, std::min(at_ms, at_ms + step_ms) * kMs_ns, 0,
+                             kFrame_ms * kMs_ns, from_ms < to_ms ? 1.0 : -1.0};
       const auto deadline = std::chrono::steady_clock::now() + kLongest;
       do {
-        replay.play(frame, [&](const TrackBlock& block) { take(block, frame, given); });
+        replay.play(frame, [&](const TrackBlock& block) { take(block, at_ms, frame.rate, given); });
       } while (!has(given, std::min(at_ms, at_ms + step_ms)) &&
                std::chrono::steady_clock::now() < deadline);
       ASSERT_TRUE(has(given, std::min(at_ms, at_ms + step_ms))) << at_ms << " ms";
@@ -89,11 +89,11 @@ class LongTrack : public testing::TestWithParam<const char*> {
     return true;
   }
 
-  static void take(const TrackBlock& block, const FramePosition& frame,
+  /// A block that is given for the frame that is seen from `at_ms` on.
+  static void take(const TrackBlock& block, int at_ms, double rate,
                    std::map<int64_t, TrackSample>& given) {
     for (size_t i = 0; i < block.count; ++i) {
-      const double ms = static_cast<double>(frame.stream_ns) / kMs_ns +
-                        frame.rate * static_cast<double>(block.time_ns(i)) / kMs_ns;
+      const double ms = at_ms + rate * static_cast<double>(block.time_ns(i)) / kMs_ns;
       const int64_t whole = std::llround(ms);
       EXPECT_NEAR(ms, static_cast<double>(whole), 1e-3);
       EXPECT_TRUE(given.emplace(whole, block.samples[i]).second) << whole << " ms twice";
@@ -109,6 +109,7 @@ class LongTrack : public testing::TestWithParam<const char*> {
   TrackLoader loader;
   std::shared_ptr<ReadAhead> blocks;
   TrackReplay replay;
+  uint32_t epoch = 0;
 };
 
 TEST_P(LongTrack, IsFeltFromOneEndToTheOther) {

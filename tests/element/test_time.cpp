@@ -59,6 +59,7 @@ TEST_F(Time, AFrameThatBeginsBeforeTheSegmentIsShownWithIt) {
   h.push_moved(4, 0, 11 * kFrame);
   ASSERT_EQ(h.motions().size(), 2u);
   EXPECT_EQ(h.motions()[0].running_time, 0u);
+  EXPECT_EQ(h.motions()[0].stream_time, 10 * kFrame + kFrame / 2);
   EXPECT_EQ(h.motions()[1].running_time, kFrame / 2);
 }
 
@@ -73,6 +74,47 @@ TEST_F(Time, MessagesCarryAllTimes) {
   EXPECT_EQ(m.running_time, kFrame);
   EXPECT_EQ(m.stream_time, GST_SECOND + kFrame);
   EXPECT_EQ(m.duration, kFrame);
+}
+
+TEST_F(Time, ASeekOfAnyLengthBeginsAnotherEpoch) {
+  h.push_moved(0, 0, 0);
+  GstClockTime at = GST_SECOND;
+  constexpr GstClockTimeDiff kBy_ns[] = {40'000'000,   -40'000'000,      500'000'000,
+                                         -500'000'000, 3600'000'000'000, -3600'000'000'000};
+  for (const GstClockTimeDiff by : kBy_ns) {
+    const uint32_t before = h.state().report.frame.stamp.epoch;
+    at += static_cast<GstClockTime>(by);
+    gst_harness_push_event(h.harness(), gst_event_new_flush_start());
+    gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
+    send_segment(1.0, at, GST_CLOCK_TIME_NONE, at);
+    h.push_moved(0, 0, at);
+    const FrameStamp first = h.state().report.frame.stamp;
+    EXPECT_NE(first.epoch, before) << by;
+    EXPECT_EQ(first.stream_ns, static_cast<int64_t>(at));
+    h.push_moved(0, 0, at + kFrame);
+    EXPECT_EQ(h.state().report.frame.stamp.epoch, first.epoch) << by;
+  }
+}
+
+TEST_F(Time, AnotherFilmWithoutAGapBeginsAnotherEpoch) {
+  h.push_moved(0, 0, 0);
+  const uint32_t before = h.state().report.frame.stamp.epoch;
+  gst_harness_push_event(h.harness(), gst_event_new_stream_start("second"));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.base = kFrame;
+  gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+  h.push_moved(2, 0, 0);
+  EXPECT_NE(h.state().report.frame.stamp.epoch, before);
+  EXPECT_EQ(h.state().report.frame.stamp.running_ns, static_cast<int64_t>(kFrame));
+}
+
+TEST_F(Time, AGapInTheFilmIsNoSeek) {
+  h.push_moved(0, 0, 0);
+  const uint32_t before = h.state().report.frame.stamp.epoch;
+  gst_harness_push_event(h.harness(), gst_event_new_gap(kFrame, 3 * GST_SECOND));
+  h.push_moved(2, 0, 3 * GST_SECOND + kFrame);
+  EXPECT_EQ(h.state().report.frame.stamp.epoch, before);
 }
 
 TEST_F(Time, DiscontinuityIsNoMotion) {

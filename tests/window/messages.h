@@ -14,8 +14,8 @@ namespace spidar::test {
 inline FrameShown some_frame() {
   FrameShown frame{3, 7, {}};
   FrameReport& report = frame.report;
-  report.frame.running_ns = 1'234'567'890'123;
-  report.film = {std::make_shared<const std::string>("/film.avi"), 5, 4, 9};
+  report.frame.stamp = {3, 5, 1'234'567'890'123, 40'000'000, -1.5};
+  report.film = {std::make_shared<const std::string>("/film.avi"), 4, 9};
   report.frame.interval_ns = 40 * 1'000'000;
   report.took_ns = 600'000;
   report.visible = {1, 2, 320, 240};

@@ -15,10 +15,11 @@ namespace {
 
 class Frames {
  public:
-  void pass(int64_t running_ns) {
+  void pass(int64_t running_ns, uint32_t epoch = 0) {
     WindowFrame frame{};
     frame.picture = SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
-    frame.report.frame.running_ns = running_ns;
+    frame.report.frame.stamp.running_ns = running_ns;
+    frame.report.frame.stamp.epoch = epoch;
     queue_.add(std::move(frame));
   }
   /// The running time of what is shown from now on; −1: of what was shown before.
@@ -26,7 +27,7 @@ class Frames {
     std::optional<WindowFrame> frame = queue_.show(running_ns);
     if (!frame) return -1;
     shown_ = std::move(*frame);
-    return shown_.report.frame.running_ns;
+    return shown_.report.frame.stamp.running_ns;
   }
 
   std::vector<int64_t> freed;  ///< the pictures that nobody keeps any more
@@ -55,10 +56,18 @@ TEST(FrameQueue, ForgetsWhatWaitsWhenTimeBeginsAnew) {
   Frames frames;
   frames.pass(100);
   frames.pass(110);
-  frames.pass(0);
+  frames.pass(0, 1);
   EXPECT_EQ(frames.freed.size(), 2u);
   EXPECT_EQ(frames.show(200), 0);
   EXPECT_EQ(frames.show(200), -1);
+}
+
+TEST(FrameQueue, KeepsTheEndOfAFilmThatAnotherFollowsWithoutAGap) {
+  Frames frames;
+  frames.pass(100);
+  frames.pass(110, 1);
+  EXPECT_EQ(frames.show(105), 100);
+  EXPECT_EQ(frames.show(115), 110);
 }
 
 TEST(FrameQueue, ShowsTheOldestWhenTooManyWait) {

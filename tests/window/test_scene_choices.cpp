@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What the debug window makes of choices: rules, and marks on the film.
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,17 +18,25 @@ using Eigen::Vector2d;
 
 constexpr int64_t kSecond = 1'000'000'000, kFrame_ns = 40'000'000;
 
-/// A film that begins at 0, with cuts at whole multiples of two seconds.
+/// A film with cuts at whole multiples of two seconds.
 class Film {
  public:
   explicit Film(SceneChoices& choices) : choices_(choices) {}
 
   void play(double from_s, double to_s, const std::vector<uint32_t>& objects) {
     const auto end_ns = static_cast<int64_t>(to_s * 1e9);
-    for (auto ns = static_cast<int64_t>(from_s * 1e9); ns < end_ns; ns += kFrame_ns) {
+    auto ns = static_cast<int64_t>(from_s * 1e9);
+    if (std::llabs(ns - next_ns_) > kFrame_ns / 2) {  // a seek
+      ++epoch_;
+      begin_ns_ = ns;
+    }
+    for (; ns < end_ns; ns += kFrame_ns) {
+      next_ns_ = ns + kFrame_ns;
+      begin_ns_ = std::max(begin_ns_, ns / (2 * kSecond) * 2 * kSecond);
       FrameReport report;
-      report.film.stream_ns = ns;
-      report.film.scene_ns = ns / (2 * kSecond) * 2 * kSecond;
+      report.frame.stamp.epoch = epoch_;
+      report.frame.stamp.stream_ns = ns;
+      report.film.begin_ns = begin_ns_;
       report.frame.interval_ns = 40 * 1'000'000;
       for (const uint32_t id : objects) {
         MovingObject object;
@@ -42,6 +52,8 @@ class Film {
 
  private:
   SceneChoices& choices_;
+  uint32_t epoch_ = 0;
+  int64_t next_ns_ = 0, begin_ns_ = 0;
 };
 
 Sighting object(uint32_t id, double first_s, const Vector2d& position) {
@@ -107,6 +119,16 @@ TEST_F(Choices, EndWithASeekWhereNoCutWasSeen) {
   choices.choose(object(5, 40.2, {0.75, 0.5}));
   film.play(0, 0.5, {});
   EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5; 0:40.2-0:41 object at 0.75,0.5");
+}
+
+TEST_F(Choices, EndWithASeekWithinTheScene) {
+  film.play(0, 1, {1});
+  choices.choose(object(1, 0.2, {0.25, 0.5}));
+  film.play(1.04, 1.2, {1});  // a frame further
+  EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5");
+  choices.choose(object(1, 1.04, {0.75, 0.5}));
+  film.play(1.16, 1.5, {1});  // a frame back
+  EXPECT_EQ(rules(choices), "0:00.2-0:01 object at 0.25,0.5; 0:01.04-0:01.2 object at 0.75,0.5");
 }
 
 /// When the film is played again, what `motion` says is felt from there on, as it was here.
@@ -206,8 +228,8 @@ TEST_F(Choices, NeedATimeInTheFilm) {
 FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
   FrameReport report;
   report.visible = {0, 0, 200, 100};
-  report.film.stream_ns = static_cast<int64_t>(at_s * 1e9);
-  report.film.scene_ns = static_cast<int64_t>(scene_s * 1e9);
+  report.frame.stamp.stream_ns = static_cast<int64_t>(at_s * 1e9);
+  report.film.begin_ns = static_cast<int64_t>(scene_s * 1e9);
   for (const uint32_t id : objects) {
     MovingObject object;
     object.id = id;
@@ -237,6 +259,17 @@ TEST(Sightings, AreTheFirstOfTheScene) {
   EXPECT_EQ(sightings.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
 }
 
+TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
+  Sightings sightings;
+  sightings.see(seen(1, 0, {1}));
+  FrameReport later = seen(2.5, 0, {1});
+  sightings.see(later);
+  EXPECT_EQ(sightings.find(1)->first_ns, kSecond) << "a gap in the film";
+  ++later.frame.stamp.epoch;
+  sightings.see(later);
+  EXPECT_EQ(sightings.find(1)->first_ns, later.frame.stamp.stream_ns) << "to the same frame";
+}
+
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
   FrameReport report = seen(1, 0, {1});
   report.turn = Orientation(1);
@@ -245,11 +278,11 @@ TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
   EXPECT_LT((sightings.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
-FilmMoment moment(double now_s, double length_s, const std::string& path = "/film.avi") {
-  FilmMoment made;
-  made.path = std::make_shared<const std::string>(path);
-  made.stream_ns = static_cast<int64_t>(now_s * 1e9);
-  made.length_ns = static_cast<int64_t>(length_s * 1e9);
+FrameReport moment(double now_s, double length_s, const std::string& path = "/film.avi") {
+  FrameReport made;
+  made.film.path = std::make_shared<const std::string>(path);
+  made.film.length_ns = static_cast<int64_t>(length_s * 1e9);
+  made.frame.stamp.stream_ns = static_cast<int64_t>(now_s * 1e9);
   return made;
 }
 
@@ -273,8 +306,8 @@ TEST(FilmStrip, MarksRulesAndChoices) {
 
 TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
   EXPECT_EQ(film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
-  FilmMoment unknown = moment(1, 100);
-  unknown.stream_ns = -1;
+  FrameReport unknown = moment(1, 100);
+  unknown.frame.stamp.stream_ns = -1;
   EXPECT_EQ(film_strip(unknown, nullptr, {}).length_ns, 0);
   EXPECT_EQ(film_strip({}, nullptr, {}).length_ns, 0);
   EXPECT_EQ(film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);

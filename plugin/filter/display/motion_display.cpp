@@ -3,7 +3,6 @@
 #include "plugin/filter/display/motion_display.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include <gst/base/gstbasetransform.h>
@@ -28,7 +27,7 @@ void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, Gst
   }
   owners_.find(report);
   const bool draws_curve = properties.overlay == OverlayKind::kCurve;
-  if (draws_curve) curve_.add(report.frame.running_ns, report.frame.wrench.force_N.norm());
+  if (draws_curve) curve_.add(report.frame.stamp.running_ns, report.frame.wrench.force_N.norm());
   if (shown_in) {
     follow_film(report);
     report.film = film_;
@@ -56,24 +55,18 @@ void MotionDisplay::begin_stream(const std::string& film) {
   film_.path = std::make_shared<const std::string>(film);
 }
 
-/// A seek is known by its length.
 void MotionDisplay::follow_film(const FrameReport& report) {
-  constexpr int64_t kSeek_ns = GST_SECOND;
-  const int64_t now_ns = report.frame.stream_ns;
-  if (now_ns < 0) {
-    film_.stream_ns = -1;
-    return;
-  }
-  const bool is_seek = std::llabs(now_ns - film_.stream_ns) > kSeek_ns;
+  const FrameStamp& now = report.frame.stamp;
+  if (now.stream_ns < 0) return;
+  const bool is_seek = std::exchange(epoch_, now.epoch) != now.epoch;
   const bool is_cut = report.analyzed && !report.frame.has_motion_before();
-  if (film_.stream_ns < 0 || is_cut || is_seek) {
-    film_.scene_ns = now_ns;
+  if (film_.begin_ns < 0 || is_cut || is_seek) {
+    film_.begin_ns = now.stream_ns;
     gint64 length_ns = 0;
     GstPad* const sink = GST_BASE_TRANSFORM_SINK_PAD(element_);
     const bool known = gst_pad_peer_query_duration(sink, GST_FORMAT_TIME, &length_ns);
     film_.length_ns = known ? std::max<gint64>(length_ns, 0) : 0;
   }
-  film_.stream_ns = now_ns;
 }
 
 std::shared_ptr<Window> MotionDisplay::window() const {

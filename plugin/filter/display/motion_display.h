@@ -66,7 +66,8 @@ class MotionDisplay {
   // Streaming thread.
   TrackOwners owners_;
   ForceCurve curve_;  // for the overlay
-  FilmMoment film_;   // for the window
+  FilmScene film_;    // for the window
+  uint32_t epoch_ = 0;
 
   mutable std::mutex mutex_;  // never held while a window opens or closes
   std::shared_ptr<Window> window_;

@@ -3,6 +3,7 @@
 #include "plugin/filter/engine/live_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/force/wrench_timeline.h"
 #include "plugin/filter/engine/frame_touch.h"
@@ -14,19 +15,6 @@ namespace {
 /// With a fraction of 1 the result is the same bit for bit.
 Wrench scaled(const Wrench& wrench, double fraction) {
   return {fraction * wrench.force_N, fraction * wrench.torque_Nm};
-}
-
-/// The stream time at which a frame is first seen; 0 when it is not known, or not shown.
-int64_t stream_ns_of(GstBuffer* buffer, const GstSegment& segment) {
-  const GstClockTime pts = GST_BUFFER_PTS(buffer), duration = GST_BUFFER_DURATION(buffer);
-  guint64 from = 0, to = 0;
-  if (segment.format != GST_FORMAT_TIME || !is_time(pts) ||
-      !gst_segment_clip(&segment, GST_FORMAT_TIME, pts,
-                        is_time(duration) ? pts + duration : GST_CLOCK_TIME_NONE, &from, &to)) {
-    return 0;
-  }
-  const GstClockTime stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, from);
-  return is_time(stream) ? static_cast<int64_t>(stream) : 0;
 }
 
 }  // namespace
@@ -65,8 +53,15 @@ void LiveSource::end_of_stream() {
   reliefs_.end(schedule_.at_sink_ns(pacer_.next_ns()));
 }
 
-void LiveSource::pass_gap(int64_t running_ns, const Orientation& turn) {
-  const FrameTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+/// A frame of another run does not follow the one before.
+void LiveSource::follow(const FrameStamp& stamp) {
+  if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) restart();
+}
+
+void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
+  follow(stamp);
+  const int64_t running_ns = stamp.running_ns;
+  const PacedTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
   if (frame) {
@@ -82,8 +77,9 @@ void LiveSource::pass_gap(int64_t running_ns, const Orientation& turn) {
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
 bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
-  end_gap(frame.running_ns);
-  const FramePacer::Order order = pacer_.order(frame.running_ns, frame.video, frame.segment);
+  follow(frame.stamp);
+  end_gap(frame.stamp.running_ns);
+  const FramePacer::Order order = pacer_.order(frame.stamp.running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
     report.problem = FrameProblem::kSameTimestamp;
     return false;
@@ -106,7 +102,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   const int64_t begin_ns = monotonic_now_ns();
   analyzer_.configure(frame.settings.analyzer);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
-                                   {stream_ns_of(frame.video.buffer, frame.segment), report.turn});
+                                   std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
   report.no_force = reason_in_frame(report.frame, report.motion);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
@@ -124,8 +120,8 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
     report.problem = has_size ? FrameProblem::kTooSmall : FrameProblem::kWrongSize;
     return;
   }
-  const int64_t shown_ns = schedule_.at_sink_ns(frame.running_ns);
-  const FrameTime time = pacer_.at(frame.running_ns, schedule_.rate_multiplier());
+  const int64_t shown_ns = schedule_.at_sink_ns(frame.stamp.running_ns);
+  const PacedTime time = pacer_.at(frame.stamp.running_ns, schedule_.rate_multiplier());
   const ImageView luma = luma_.view(frame.video);
   report.analyzed = analyze(frame, luma, time.paced_ns, report);
   if (!report.analyzed) return;
@@ -142,7 +138,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {
     touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
-    schedule_.add({frame.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
+    schedule_.add({frame.stamp.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
                    report.frame.wrench, goes_on});
   }
 }

@@ -35,7 +35,7 @@ class LiveSource {
   /// its frame, or why it cannot be analysed.
   void take(const PassingFrame& frame, FrameReport& report);
   /// In place of a frame that has no picture, and that is turned by `turn` before it is shown.
-  void pass_gap(int64_t running_ns, const Orientation& turn);
+  void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.
@@ -47,6 +47,7 @@ class LiveSource {
   void end_of_stream();
 
  private:
+  void follow(const FrameStamp& stamp);
   bool follows(const PassingFrame& frame, FrameReport& report);
   bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                FrameReport& report);
@@ -61,6 +62,7 @@ class LiveSource {
   SquarePixelResampler square_;
   MotionAnalyzer analyzer_;
   FramePacer pacer_;
+  uint32_t epoch_ = 0;
   std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
   double motion_fraction_ = 1;     // of the newest frame's wrench
 };

@@ -3,10 +3,9 @@
 /// A frame that passes the element.
 #pragma once
 
-#include <cstdint>
-
 #include <gst/video/video.h>
 
+#include "core/frame_stamp.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar {
@@ -15,7 +14,7 @@ struct PassingFrame {
   const GstVideoFrame& video;
   const GstSegment& segment;
   const FrameSettings& settings;
-  int64_t running_ns;  ///< at which it is shown, at the element
+  const FrameStamp& stamp;
 };
 
 }  // namespace spidar

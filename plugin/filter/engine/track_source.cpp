@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <utility>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/timing/frame_pacer.h"
 
 namespace spidar {
 namespace {
 
-/// Frames up to this far apart are consecutive, even if timestamps are rounded or a frame is
-/// missing.
-constexpr int64_t kJump_ns = 500'000'000;
+/// Where frames are missing for longer, so are the samples that they would be shown with.
+constexpr int64_t kMostMissing_ns = 500'000'000;
 
 /// Backwards, the track is read in pieces of so much.
 constexpr int64_t kPiece_ns = 4'000'000'000;
@@ -34,34 +31,17 @@ TrackBlock cut(TrackBlock block, int64_t time_ns) {
   return block;
 }
 
-/// Where the video is with `frame`, of which the sink shows the beginning, or the end when it is
-/// played backwards, at `running_ns`. Nothing when the segment does not show it.
-std::optional<FramePosition> position_of(GstBuffer* frame, GstClockTime default_duration,
-                                         const GstSegment& segment, int64_t running_ns,
-                                         double rate_multiplier) {
-  const GstClockTime pts = GST_BUFFER_PTS(frame);
-  GstClockTime duration = GST_BUFFER_DURATION(frame);
-  if (!GST_CLOCK_TIME_IS_VALID(duration)) duration = default_duration;
-  guint64 from = 0, to = 0;
-  if (!gst_segment_clip(&segment, GST_FORMAT_TIME, pts, pts + duration, &from, &to)) {
-    return std::nullopt;
-  }
-  const bool backwards = segment.rate < 0;
-  FramePosition position;
-  position.stream_ns = static_cast<int64_t>(
-      gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, backwards ? to : from));
-  position.running_ns = running_ns;
-  position.length_ns = static_cast<int64_t>(to - from);
-  position.rate = segment.rate * rate_multiplier;
-  return position;
+/// What is to be seen first of a frame, in the film.
+int64_t first_ns(const FrameStamp& frame) {
+  return frame.stream_ns + (frame.rate < 0 ? frame.length_ns : 0);
 }
 
 /// With running times.
-TrackBlock timed(const TrackBlock& block, const FramePosition& frame) {
+TrackBlock timed(const TrackBlock& block, const FrameStamp& frame) {
   TrackBlock shown = block;
   const auto running_at = [&frame](int64_t stream_ns) {
     return frame.running_ns +
-           std::llround(static_cast<double>(stream_ns - frame.stream_ns) / frame.rate);
+           std::llround(static_cast<double>(stream_ns - first_ns(frame)) / frame.rate);
   };
   shown.duration_ns = std::max<int64_t>(
       std::llround(static_cast<double>(block.duration_ns) / std::fabs(frame.rate)), 1);
@@ -82,7 +62,7 @@ void TrackReplay::set_track(std::shared_ptr<ReadAhead> track) {
   begin_ns_ = end_ns_ = 0;
   continues_ = true;
   late_ = false;
-  restart();
+  epoch_.reset();
 }
 
 void TrackReplay::jump(int64_t time_ns) {
@@ -156,42 +136,44 @@ void TrackReplay::forget_beyond(int64_t from_ns, int64_t to_ns) {
   }
 }
 
-void TrackReplay::play(const FramePosition& frame,
+void TrackReplay::play(const FrameStamp& frame,
                        const std::function<void(const TrackBlock&)>& give) {
   if (!has_track() || frame.rate == 0 || !std::isfinite(frame.rate)) return;
-  const bool jumped = std::llabs(frame.stream_ns - expected_ns_) > kJump_ns;
+  const int64_t at_ns = first_ns(frame);
+  const bool is_anew = frame.epoch != epoch_;
+  const bool is_gap = std::llabs(at_ns - expected_ns_) > kMostMissing_ns;
   const bool backwards = frame.rate < 0;
-  if (!follows_ || jumped || frame.rate != rate_) given_ns_ = frame.stream_ns;
-  follows_ = true;
+  if (is_anew || is_gap || frame.rate != rate_) given_ns_ = at_ns;
+  if (is_anew) late_ = false;
+  epoch_ = frame.epoch;
   rate_ = frame.rate;
   const auto margin_ns = static_cast<int64_t>(static_cast<double>(kMargin_ns) * frame.rate);
-  expected_ns_ = frame.stream_ns + (backwards ? -frame.length_ns : frame.length_ns);
+  expected_ns_ = backwards ? frame.stream_ns : at_ns + frame.length_ns;
   const int64_t until_ns = expected_ns_ + margin_ns;
   if (backwards) {
-    cover(until_ns, frame.stream_ns, true);
+    cover(until_ns, at_ns, true);
     for (auto block = window_.rbegin(); block != window_.rend() && end_of(*block) > until_ns;
          ++block) {
       if (block->begin_ns >= given_ns_) continue;
       give(timed(*block, frame));
       given_ns_ = block->begin_ns;
     }
-    forget_beyond(until_ns - kPiece_ns, frame.stream_ns + kKept_ns);
+    forget_beyond(until_ns - kPiece_ns, at_ns + kKept_ns);
   } else {
-    cover(frame.stream_ns, until_ns, false);
+    cover(at_ns, until_ns, false);
     for (const TrackBlock& block : window_) {
       if (block.begin_ns >= until_ns) break;
       if (end_of(block) <= given_ns_) continue;
       give(timed(block, frame));
       given_ns_ = end_of(block);
     }
-    forget_beyond(frame.stream_ns - kKept_ns, INT64_MAX);
+    forget_beyond(at_ns - kKept_ns, INT64_MAX);
   }
 }
 
-Wrench TrackReplay::largest(const FramePosition& frame) const {
-  const int64_t other_ns = frame.stream_ns + (frame.rate < 0 ? -frame.length_ns : frame.length_ns);
-  const int64_t begin_ns = std::min(frame.stream_ns, other_ns);
-  const int64_t end_ns = std::max({frame.stream_ns, other_ns, begin_ns + 1});
+Wrench TrackReplay::largest(const FrameStamp& frame) const {
+  const int64_t begin_ns = frame.stream_ns;
+  const int64_t end_ns = begin_ns + std::max<int64_t>(frame.length_ns, 1);
   Wrench largest;
   for (const TrackBlock& block : window_) {
     if (end_of(block) <= begin_ns) continue;
@@ -218,32 +200,29 @@ std::string TrackSource::path() const {
   return path_ ? *path_ : "";
 }
 
-void TrackSource::play(GstBuffer* buffer, GstClockTime default_duration, const GstSegment& segment,
-                       int64_t running_ns, FrameReport& report) {
+void TrackSource::play(const FrameStamp& stamp, FrameReport& report) {
   no_force_.set_touching(false);
-  const int64_t shown_ns = times_.at_sink_ns(running_ns);
-  const auto position =
-      position_of(buffer, default_duration, segment, shown_ns, times_.rate_multiplier());
-  if (!position) return;
+  FrameStamp shown = stamp;
+  shown.running_ns = times_.at_sink_ns(stamp.running_ns);
+  shown.rate *= times_.rate_multiplier();
   ++frames_;
-  replay_.play(*position, [this](const TrackBlock& block) { samples_.add(block); });
-  report.frame.wrench = replay_.largest(*position);
-  report.frame.interval_ns = position->length_ns;  // so long it is there
+  replay_.play(shown, [this](const TrackBlock& block) { samples_.add(block); });
+  report.frame.wrench = replay_.largest(shown);
+  report.frame.interval_ns = stamp.length_ns;  // so long it is there
   report.no_force = reason_in_track(report.frame.wrench, output_.snapshot());
   const bool is_weak = report.no_force == NoForceReason::kTooWeak;
-  no_force_.add(shown_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
+  no_force_.add(shown.running_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
 }
 
 void TrackSource::take(const PassingFrame& frame, FrameReport& report) {
   report.track = path_;
-  play(frame.video.buffer, nominal_duration(frame.video.info), frame.segment, frame.running_ns,
-       report);
-  reliefs_.end(times_.at_sink_ns(frame.running_ns));
+  play(frame.stamp, report);
+  reliefs_.end(times_.at_sink_ns(frame.stamp.running_ns));
 }
 
-void TrackSource::pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns) {
+void TrackSource::pass_gap(const FrameStamp& stamp) {
   FrameReport unread;
-  play(buffer, 0, segment, running_ns, unread);
+  play(stamp, unread);
 }
 
 }  // namespace spidar

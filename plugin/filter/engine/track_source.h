@@ -10,8 +10,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
+#include "core/frame_stamp.h"
 #include "core/wrench.h"
 #include "plugin/filter/engine/passing_frame.h"
 #include "plugin/filter/touch/relief_stream.h"
@@ -23,14 +25,6 @@
 #include "plugin/tracks/read_ahead.h"
 
 namespace spidar {
-
-/// Where the video is.
-struct FramePosition {
-  int64_t stream_ns = 0;   ///< of what is to be seen first of the frame
-  int64_t running_ns = 0;  ///< at which that is shown
-  int64_t length_ns = 0;   ///< of stream time, for which the frame is shown
-  double rate = 1;         ///< of stream time against running time; negative: backwards
-};
 
 /// Gives the blocks of a track whose time it is, with their running times.
 class TrackReplay {
@@ -45,16 +39,14 @@ class TrackReplay {
   void set_track(std::shared_ptr<ReadAhead> track);
   bool has_track() const { return track_ != nullptr; }
 
-  /// The next frame has nothing to do with the one before.
-  void restart() { follows_ = late_ = false; }
-
-  /// Gives what is not yet given of the samples that are rendered while the frame is shown. After a
-  /// jump, or at another rate, it begins with the block that the frame is in.
-  void play(const FramePosition& frame, const std::function<void(const TrackBlock&)>& give);
+  /// Gives what is not yet given of the samples that are rendered while the frame is shown, at the
+  /// running time of the sink. In another epoch, at another rate and after a gap, it begins with
+  /// the block that the frame is in.
+  void play(const FrameStamp& frame, const std::function<void(const TrackBlock&)>& give);
 
   /// The largest wrench of the track while the frame of the last play() is shown; rest where it has
   /// none.
-  Wrench largest(const FramePosition& frame) const;
+  Wrench largest(const FrameStamp& frame) const;
 
  private:
   void cover(int64_t from_ns, int64_t to_ns, bool backwards);
@@ -70,7 +62,7 @@ class TrackReplay {
   int64_t begin_ns_ = 0, end_ns_ = 0;
   bool continues_ = true;  // the next block of track_ is the one behind the window
   bool late_ = false;      // no more frames wait until a block has come
-  bool follows_ = false;
+  std::optional<uint32_t> epoch_;
   double rate_ = 1;
   int64_t expected_ns_ = 0;  // stream time of the next frame
   int64_t given_ns_ = 0;     // up to here; backwards, from here on
@@ -94,15 +86,12 @@ class TrackSource {
   /// Since set_track(). Any thread.
   uint64_t frames() const { return frames_; }
 
-  /// The next frame has nothing to do with the one before.
-  void restart() { replay_.restart(); }
   /// The report's wrench is the largest of the track while the frame is shown.
   void take(const PassingFrame& frame, FrameReport& report);
-  void pass_gap(GstBuffer* buffer, const GstSegment& segment, int64_t running_ns);
+  void pass_gap(const FrameStamp& stamp);
 
  private:
-  void play(GstBuffer* buffer, GstClockTime default_duration, const GstSegment& segment,
-            int64_t running_ns, FrameReport& report);
+  void play(const FrameStamp& stamp, FrameReport& report);
 
   const HapticOutput& output_;
   BlockQueue& samples_;

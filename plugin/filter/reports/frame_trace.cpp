@@ -39,8 +39,8 @@ void FrameTrace::append_csv(const FrameReport& report) {
   const Frame& frame = report.frame;
   const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
   CsvRow(line_)
-      .number(frame.running_ns)
-      .number(frame.stream_ns)
+      .number(frame.stamp.running_ns)
+      .number(frame.stamp.stream_ns)
       .number(frame.features)
       .number(frame.motion.tracked)
       .number(velocity.x())

@@ -194,7 +194,7 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width,
   const GstSpidarFrameMotion motion{
       static_cast<guint>(width),
       static_cast<guint>(height),
-      static_cast<guint64>(frame.running_ns),
+      static_cast<guint64>(frame.stamp.running_ns),
       static_cast<guint64>(frame.interval_ns),
       velocity.x(),
       velocity.y(),

@@ -141,7 +141,7 @@ void DebugWindow::follow_title() {
 void DebugWindow::read() {
   state_ = link_.state();
   settings_.see(state_.settings);
-  const int64_t before_ns = report_.frame.running_ns;
+  const uint32_t epoch_before = report_.frame.stamp.epoch;
   const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
   const bool plays = state_.device && state_.device->last.playing;
@@ -158,12 +158,13 @@ void DebugWindow::read() {
     texture_->load(picture_, width);
   }
   if (frame) {
-    if (report_.click != click_before_ || report_.frame.running_ns < before_ns) requested_.reset();
+    const bool is_anew = report_.frame.stamp.epoch != epoch_before;
+    if (report_.click != click_before_ || is_anew) requested_.reset();
     follow_title();
     sightings_.see(report_);
     follow_choices(film_before);
-    // Another stream, or the same from the beginning: what was learnt is not of it.
-    if (report_.frame.running_ns < before_ns) timeline_.forget();
+    // What was learnt is not of it.
+    if (is_anew) timeline_.forget();
   }
   record(frame.has_value());
 }

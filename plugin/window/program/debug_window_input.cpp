@@ -190,7 +190,7 @@ void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
 }
 
 void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
-  const FilmStrip strip = film_strip(report_.film, state_.rules.get(), choices().edits());
+  const FilmStrip strip = film_strip(report_, state_.rules.get(), choices().edits());
   const TimelineUse use =
       draw_timeline(brush, panel, timeline_, state_, strip, has_unsaved_choices());
   if (use.removed) remove_choice(*use.removed);
@@ -201,7 +201,7 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
 
 /// Removing the choice that is felt lets go of its object.
 void DebugWindow::remove_choice(const FeelRule& rule) {
-  const int64_t now_ns = report_.film.stream_ns;
+  const int64_t now_ns = report_.frame.stamp.stream_ns;
   if (rule.from_ns <= now_ns && now_ns < rule.to_ns && report_.click != 0) {
     link_.choose(std::nullopt);
   }

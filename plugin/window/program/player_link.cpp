@@ -18,16 +18,18 @@ constexpr std::chrono::seconds kSavePatience{2};
 }  // namespace
 
 void FrameQueue::add(WindowFrame frame) {
-  if (!waiting_.empty() &&
-      frame.report.frame.running_ns < waiting_.back().report.frame.running_ns) {
-    waiting_.clear();
+  // Without a flush, those of the run before are still shown first.
+  if (!waiting_.empty()) {
+    const FrameStamp &now = frame.report.frame.stamp, &before = waiting_.back().report.frame.stamp;
+    if (now.epoch != before.epoch && now.running_ns <= before.running_ns) waiting_.clear();
   }
   waiting_.push_back(std::move(frame));
 }
 
 std::optional<WindowFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
   const auto is_due = [&](const WindowFrame& frame) {
-    return !running_ns || frame.report.frame.running_ns <= *running_ns || waiting_.size() > kMost;
+    return !running_ns || frame.report.frame.stamp.running_ns <= *running_ns ||
+           waiting_.size() > kMost;
   };
   std::optional<WindowFrame> shown;
   while (!waiting_.empty() && is_due(waiting_.front())) {

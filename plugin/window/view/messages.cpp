@@ -43,9 +43,14 @@ void pass(Wire& wire, Orientation& turn) {
 // --- the frame
 
 template <typename Wire>
-void pass(Wire& wire, FilmMoment& film) {
+void pass(Wire& wire, FrameStamp& stamp) {
+  wire(stamp.epoch, stamp.stream_ns, stamp.running_ns, stamp.length_ns, stamp.rate);
+}
+
+template <typename Wire>
+void pass(Wire& wire, FilmScene& film) {
   std::string path = film.name();
-  wire(path, film.stream_ns, film.scene_ns, film.length_ns);
+  wire(path, film.begin_ns, film.length_ns);
   if constexpr (Wire::kReads) film.path = std::make_shared<const std::string>(std::move(path));
 }
 
@@ -79,7 +84,7 @@ void pass(Wire& wire, TouchScene& touch) {
 template <typename Wire>
 void pass(Wire& wire, FrameReport& report) {
   Frame& frame = report.frame;
-  wire(frame.running_ns, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
+  wire(frame.stamp, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
   wire(report.film, report.took_ns, report.visible, report.turn, report.tracks, report.lost,
        report.felt);
   wire.choice(report.motion, MotionKind::kCamera);

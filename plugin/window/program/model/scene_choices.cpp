@@ -27,9 +27,9 @@ Eigen::Vector2d whole(const Eigen::Vector2d& position) {
 }  // namespace
 
 void Sightings::see(const FrameReport& report) {
-  const int64_t now_ns = report.film.stream_ns;
-  if (!report.film.is_same_scene(film_) || now_ns < film_.stream_ns) seen_.clear();
-  film_ = report.film;
+  const int64_t now_ns = report.frame.stamp.stream_ns;
+  if (!place_.goes_on(report)) seen_.clear();
+  place_ = {report.film, report.frame.stamp};
   for (const MovingObject& object : report.frame.objects) {
     if (object.tracks == 0) continue;
     auto known = std::find_if(seen_.begin(), seen_.end(),
@@ -51,17 +51,15 @@ const Sighting* Sightings::find(uint32_t id) const {
 }
 
 bool SceneChoices::see(const FrameReport& report) {
-  const FilmMoment before = film_;
-  film_ = report.film;
-  if (film_.stream_ns < 0) return false;
+  const ScenePlace before = std::exchange(place_, {report.film, report.frame.stamp});
+  const int64_t now_ns = place_.stamp.stream_ns;
+  if (now_ns < 0) return false;
   bool has_ended = false;
-  if (!film_.is_same_scene(before) || film_.stream_ns < before.stream_ns) {
-    const bool is_cut =
-        film_.scene_ns > before.stream_ns && film_.scene_ns - before.stream_ns < kLongestFrame_ns;
-    if (is_cut) end_ns_ = film_.scene_ns;
+  if (!before.goes_on(report)) {
+    if (before.is_same_run(report) && place_.stamp.rate > 0) end_ns_ = report.film.begin_ns;
     has_ended = end_scene();
   }
-  end_ns_ = film_.stream_ns + std::clamp<int64_t>(report.frame.interval_ns, 0, kLongestFrame_ns);
+  end_ns_ = now_ns + std::clamp<int64_t>(report.frame.interval_ns, 0, kLongestFrame_ns);
   click_ = report.click;
   for (Choice& choice : choices_) follow(choice, report);
   return has_ended;
@@ -109,7 +107,7 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
 }
 
 void SceneChoices::choose(const Sighting& object) {
-  if (film_.stream_ns < 0 || object.first_ns < 0) return;
+  if (place_.stamp.stream_ns < 0 || object.first_ns < 0) return;
   const int64_t from_ns = whole(object.first_ns);
   take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });
   for (Choice& other : choices_) {
@@ -186,15 +184,16 @@ const StripMark* FilmStrip::at(double position, double reach) const {
   return best;
 }
 
-FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
+FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits) {
   FilmStrip strip;
-  if (film.name().empty() || film.stream_ns < 0) return strip;
+  const int64_t now_ns = report.frame.stamp.stream_ns;
+  if (report.film.name().empty() || now_ns < 0) return strip;
   const std::vector<FeelRule> before = rules ? rules->rules() : std::vector<FeelRule>();
   std::vector<FeelRule> now = before;
   for (const FeelEdit& edit : edits) now = edited(now, edit);
-  strip.now_ns = film.stream_ns;
-  strip.length_ns = std::max(film.length_ns, film.stream_ns);
+  strip.now_ns = now_ns;
+  strip.length_ns = std::max(report.film.length_ns, now_ns);
   for (const FeelRule& rule : now) {
     if (rule.to_ns != FeelRule::kNoEnd) strip.length_ns = std::max(strip.length_ns, rule.to_ns);
     // A choice that is saved grows with its scene.

@@ -17,6 +17,21 @@
 
 namespace spidar {
 
+/// Where a frame is in its scene.
+struct ScenePlace {
+  FilmScene scene;
+  FrameStamp stamp;
+
+  /// Whether a frame goes on with what was seen. Backwards, none does.
+  bool goes_on(const FrameReport& next) const {
+    return is_same_run(next) && scene.begin_ns == next.film.begin_ns && next.frame.stamp.rate > 0;
+  }
+  /// Nothing but a cut can be between them.
+  bool is_same_run(const FrameReport& next) const {
+    return stamp.epoch == next.frame.stamp.epoch && scene.name() == next.film.name();
+  }
+};
+
 struct Sighting {
   uint32_t id = 0;
   int64_t first_ns = -1;                 ///< in the film; −1: not known
@@ -38,7 +53,7 @@ class Sightings {
 
  private:
   std::vector<Sighting> seen_;
-  FilmMoment film_;
+  ScenePlace place_;
 };
 
 /// A choice is a rule from the moment at which its object was seen first up to the end of the
@@ -89,7 +104,7 @@ class SceneChoices {
   void take_back(const std::function<bool(const Choice&)>& which);
 
   std::vector<Choice> choices_;
-  FilmMoment film_;
+  ScenePlace place_;
   int64_t end_ns_ = 0;  ///< of the frame that was seen last
   uint32_t click_ = 0;  ///< the same
   std::optional<int64_t> lost_ns_;
@@ -112,7 +127,7 @@ struct FilmStrip {
 };
 
 /// Of a film from a file of which the time is known. `rules` may be null.
-FilmStrip film_strip(const FilmMoment& film, const FeelRules* rules,
+FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);
 
 }  // namespace spidar
