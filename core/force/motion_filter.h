@@ -15,7 +15,9 @@ namespace spidar {
 /// Low-pass Filter for Noisy Input in Interactive Systems, CHI 2012, Algorithm 1 and 2): a
 /// first-order low-pass whose cutoff rises with the rate of change, fc = fc_min + β |dx/dt|. Slow
 /// changes are smoothed, fast ones hardly delayed. Here |dx/dt| is that of the whole vector, so
-/// that the filter does not depend on how the axes lie.
+/// that the filter does not depend on how the axes lie. Other than in the paper, the low-pass of
+/// the rate of change has its size and not its direction: in a motion to and fro, the direction
+/// would cancel itself, and the cutoff fall where it is needed.
 ///
 /// Samples may be any time apart: the smoothing factor is that of the backward Euler step,
 /// 1 / (1 + 1 / (2π fc Δt)). A ramp is delayed by 1 / (2π fc), whatever Δt.
@@ -34,9 +36,9 @@ class OneEuroFilter {
       restart_at(x);
       return x;
     }
-    const Vector rate = (x - value_) / interval_s;
+    const double rate = (x - value_).norm() / interval_s;
     rate_ += smoothing(kRateCutoff_Hz, interval_s) * (rate - rate_);
-    const double cutoff_Hz = min_cutoff_Hz + beta * rate_.norm();
+    const double cutoff_Hz = min_cutoff_Hz + beta * rate_;
     fraction_ = smoothing(cutoff_Hz, interval_s);
     value_ += fraction_ * (x - value_);
     return value_;
@@ -50,7 +52,7 @@ class OneEuroFilter {
   /// Starts anew with `x` as the first value.
   void restart_at(const Vector& x) {
     value_ = x;
-    rate_.setZero();
+    rate_ = 0;
     fraction_ = 1;
     started_ = true;
   }
@@ -65,15 +67,16 @@ class OneEuroFilter {
   }
 
   Vector value_ = Vector::Zero();
-  Vector rate_ = Vector::Zero();
+  double rate_ = 0;  ///< of change, its size
   double fraction_ = 1;
   bool started_ = false;
 };
 
-/// Parameters of the OneEuroFilter. A velocity that changes at a steady a px/s² is delayed by
-/// 1 / (2π (min_cutoff + β a)): the error is less than 1 / (2π β) at any a, 2 px/s with the default
-/// β, which cannot be felt (DeadZone::kLeast_px_s). Where a changes faster than kRateCutoff_Hz it
-/// is more. docs/feeling.md has figures.
+/// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is
+/// delayed by 1 / (2π (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) where
+/// a is constant, 2 px/s with the default β, which cannot be felt (DeadZone::kLeast_px_s). In a
+/// sway, the low-pass has at least 0.45 of the largest a: less than 0.36 / β, 4.5 px/s.
+/// docs/feeling.md compares other values.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
   /// Hz for each px/s² of the reference frame, finite and ≥ 0.
