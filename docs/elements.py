@@ -32,9 +32,9 @@ WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the tw
 ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0 unless it is told another one, and the plugin has the version of "
          "the project: ask with `--atleast-version=0.1`. Players ask for no version.\n")
 PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, "
-           "`gst_preset_load_preset()`), which set motion, controller, filter, gains and largest force. GStreamer finds "
+           "`gst_preset_load_preset()`), which set motion, controller, filter and gains. GStreamer finds "
            "them where its own data are, and in `GST_PRESET_PATH`. In a launch line, a preset replaces what the line sets, "
-           "wherever it stands, but it never raises a `max-force` that was set lower. `spidar-feel`, `spidartrack` and "
+           "wherever it stands; `max-force` stays as it is. `spidar-feel`, `spidartrack` and "
            "`examples/play.sh` take `preset=film`.\n")
 CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only; or *in "
            "NULL*: then only there. Later a warning says so, and it stays as it was. *Controllable* means that a `GstControlSource` can drive it.\n")

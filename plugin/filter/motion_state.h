@@ -63,12 +63,11 @@ struct MotionState {
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
 
-  std::mutex setting;                  ///< what is set reaches the parts in the order it was set
-  MotionProperties settings;           ///< object lock
-  double largest_set_N = G_MAXDOUBLE;  ///< object lock: max-force by others than presets
-  bool opened = false;                 ///< object lock: READY or above
-  gint unread_messages = 0;            ///< atomic: that an application has not read
-  gint window_changes = 0;             ///< atomic: how many the window has still to follow
+  std::mutex setting;         ///< what is set reaches the parts in the order it was set
+  MotionProperties settings;  ///< object lock
+  bool opened = false;        ///< object lock: READY or above
+  gint unread_messages = 0;   ///< atomic: that an application has not read
+  gint window_changes = 0;    ///< atomic: how many the window has still to follow
 
   // Any thread. These outlive the output's thread, which forwards what waits.
   WrenchBacklog schedule;

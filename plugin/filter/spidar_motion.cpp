@@ -44,8 +44,6 @@
  */
 #include "plugin/filter/spidar_motion.h"
 
-#include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -69,10 +67,8 @@ static GstStaticPadTemplate motion_sink_template =
 static GstStaticPadTemplate motion_src_template =
     GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
 
-static void gst_spidar_motion_preset_init(GstPresetInterface* presets);
-
 G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
-                        G_IMPLEMENT_INTERFACE(GST_TYPE_PRESET, gst_spidar_motion_preset_init)
+                        G_IMPLEMENT_INTERFACE(GST_TYPE_PRESET, nullptr)
                             GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
                                                     "motion of a video to a SPIDAR"))
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
@@ -200,44 +196,11 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kUnlockedEffects[] = {
     {"debug-window", [](auto* self, auto*) { follow_debug_window(self); }},
 };
 
-/// The element whose preset this thread loads.
-static thread_local const GstSpidarMotion* loading_preset = nullptr;
-
-/// `wanted`, or what somebody has set if that is less and `wanted` is that of a preset.
-static double most_force_N(GstSpidarMotion* self, double wanted) {
-  GST_OBJECT_LOCK(self);
-  const bool is_of_preset = loading_preset == self;
-  if (!is_of_preset) self->state->largest_set_N = wanted;
-  const double most_N = std::min(wanted, self->state->largest_set_N);
-  GST_OBJECT_UNLOCK(self);
-  return most_N;
-}
-
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
   GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
-  GValue force = G_VALUE_INIT;
-  if (std::strcmp(spec->name, "max-force") == 0) {
-    g_value_init(&force, G_TYPE_DOUBLE);
-    g_value_set_double(&force, most_force_N(self, g_value_get_double(value)));
-    value = &force;
-  }
   spidar::set_property(spidar::motion_properties(), self, kEffects, id, value, spec);
   spidar::follow_property(kUnlockedEffects, self, spec, value);
-}
-
-static gboolean (*load_any_preset)(GstPreset*, const gchar*);
-
-static gboolean gst_spidar_motion_load_preset(GstPreset* preset, const gchar* name) {
-  loading_preset = GST_SPIDAR_MOTION(preset);
-  const gboolean loaded = load_any_preset(preset, name);
-  loading_preset = nullptr;
-  return loaded;
-}
-
-static void gst_spidar_motion_preset_init(GstPresetInterface* presets) {
-  load_any_preset = presets->load_preset;
-  presets->load_preset = gst_spidar_motion_load_preset;
 }
 
 /// Where they are installed, GStreamer finds presets by itself only if it is installed there, too.

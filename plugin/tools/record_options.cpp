@@ -69,16 +69,13 @@ std::vector<std::string> without_presets(GstElement* element,
   for (const std::string& word : words) {
     const std::optional<std::string> preset = preset_of(word);
     if (!preset) {
-      const TypedProperty property(G_OBJECT(element), word);
-      // Which a preset does not raise.
-      if (property.name() == "max-force")
-        g_object_set_property(G_OBJECT(element), "max-force", property.value());
       result.push_back(word);
       continue;
     }
     load_preset(element, *preset);
     for (const std::string name : kAnalysis) {
-      if (name == "feel" || name == "pointer") continue;  // no preset has them
+      if (name == "feel" || name == "pointer" || name == "max-force")
+        continue;  // no preset has them
       GValue value = G_VALUE_INIT;
       g_object_get_property(G_OBJECT(element), name.c_str(), &value);
       gchar* const text = gst_value_serialize(&value);

@@ -87,7 +87,7 @@ class ShownFilm(track_case.TrackCase):
         self.spidartrack("show", "film.avi", "shown.mp4", "--", "preset=gentle")
         self.spidartrack("record", "film.avi", "--", "preset=gentle", "motion=camera")
         # A track with the same settings is kept, and one with others is refused.
-        self.spidartrack("record", "film.avi", "--", "max-force=1", "motion=camera")
+        self.spidartrack("record", "film.avi", "--", "alpha=0.00083", "motion=camera")
         self.spidartrack("record", "film.avi", "--", "motion=camera", status=1)
 
     def test_sound_that_the_container_takes_is_copied(self):
