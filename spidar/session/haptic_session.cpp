@@ -12,7 +12,6 @@
 #include "spidar/session/vibration_memory.h"
 
 namespace spidar {
-namespace {}  // namespace
 
 // Members are destroyed in reverse order: the thread has brought the motors to zero before the
 // trace takes its last row, and the memory what was taken last.
