@@ -48,7 +48,8 @@ TEST(Funscript, APlayerMovesAsFastAsTheCurve) {
     ASSERT_LE(1000 * std::fabs(read[i][1] - read[i - 1][1]), most + 1e-3) << i;
   }
   const std::string ramp = write_funscript(samples, 0);
-  EXPECT_EQ(ramp, R"({"version":"1.0","inverted":false,"range":100,"actions":[{"at":0,"pos":50},)"
+  EXPECT_EQ(ramp, R"({"version":"1.0","inverted":false,"range":100,)"
+                  R"("gst-spidar":{"channel":0,"gain":1.0},"actions":[{"at":0,"pos":50},)"
                   R"({"at":10000,"pos":75}]})"
                   "\n");
 }
