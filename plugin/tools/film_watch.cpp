@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
@@ -127,6 +128,18 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
     self.why_no_video_ = why;
   }
   GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("There is no video in it."), (nullptr));
+}
+
+void FilmWatch::play(const FilePipeline& file) const {
+  std::string error;
+  try {
+    file.play_until(GST_MESSAGE_EOS);
+  } catch (const std::runtime_error& ended) {
+    error = ended.what();
+  }
+  file.stop();
+  const std::string what = problem(error);
+  if (!what.empty()) throw std::runtime_error(what);
 }
 
 std::string FilmWatch::problem(const std::string& error) const {

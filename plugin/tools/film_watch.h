@@ -15,6 +15,8 @@
 
 namespace spidar {
 
+class FilePipeline;
+
 /// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
 /// application to judge. Outlives the pipeline.
 class FilmWatch {
@@ -27,6 +29,8 @@ class FilmWatch {
   /// Of a film with something behind it, demuxers warn that they cannot take that apart.
   void begin(GstElement* pipeline, bool has_appended);
 
+  /// Plays the film to its end. Throws std::runtime_error with what is wrong with it.
+  void play(const FilePipeline& file) const;
   /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
   /// says what is wrong with the film, or nothing. A film of fewer than two frames is wrong, too.
   std::string problem(const std::string& error) const;

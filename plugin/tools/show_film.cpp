@@ -42,15 +42,7 @@ std::string show(const ShowOptions& options, const PartFile& part) {
   progress.watch(motion);
   const Ref<GstPad> drawn(gst_element_get_static_pad(motion, "src"));
   gst_pad_add_probe(drawn.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
-  std::string error;
-  try {
-    file.play_until(GST_MESSAGE_EOS);
-  } catch (const std::runtime_error& ended) {
-    error = ended.what();
-  }
-  file.stop();
-  const std::string problem = watch.problem(error);
-  if (!problem.empty()) throw std::runtime_error(problem);
+  watch.play(file);
   if (end == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   std::string said = watch.felt();
   for (const std::string& more : {sound.missing(), watch.remark()}) {

@@ -89,15 +89,7 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part) 
   quiet.begin(file.pipeline());
   const Ref<GstPad> pictures(gst_element_get_static_pad(file.find("flip"), "src"));
   gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
-  std::string error;
-  try {
-    file.play_until(GST_MESSAGE_EOS);
-  } catch (const std::runtime_error& ended) {
-    error = ended.what();
-  }
-  file.stop();
-  const std::string problem = watch.problem(error);
-  if (!problem.empty()) throw std::runtime_error(problem);
+  watch.play(file);
   return sound.missing();
 }
 
