@@ -23,7 +23,7 @@ version = release = re.search(r"version: '(.*?)'", (ROOT / "meson.build").read_t
 extensions = ["myst_parser"]
 myst_heading_anchors = 4
 root_doc = "docs/README"
-PAGES = ["CONTRIBUTING.md", "CHANGELOG.md", "tests/README.md"]
+PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "tests/README.md"]
 include_patterns = ["docs/**", *PAGES]
 # Sphinx need not walk through builds.
 exclude_patterns = [entry.name for entry in ROOT.iterdir() if entry.name not in ("docs", "tests", *PAGES)]
@@ -49,6 +49,8 @@ def contents(page):
 def read(app, name, source):
     if name == root_doc:
         source[0] += REFERENCE + "\n" + contents(source[0]) + "\n"
+    elif name == "README":
+        source[0] = "---\norphan: true\n---\n" + source[0]  # other pages link to it, no table of contents does
     elif name == "docs/api":
         source[0] += REFERENCE
 
