@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 # Plays a video whose motion becomes force on the device that is plugged in, or a simulated one, and ends with a
 # summary and a picture of the force. First installs missing packages (Debian) and builds.
-#   examples/play.sh                             eleven seconds of an animated film
+#   examples/play.sh                             ten seconds of a ball, in slow motion
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
 #   examples/play.sh --window                    with the debug window
@@ -38,11 +38,14 @@ build() {
     fi
 }
 
-# Prints the file name of a lively clip of Debian's package opencv-doc, which is downloaded once and not installed.
-# Fails when that is not possible.
-film_clip() {
-    local cache=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar
-    local clip=$cache/Megamind.avi
+# A free film of a tennis ball that is dropped, in slow motion; the camera lies on its side.
+clip_package=python3-mecavideo
+clip_path=./usr/share/pymecavideo/data/video/balle-jbart.mp4
+clip=${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/${clip_path##*/}
+
+# Downloads the clip's package once, without installing it. Fails when that is not possible.
+fetch_clip() {
+    local cache=${clip%/*}
     if [[ ! -f $clip ]]; then
         mkdir -p "$cache"
         local work
@@ -51,13 +54,13 @@ film_clip() {
         # shellcheck disable=SC2064  # expanded now, because the variable is local
         trap "rm -rf '$work'" EXIT
         # The user _apt may not write here; apt would warn about it when run as root.
-        if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download opencv-doc &&
-            dpkg-deb --fsys-tarfile opencv-doc_*.deb |
-            tar -x ./usr/share/doc/opencv-doc/examples/data/Megamind.avi) >"$work/log" 2>&1; then
-            mv "$work/usr/share/doc/opencv-doc/examples/data/Megamind.avi" "$clip"
+        if (cd "$work" && apt-get -qq -o APT::Sandbox::User="$(id -un)" download "$clip_package" &&
+            dpkg-deb --fsys-tarfile "$clip_package"_*.deb |
+            tar -x "$clip_path") >"$work/log" 2>&1; then
+            mv "$work/$clip_path" "$clip"
         fi
     fi
-    [[ -f $clip ]] && printf '%s\n' "$clip"
+    [[ -f $clip ]]
 }
 
 arguments=("$@")
@@ -97,9 +100,8 @@ continue_as_caller "$top/examples/play.sh" "${arguments[@]}"
 build
 
 if [[ $needs_clip == yes ]]; then
-    [[ -f ${XDG_CACHE_HOME:-$HOME/.cache}/gst-spidar/Megamind.avi ]] ||
-        echo "fetching a clip, once: Megamind.avi of Debian's package opencv-doc (95 MB)"
-    if clip=$(film_clip); then
+    [[ -f $clip ]] || echo "fetching a clip, once: ${clip##*/} of Debian's package $clip_package (4 MB)"
+    if (fetch_clip); then
         video=("$clip")
     else
         echo "it cannot be had, perhaps for want of a network: playing a ball of videotestsrc"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Draws the film of the screenshots: a ball bounces across a meadow while a bird flies by.
+"""Draws the film of the screenshots: a ball bounces across a meadow while an airship flies by.
 
 made_film.py SECONDS >FILM: raw frames, 848x480 RGB at 30 frames/s, which repeat every six seconds. Needs
 python3-numpy."""
@@ -91,22 +91,23 @@ def draw_ball(picture, time_s):
     picture += cover[..., None] * (ball * light[..., None] - picture)
 
 
-def draw_bird(picture, time_s):
+def draw_airship(picture, time_s):
     share = time_s / PERIOD_S % 1
-    x, y = WIDTH + 40 - share * (WIDTH + 80), 52 + 10 * np.sin(2 * np.pi * 2 * share)
-    flap = 9 * np.sin(2 * np.pi * 3 * time_s)
-    for side in (-1, 1):
-        along = np.clip(side * (x_px - x) / 24, 0, 1)
-        wing = np.abs(y_px - (y - flap * along + 4 * along**2)) - 3.4 * (1 - 0.7 * along)
-        paint(picture, edge(np.maximum(wing, np.abs(x_px - x - 12 * side) - 12)), (58, 62, 80))
-    paint(picture, ellipse(x, y, 12, 5), (58, 62, 80))
+    x, y = WIDTH + 80 - share * (WIDTH + 160), 62 + 10 * np.sin(2 * np.pi * share)
+    fins = np.maximum(np.abs(x_px - x - 46) - 16, np.abs(y_px - y) - 0.6 * (x_px - x - 20))
+    paint(picture, edge(fins), (178, 66, 52))
+    paint(picture, edge(np.maximum(np.abs(x_px - x) - 16, np.abs(y_px - y - 25) - 5)), (70, 74, 92))
+    hull = ellipse(x, y, 60, 23)
+    paint(picture, hull, (86, 98, 136))
+    for stripe in (-8, 8):
+        paint(picture, hull * edge(np.abs(y_px - y - stripe) - 2.5), (236, 236, 240))
 
 
 def main():
     background = landscape()
     for frame in range(int(float(sys.argv[1]) * RATE)):
         picture = background.copy()
-        draw_bird(picture, frame / RATE)
+        draw_airship(picture, frame / RATE)
         draw_ball(picture, frame / RATE)
         sys.stdout.buffer.write(np.clip(picture + 0.5, 0, 255).astype(np.uint8).tobytes())
 

@@ -65,14 +65,14 @@ fi
 # Options that say how the clip is played are not taken for a film, and nothing is fetched for a typo.
 : >"$tree/tests/debian-packages.txt"
 mkdir -p "$tree/cache/gst-spidar"
-touch "$tree/cache/gst-spidar/Megamind.avi"
+touch "$tree/cache/gst-spidar/balle-jbart.mp4"
 # plays EXPECTED ARGUMENT...: what the player is asked for.
 plays() {
     arguments=("${@:2}")
     run XDG_CACHE_HOME="$tree/cache"
     grep -qx -- "[0-9]* play $1" "$tree/asked" || fail "${*:2} does not play $1"
 }
-clip=$tree/cache/gst-spidar/Megamind.avi
+clip=$tree/cache/gst-spidar/balle-jbart.mp4
 plays "--headless $clip" --headless
 plays "--seconds 5 $clip" --seconds 5
 plays "--seconds=5 $clip" --seconds=5
