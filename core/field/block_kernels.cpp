@@ -2,9 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
-#include <array>
-#include <cstdlib>
-
 #include "core/picture/vectors.h"
 
 namespace spidar {
@@ -132,19 +129,22 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
 }
 
 int cell_difference(BlockPixels a, BlockPixels b) {
-  int sum = 0;
+  const v_int16x8 one = cv::v_setall_s16(1);
+  v_int32x4 sums = cv::v_setzero_s32();
   for (int top = 0; top < kBlock_px; top += kCell_px) {
-    std::array<int, kBlock_px> column{};
+    v_int16x8 left = cv::v_setzero_s16();
+    v_int16x8 right = left;
     for (int y = top; y < top + kCell_px; ++y) {
       const uint8_t* p = a.pixels + y * a.stride;
       const uint8_t* q = b.pixels + y * b.stride;
-      for (size_t x = 0; x < kBlock_px; ++x) column[x] += p[x] - q[x];
+      left = left + (load(p) - load(q));
+      right = right + (load(p + 8) - load(q + 8));
     }
-    for (size_t x = 0; x < kBlock_px; x += kCell_px) {
-      sum += std::abs(column[x] + column[x + 1] + column[x + 2] + column[x + 3]);
-    }
+    const v_int16x8 pairs = cv::v_pack(cv::v_dotprod(left, one), cv::v_dotprod(right, one));
+    const v_int32x4 cells = cv::v_dotprod(pairs, one);
+    sums = sums + cv::v_max(cells, cv::v_setzero_s32() - cells);
   }
-  return sum;
+  return cv::v_reduce_sum(sums);
 }
 
 BlockSums compare_blocks(BlockPixels now, BlockPixels before) {

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/camera/block_votes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/field/areas.h"
@@ -78,12 +79,14 @@ bool collect(const BlockField& field, const Past& past, Voters voters, Backgroun
 
 /// Whether most of the blocks of an area vote themselves. `middle_px` is from the picture's corner.
 bool has_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
+  const BlockGrid& grid = field.grid();
+  constexpr double kToFirst_px = kBlock_px * (kCoarser - 1) / 2.0;
+  const size_t first = grid.block_at(middle_px - Eigen::Vector2d::Constant(kToFirst_px));
+  const int left = grid.column(first), top = grid.row(first);
   int corners = 0;
-  for (int y = 0; y < kCoarser; ++y) {
-    for (int x = 0; x < kCoarser; ++x) {
-      const Eigen::Vector2d off =
-          Eigen::Vector2d(x, y) - Eigen::Vector2d::Constant((kCoarser - 1) / 2.0);
-      corners += field.blocks()[field.grid().block_at(middle_px + kBlock_px * off)].has_corners();
+  for (int y = top; y < std::min(top + kCoarser, grid.rows); ++y) {
+    for (int x = left; x < std::min(left + kCoarser, grid.columns); ++x) {
+      corners += field.blocks()[grid.index(x, y)].has_corners();
     }
   }
   return corners > kCoarser * kCoarser / 2;
