@@ -106,5 +106,24 @@ TEST(Timeline, AColumnWithoutATickContinuesTheOneBeforeExceptInAGap) {
   EXPECT_EQ(columns[18].delivered_low_N.x(), 900);
 }
 
+TEST(Timeline, BeginsWithWhatThereIsInFewRoundSteps) {
+  Timeline timeline;
+  EXPECT_EQ(timeline.remembered_s(), 5) << "what the plots show";
+  for (const auto& [at_s, remembered_s] : {std::pair{100.0, 5.0},
+                                           {104.9, 5.0},
+                                           {105.1, 10.0},
+                                           {118.0, 20.0},
+                                           {131.0, 60.0},
+                                           {190.0, 60.0}}) {
+    Moment moment;
+    moment.time_s = at_s;
+    timeline.add(moment);
+    EXPECT_EQ(timeline.remembered_s(), remembered_s) << at_s;
+  }
+  timeline.forget();
+  timeline.zoom(4);
+  EXPECT_EQ(timeline.remembered_s(), 20) << "never less than the plots show";
+}
+
 }  // namespace
 }  // namespace spidar::test::timeline_test

@@ -124,18 +124,29 @@ TEST(Settings, AreThoseThatCanBeChangedWhilePlaying) {
       gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).display.source();
   ElementState state;
   source->read(state);
-  EXPECT_EQ(state.no_force, sentence(NoForceReason::kNotPlaying));
+  EXPECT_EQ(state.no_force, "The video is paused.");
   EXPECT_GT(state.settings.size(), 10u);
   for (const Setting& setting : state.settings) {
     EXPECT_FALSE(setting.help.empty()) << setting.name;
   }
   EXPECT_EQ(state.setting("device"), nullptr) << "not while playing";
   EXPECT_EQ(state.setting("debug-window"), nullptr) << "the window is no switch for itself";
+  EXPECT_EQ(state.setting("post-messages"), nullptr) << "nothing that is felt or seen";
   EXPECT_EQ(state.value("max-force", 0), 3);
+  EXPECT_EQ(state.setting("max-force")->usual, 3);
   g_object_set(element, "max-force", 2.5, nullptr);
   source->read(state);
   EXPECT_EQ(state.value("max-force", 0), 2.5);
   gst_object_unref(element);
+}
+
+TEST(WindowLayout, TextGrowsWithAWindowLargerThanUsual) {
+  EXPECT_EQ(text_scale(1, 640, 480), 1);
+  EXPECT_EQ(text_scale(1, 1280, 800), 1);
+  EXPECT_EQ(text_scale(1, 1920, 1080), 1.25);  // by the height
+  EXPECT_EQ(text_scale(1, 2560, 900), 1.125);
+  EXPECT_EQ(text_scale(2, 2560, 1600), 2);
+  EXPECT_EQ(text_scale(2, 3840, 2400), 3);
 }
 
 TEST(Settings, HavePresets) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plugin/filter/display/element_source.h"
 #include "plugin/frame/touch_view.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
@@ -124,14 +125,26 @@ TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {
   state.settings = {{"touch-stiffness", "", Setting::Kind::kNumber, 700, 10, 800, {}}};
   TouchScene touch;
   touch.stiffness_N_m = 400;
-  EXPECT_EQ(felt_line(state, touch), "felt") << "touch=off";
+  const Wrench felt{{0, 1, 0}, {}};
+  EXPECT_EQ(felt_line(state, touch, felt), "felt") << "touch=off";
+  EXPECT_EQ(felt_line(state, touch, {}), "felt within the last second");
   touch.on = true;
-  EXPECT_EQ(felt_line(state, touch),
+  EXPECT_EQ(felt_line(state, touch, felt),
             "felt, at 400 N/m instead of 700: the device's drives are slow");
   touch.stiffness_N_m = 700;
-  EXPECT_EQ(felt_line(state, touch), "felt");
+  EXPECT_EQ(felt_line(state, touch, felt), "felt");
   state.no_force = "the grip is in front of the surface";
-  EXPECT_EQ(felt_line(state, touch), "not felt: " + state.no_force);
+  EXPECT_EQ(felt_line(state, touch, felt), "not felt: " + state.no_force);
+}
+
+TEST(FeltLine, TellsAPauseFromASeekAndFromTheEnd) {
+  EXPECT_EQ(sentence_in_window(NoForceReason::kNoFrames, false), "The video is paused.");
+  EXPECT_EQ(sentence_in_window(NoForceReason::kNotPlaying, true),
+            "The video is seeking, or its clock stands still.");
+  for (const bool is_playing : {false, true}) {
+    EXPECT_EQ(sentence_in_window(NoForceReason::kEnded, is_playing), "The film has ended.");
+  }
+  EXPECT_EQ(sentence_in_window(NoForceReason::kNone, true), "");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "plugin/filter/display/element_source.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -59,6 +60,7 @@ bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
     setting.kind = Setting::Kind::kNumber;
     setting.low = G_PARAM_SPEC_DOUBLE(spec)->minimum;
     setting.high = G_PARAM_SPEC_DOUBLE(spec)->maximum;
+    setting.usual = G_PARAM_SPEC_DOUBLE(spec)->default_value;
   } else if (G_IS_PARAM_SPEC_INT64(spec)) {
     setting.kind = Setting::Kind::kWhole;
     setting.low = static_cast<double>(G_PARAM_SPEC_INT64(spec)->minimum);
@@ -67,6 +69,14 @@ bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
     return false;
   }
   return true;
+}
+
+/// The window has what is felt and seen in it; not what a program asks for, nor a switch that would
+/// close it.
+bool is_offered(const std::string& setting) {
+  constexpr std::array<const char*, 4> kOfPrograms{"debug-window", "post-messages", "attach-meta",
+                                                   "on-device-error"};
+  return std::find(kOfPrograms.begin(), kOfPrograms.end(), setting) == kOfPrograms.end();
 }
 
 double get_value(GObject* object, const Setting& setting) {
@@ -102,11 +112,9 @@ class ElementSource final : public WindowSource {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     state.rules = choice_.rules();
-    // In a pause there was no frame in the last second, whatever the film has.
     const NoForceReason reason = no_force_.first(output_.snapshot());
     state.has_ended = reason == NoForceReason::kEnded;
-    state.no_force =
-        sentence(state.is_playing || state.has_ended ? reason : NoForceReason::kNotPlaying);
+    state.no_force = sentence_in_window(reason, state.is_playing);
     DeviceView device;
     if (output_.look_at_device(device)) state.device = std::move(device);
   }
@@ -209,8 +217,7 @@ class ElementSource final : public WindowSource {
     GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
     for (guint i = 0; i < count; ++i) {
       Setting setting;
-      // The window does not offer a switch that would close it.
-      if (describe(element, specs[i], setting) && setting.name != "debug-window") {
+      if (describe(element, specs[i], setting) && is_offered(setting.name)) {
         settings.push_back(std::move(setting));
       }
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <gst/gst.h>
 
@@ -13,6 +14,16 @@
 #include "plugin/window/window.h"
 
 namespace spidar {
+
+/// Why nothing is felt, for a window, which knows whether the film is paused: then there was no
+/// frame in the last second, whatever the film has.
+inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
+  if (!is_playing && reason != NoForceReason::kEnded) return "The video is paused.";
+  if (reason == NoForceReason::kNotPlaying) {
+    return "The video is seeking, or its clock stands still.";
+  }
+  return sentence(reason);
+}
 
 /// Keeps no reference: the element may go while the window is open. The others are those of
 /// `element`, and live as long.

@@ -10,8 +10,9 @@
 namespace spidar {
 namespace {
 
-/// A slider is logarithmic over a range of more than kLinear, or over more than the factor kWide.
-constexpr double kLinear = 1e6, kWide = 100;
+/// A slider is logarithmic over a range of more than kLinear, or where the usual value would be in
+/// the first kFarLeft of it.
+constexpr double kLinear = 1e6, kFarLeft = 0.1;
 constexpr double kTooltip_px = 340, kNameFraction = 0.4;
 
 /// "1 object", "2 objects".
@@ -19,15 +20,31 @@ std::string count_of(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// Of the element's properties, as their descriptions have it; a factor has none.
+const char* unit_of(const std::string& setting) {
+  constexpr std::array<std::pair<const char*, const char*>, 7> kUnits{{{"max-force", " N"},
+                                                                       {"alpha", " s/px"},
+                                                                       {"filter-min-cutoff", " Hz"},
+                                                                       {"filter-beta", " s/px"},
+                                                                       {"touch-relief", " mm"},
+                                                                       {"touch-stiffness", " N/m"},
+                                                                       {"ts-offset", " ns"}}};
+  for (const auto& [name, unit] : kUnits)
+    if (setting == name) return unit;
+  return "";
+}
+
 /// True when it was moved.
 bool number_widget(const Setting& setting, double& value) {
   const double range = setting.high - setting.low;
-  const bool is_wide = range > kLinear || (setting.low > 0 && setting.high / setting.low > kWide);
+  const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
   const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp | (is_wide ? ImGuiSliderFlags_Logarithmic : 0);
+      ImGuiSliderFlags_AlwaysClamp |
+      (range > kLinear || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
   const bool is_whole = setting.kind == Setting::Kind::kWhole;
+  const std::string format = std::string(is_whole ? "%.0f" : "%.4g") + unit_of(setting.name);
   return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &setting.low, &setting.high,
-                             is_whole ? "%.0f" : "%.4g", flags);
+                             format.c_str(), flags);
 }
 
 bool choice_widget(const Setting& setting, double& value) {
@@ -130,29 +147,31 @@ void draw_stop(const Brush& brush, const ElementState& state, ControlsUse& use) 
   ImGui::PopStyleColor(2);
 }
 
-/// The two settings, the presets, and a button that takes everything back.
+/// The two settings, a button that takes everything back, and the presets.
 void draw_choices(const Brush& brush, const Rect& panel, const ElementState& state,
                   const TwoSettings& settings, ControlsUse& use) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Compare");
   for (const size_t which : {size_t{0}, size_t{1}}) {
+    ImGui::SameLine();
     const bool is_used = settings.used() == which;
     if (is_used) ImGui::PushStyleColor(ImGuiCol_Button, kAccentColor);
     if (ImGui::Button(which == 0 ? "1" : "2", {brush.px(26), 0})) use.use = which;
     if (is_used) ImGui::PopStyleColor();
     explain_above(panel,
                   "Two settings to compare, also by the keys 1 and 2: each keeps its changes");
-    ImGui::SameLine();
   }
   const float reset = ImGui::CalcTextSize("Reset").x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextItemWidth(-(reset + ImGui::GetStyle().ItemSpacing.x));
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - reset);
+  use.resets = ImGui::Button("Reset");
+  explain_above(panel, "All settings as they were when the window was opened");
+  ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::BeginCombo("##preset", "Presets")) {
     for (const std::string& preset : state.presets) {
       if (ImGui::Selectable(preset.c_str())) use.preset = preset;
     }
     ImGui::EndCombo();
   }
-  ImGui::SameLine();
-  use.resets = ImGui::Button("Reset");
-  explain_above(panel, "All settings as they were when the window was opened");
 }
 
 }  // namespace
@@ -184,7 +203,7 @@ ControlsUse draw_controls(const Brush& brush, const Rect& panel, const ElementSt
   return use;
 }
 
-void draw_switch(const Brush& brush, const Rect& picture, bool& detail) {
+void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& keys) {
   const float margin = brush.px(8);
   ImGui::SetNextWindowPos(
       {static_cast<float>(picture.right()) - margin, static_cast<float>(picture.y) + margin},
@@ -199,6 +218,9 @@ void draw_switch(const Brush& brush, const Rect& picture, bool& detail) {
   ImGui::PushStyleColor(ImGuiCol_Border, kTextColor);
   ImGui::Checkbox("Detail", &detail);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("All tracks, new and lost points, all objects (D)");
+  ImGui::SameLine();
+  ImGui::Checkbox("Keys", &keys);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the keys do (H)");
   ImGui::PopStyleColor();
   ImGui::End();
   ImGui::PopStyleVar(2);
@@ -212,13 +234,14 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   const ImFont* font = brush.fonts.body;
   const ImFont* small = brush.fonts.small;
   const double middle = panel.y + panel.height / 2;
-  const bool is_felt = state.no_force.empty();
-  const ImU32 color = is_felt ? kGoodColor : kFeltColor;
+  const Wrench& now = state.device ? state.device->last.delivered : report.frame.wrench;
+  const bool is_felt = state.no_force.empty() && size_N(now) >= kFeltForce_N;
+  const ImU32 color = is_felt ? kGoodColor : state.no_force.empty() ? kMutedColor : kFeltColor;
   const float radius = brush.px(5);
   ImVec2 at = im(panel.x + 10 * brush.scale, middle);
   brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
   at.x += 2 * radius + brush.px(7);
-  const std::string said = note.empty() ? felt_line(state, report.touch) : note;
+  const std::string said = note.empty() ? felt_line(state, report.touch, now) : note;
   draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 

@@ -22,7 +22,6 @@
 namespace spidar {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 800;
 /// At a scale of 1: what is smaller cannot be read.
 constexpr int kLeastWidth = 640, kLeastHeight = 480;
 constexpr double kNote_s = 4;
@@ -30,7 +29,7 @@ constexpr double kNote_s = 4;
 constexpr double kIdle_s = 1;
 /// Of text, in the coordinates of the window: where a screen has several pixels to one of them, as
 /// with Wayland, the frame buffer has them already.
-double text_scale(GLFWwindow* window) {
+double screen_scale(GLFWwindow* window) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window, &x, &y);
   int width = 0, pixels = 0, ignored = 0;
@@ -82,7 +81,7 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
   title_ = state_.name;
-  window_ = glfwCreateWindow(kWidth, kHeight, title_.c_str(), nullptr, nullptr);
+  window_ = glfwCreateWindow(kUsualWidth_px, kUsualHeight_px, title_.c_str(), nullptr, nullptr);
   if (!window_) {
     const char* why = nullptr;
     glfwGetError(&why);
@@ -91,12 +90,12 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(0);  // the program keeps the pace itself
   ImGui::CreateContext();
-  scale_ = text_scale(window_);
-  glfwSetWindowSizeLimits(window_, static_cast<int>(kLeastWidth * scale_),
-                          static_cast<int>(kLeastHeight * scale_), GLFW_DONT_CARE, GLFW_DONT_CARE);
+  screen_scale_ = screen_scale(window_);
+  glfwSetWindowSizeLimits(window_, static_cast<int>(kLeastWidth * screen_scale_),
+                          static_cast<int>(kLeastHeight * screen_scale_), GLFW_DONT_CARE,
+                          GLFW_DONT_CARE);
   ImGui::GetIO().IniFilename = nullptr;
-  fonts_ = load_fonts(scale_);
-  set_style(scale_);
+  set_scale(screen_scale_);
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
   shown_width_ = static_cast<int>(lay_out(width, height, scale_).picture.width);
@@ -108,6 +107,14 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the one above, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
+}
+
+/// Between two frames of the window.
+void DebugWindow::set_scale(double scale) {
+  scale_ = scale;
+  ImGui::GetIO().Fonts->Clear();
+  fonts_ = load_fonts(scale);
+  set_style(scale);
 }
 
 DebugWindow::~DebugWindow() {
@@ -192,6 +199,8 @@ ShownPicture DebugWindow::shown_picture() const {
   picture.max_force_N = report_.controller.max_force_N;
   picture.detail = detail_;
   picture.requested = requested_;
+  if (state_.device && are_same(state_.device->last.wanted, state_.device->last.delivered))
+    picture.delivered_N = state_.device->last.delivered.force_N.norm();
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
@@ -216,6 +225,7 @@ void DebugWindow::draw_panels(int width, int height) {
   use_mouse(mouse, shown);
   use_plots(mouse, layout);
   if (const std::string line = hint(); !line.empty()) draw_hint(brush, shown, line);
+  if (keys_) draw_keys(brush, layout.picture);
   draw_grip(brush, layout.grip, state_);
   draw_tensions(brush, layout.tensions, state_);
   draw_choices(brush, layout.timeline);
@@ -227,18 +237,24 @@ void DebugWindow::draw_panels(int width, int height) {
   if (now_s() > note_until_s_) note_.clear();
   draw_status(brush, layout.status, state_, report_, note_);
   draw_controls_and_use(brush, layout.controls);
-  draw_switch(brush, layout.picture, detail_);
+  draw_switches(brush, layout.picture, detail_, keys_);
 }
 
 void DebugWindow::draw() {
   glfwGetFramebufferSize(window_, &width_, &height_);
   read();
   if (width_ <= 0 || height_ <= 0) return;  // minimised
+  int window_width = 0, window_height = 0;
+  glfwGetWindowSize(window_, &window_width, &window_height);
+  const double scale = text_scale(screen_scale_, window_width, window_height);
+  if (scale != scale_) {
+    set_scale(scale);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
-  int window_width = 0, window_height = 0;
-  glfwGetWindowSize(window_, &window_width, &window_height);
   draw_panels(window_width, window_height);
   ImGui::Render();
   glViewport(0, 0, width_, height_);

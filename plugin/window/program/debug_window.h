@@ -56,6 +56,7 @@ class DebugWindow {
   void remove_choice(const FeelRule& rule);
   void end_choices();
   void draw_choices(const Brush& brush, const Rect& panel);
+  void set_scale(double scale);
   void draw_panels(int width, int height);
   void save_here();
   void draw_controls_and_use(const Brush& brush, const Rect& panel);
@@ -67,7 +68,7 @@ class DebugWindow {
 
   PlayerLink& link_;
   GLFWwindow* window_ = nullptr;
-  double scale_ = 1;
+  double screen_scale_ = 1, scale_ = 1;  ///< of text: that of the screen, and in this window
   Fonts fonts_;
   std::optional<PictureTexture> texture_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
@@ -89,7 +90,7 @@ class DebugWindow {
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does
   std::optional<Mouse> given_mouse_;
-  bool detail_ = false;
+  bool detail_ = false, keys_ = false;
   bool save_wanted_ = false;
   std::string note_;
   double note_until_s_ = 0;

@@ -62,6 +62,9 @@ void DebugWindow::on_key(int key) {
     case GLFW_KEY_D:
       detail_ = !detail_;
       break;
+    case GLFW_KEY_H:
+      keys_ = !keys_;
+      break;
     case GLFW_KEY_P:
       toggle_play();
       break;

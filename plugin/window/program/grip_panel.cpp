@@ -104,7 +104,7 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
                                im(to - 0.6 * head * side), color);
   if (!which) return;
   char text[48];
-  std::snprintf(text, sizeof text, "%.1f N %s", force_N, which);
+  std::snprintf(text, sizeof text, "%.1f N%s", force_N, which);
   const ImVec2 text_px = text_size(brush.fonts.bold, text);
   const Eigen::Vector2d size(text_px.x + brush.px(10), text_px.y + brush.px(4));
   const Eigen::Vector2d low(panel.x, panel.y), high(panel.right(), panel.bottom());
@@ -156,7 +156,8 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   if (device.has_strings) draw_strings(brush, project, device);
   draw_grip_body(view, device);
   draw_force(view, content, last.wanted, last.max_force_N, nullptr);
-  draw_force(view, content, last.delivered, last.max_force_N, "delivered");
+  draw_force(view, content, last.delivered, last.max_force_N,
+             are_same(last.wanted, last.delivered) ? "" : " delivered");
   brush.list.PopClipRect();
 }
 

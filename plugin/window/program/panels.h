@@ -30,6 +30,8 @@ struct ShownPicture {
   /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
   std::optional<uint32_t> requested;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
+  /// What the hand gets, unless that is another force than the frame asks for.
+  std::optional<double> delivered_N;
 };
 /// The part of the window that shows the visible part of the frame.
 Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameReport& report);
@@ -67,8 +69,10 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
                  const FrameReport& report, const std::string& note);
 
-/// A switch in the upper right corner of the picture.
-void draw_switch(const Brush& brush, const Rect& picture, bool& detail);
+/// Switches in the upper right corner of the picture.
+void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& keys);
+/// What the keys do, over the picture.
+void draw_keys(const Brush& brush, const Rect& picture);
 
 /// What the user wants of the settings.
 struct ControlsUse {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "core/force/motion_rendering.h"
 #include "plugin/frame/track_owners.h"
@@ -12,6 +16,7 @@ namespace spidar {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
+constexpr double kThin_px = 1;                // their width
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -50,9 +55,13 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margi
 void draw_tracks(const Overlay& over, const ArrowStyle& style) {
   const std::vector<OwnedTrack>& tracks = over.report.tracks;
   const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
-  const std::vector<Arrow> arrows = track_arrows(tracks, style, at_px);  // one for each
+  std::vector<Arrow> arrows = track_arrows(tracks, style, at_px);  // one for each
   for (size_t i = 0; i < arrows.size(); ++i) {
     const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
+    if (!over.picture.detail) {
+      arrows[i].width_px = kThin_px * over.brush.scale;
+      arrows[i].color = kWhite;
+    }
     const unsigned opacity = over.picture.detail ? 255 : is_felt ? kFelt : kFaint;
     draw_arrow(over.brush, arrows[i], color_of(arrows[i].color, opacity));
   }
@@ -120,7 +129,7 @@ void draw_size(const Overlay& over, double force_N, const char* which,
 }
 
 /// False when it is too short for an arrow.
-bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
+bool draw_force(const Overlay& over, const Wrench& wrench, double shown_N, const char* which,
                 const Eigen::Vector2d& from_px, ArrowStyle style) {
   style.centre_px = from_px;
   const std::optional<Arrow> felt = felt_arrow(wrench, style);
@@ -128,8 +137,7 @@ bool draw_force(const Overlay& over, const Wrench& wrench, const char* which,
   draw_arrow(over.brush, *felt, IM_COL32(0, 0, 0, 255), over.brush.px(1.75));
   draw_arrow(over.brush, *felt, color_of(felt->color, 255));
   // Beyond the tip.
-  draw_size(over, wrench.force_N.norm(), which, felt->tip_px,
-            (felt->tip_px - felt->tail_px).normalized());
+  draw_size(over, shown_N, which, felt->tip_px, (felt->tip_px - felt->tail_px).normalized());
   return true;
 }
 
@@ -146,7 +154,7 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircle(finger, ring_px, IM_COL32(255, 255, 255, 255), 0, ring_px / 4);
   if (!touch.touching) return;
   const Eigen::Vector2d proxy_px = at(touch.proxy);
-  if (!draw_force(over, {touch.force_N, {}}, "", proxy_px, style)) {
+  if (!draw_force(over, {touch.force_N, {}}, touch.force_N.norm(), "", proxy_px, style)) {
     const Eigen::Vector2d down(0, 1);
     draw_size(over, touch.force_N.norm(), "", proxy_px + 2 * ring_px * down, down);
   }
@@ -198,17 +206,55 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   if (picture.detail) draw_points(over);
   draw_objects(over);
   const Eigen::Vector2d from_px = map(force_origin_px(report));
-  draw_force(over, report.frame.wrench, " wanted", from_px, style);
+  const Wrench& wanted = report.frame.wrench;
+  draw_force(over, wanted, picture.delivered_N.value_or(wanted.force_N.norm()),
+             picture.delivered_N ? "" : " wanted", from_px, style);
   if (picture.touch) draw_touch(over, *picture.touch, style);
   brush.list.PopClipRect();
 }
 
+void draw_keys(const Brush& brush, const Rect& picture) {
+  constexpr std::array<std::pair<const char*, const char*>, 10> kKeys{
+      {{"space", "stops the force, and resumes it"},
+       {"P", "pauses the film, or plays it"},
+       {"left, right", "shorter or longer arrows"},
+       {"up, down", "more or less force"},
+       {"1, 2", "the first or the second of two settings"},
+       {"C", "saves what was chosen by clicks"},
+       {"D", "shows all detail"},
+       {"S", "saves the window as a picture"},
+       {"H", "shows these lines, and hides them"},
+       {"Q", "closes the window; the film goes on"}}};
+  const ImFont* font = brush.fonts.small;
+  const double line = 1.6 * font->FontSize, margin = 12 * brush.scale;
+  double names = 0, width = 0;
+  for (const auto& [key, what] : kKeys) {
+    names = std::max<double>(names, text_size(font, key).x);
+    width = std::max<double>(width, text_size(font, what).x);
+  }
+  const double w = names + width + 3 * margin, h = kKeys.size() * line + 2 * margin;
+  const double x = std::max(picture.x, picture.x + (picture.width - w) / 2);
+  const double y = std::max(picture.y, picture.y + (picture.height - h) / 2);
+  brush.list.AddRectFilled(im(x, y), im(x + w, y + h), IM_COL32(12, 14, 18, 225), brush.px(6));
+  double at = y + margin;
+  for (const auto& [key, what] : kKeys) {
+    draw_text(brush, font, im(x + margin, at), kFeltColor, key);
+    draw_text(brush, font, im(x + names + 2 * margin, at), kTextColor, what);
+    at += line;
+  }
+}
+
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line) {
   const ImFont* font = brush.fonts.small;
-  const double margin = 8 * brush.scale;
-  draw_label(brush, font,
-             im(picture.x + margin, picture.bottom() - margin - font->FontSize - brush.px(4)),
-             kTextColor, line);
+  const float margin = brush.px(8), inner = brush.px(4);
+  const float most = static_cast<float>(picture.width) - 2 * (margin + inner);
+  if (most <= 0) return;
+  const ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, most, line.c_str());
+  const ImVec2 at = im(picture.x + margin + inner, picture.bottom() - margin - inner - size.y);
+  brush.list.AddRectFilled({at.x - inner, at.y - inner},
+                           {at.x + size.x + inner, at.y + size.y + inner}, kLabelColor, inner);
+  brush.list.AddText(font, font->FontSize, {std::round(at.x), std::round(at.y)}, kTextColor,
+                     line.c_str(), nullptr, most);
 }
 
 }  // namespace spidar

@@ -38,18 +38,26 @@ void Plot::draw_axes(const std::string& x_unit, const std::string& y_unit) const
     brush_.list.AddLine(left, at(x_.high, tick), tick == 0 ? kLineColor : kGridColor);
     draw_text_before(brush_, font, {left.x - gap, left.y - half}, kMutedColor, y_.label(tick));
   }
-  draw_text(brush_, font, im(area_.x, area_.y - font->FontSize - gap), kMutedColor, y_unit);
+  const bool has_room = text_size(font, y_unit).x <= area_.width;
+  draw_text(brush_, font, im(area_.x, area_.y - font->FontSize - gap), kMutedColor,
+            has_room ? y_unit : y_unit.substr(0, y_unit.find(' ')));
   const float unit_x = static_cast<float>(area_.right()) - text_size(font, x_unit).x;
+  float free_x = 0;  // to the right of the labels so far
+  std::string last = x_unit;
   for (const double tick : x_.ticks()) {
     const ImVec2 low = at(tick, y_.low);
     brush_.list.AddLine(low, at(tick, y_.high), kGridColor);
     const std::string label = x_.label(tick);
     const float width = text_size(font, label).x;
-    // The unit takes the place of the last label where both would stand.
-    if (low.x + width / 2 + gap > unit_x) continue;
+    // A last label for which the unit leaves no room stands before it.
+    if (low.x + width / 2 + gap > unit_x) {
+      if (unit_x - width - gap > free_x) last = label + " " + x_unit;
+      continue;
+    }
     draw_text(brush_, font, {low.x - width / 2, low.y + gap / 2}, kMutedColor, label);
+    free_x = low.x + width / 2 + gap;
   }
-  draw_text(brush_, font, im(unit_x, area_.bottom() + gap / 2), kMutedColor, x_unit);
+  draw_text_before(brush_, font, im(area_.right(), area_.bottom() + gap / 2), kMutedColor, last);
 }
 
 ImVec2 Plot::at(double x, double y) const {

@@ -77,6 +77,20 @@ double highest_speed_px_s(const Timeline& timeline) {
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
 }
 
+/// The speeds whose force a hand does not feel: the dead zone of the controller, and what is weaker
+/// than kFeltForce_N.
+void shade_unfelt(const Brush& brush, const Plot& plot, const std::vector<double>& curve_N,
+                  double highest_px_s) {
+  const auto felt = std::find_if(curve_N.begin(), curve_N.end(),
+                                 [](double force_N) { return force_N >= kFeltForce_N; });
+  if (felt == curve_N.begin()) return;
+  const double share = static_cast<double>(felt - curve_N.begin()) / (kCurvePoints - 1);
+  const Rect& area = plot.area();
+  const ImVec2 low = plot.at(std::min(share, 1.0) * highest_px_s, 0);
+  brush.list.AddRectFilled(upper_left(area), {low.x, static_cast<float>(area.bottom())},
+                           faded(kTextColor, 28));
+}
+
 }  // namespace
 
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline) {
@@ -84,8 +98,8 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
   std::string note;
   if (!moments.empty()) {
     const Wrench& felt = moments.back().felt;
-    note = number("%.2f N, ", felt.force_N.norm()) +
-           number("%.0f mN m delivered", 1e3 * felt.torque_Nm.norm());
+    note =
+        number("%.2f N, ", felt.force_N.norm()) + number("%.0f mN m", 1e3 * felt.torque_Nm.norm());
   }
   const Rect content = draw_panel(brush, panel, "Force", note);
   const double end_s = timeline.newest_s(), begin_s = end_s - timeline.plotted_s();
@@ -136,11 +150,13 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const double highest_px_s = highest_speed_px_s(timeline);
   const ControllerSettings other = with_values(controller, settings.other());
   const double most_N = std::max({controller.max_force_N, other.max_force_N, kLeastForce_N});
-  const PlotAxis x = make_axis(0, highest_px_s, Plot::steps_across(brush, content.width));
+  const int steps = std::max(2, Plot::steps_across(brush, content.width));
+  const PlotAxis x = make_axis(0, highest_px_s, steps);
   const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "px/s", "N");
   const auto draw_curve = [&](const ControllerSettings& of, ImU32 color) {
     const std::vector<double> curve_N = timeline.gain_curve(of, highest_px_s, kCurvePoints);
+    if (&of == &controller) shade_unfelt(brush, plot, curve_N, highest_px_s);
     std::vector<PlotPoint> curve;
     for (size_t i = 0; i < curve_N.size(); ++i) {
       curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});

@@ -47,8 +47,9 @@ Fonts load_fonts(double scale) {
 }
 
 void set_style(double scale) {
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();  // it may have been scaled before
+  ImGui::StyleColorsDark();
   style.WindowRounding = style.PopupRounding = static_cast<float>(kRounding_px);
   style.FrameRounding = style.GrabRounding = style.ScrollbarRounding = 4;
   style.ScaleAllSizes(static_cast<float>(scale));
@@ -77,8 +78,8 @@ void draw_label(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                 const std::string& text) {
   const ImVec2 size = text_size(font, text);
   const float x = brush.px(5), y = brush.px(2);
-  brush.list.AddRectFilled(at, {at.x + size.x + 2 * x, at.y + size.y + 2 * y},
-                           IM_COL32(12, 14, 18, 205), brush.px(4));
+  brush.list.AddRectFilled(at, {at.x + size.x + 2 * x, at.y + size.y + 2 * y}, kLabelColor,
+                           brush.px(4));
   draw_text(brush, font, {at.x + x, at.y + y}, color, text);
 }
 

@@ -13,6 +13,7 @@ namespace spidar {
 constexpr ImU32 kBackColor = IM_COL32(17, 19, 24, 255);
 constexpr ImU32 kPanelColor = IM_COL32(26, 29, 36, 255);
 constexpr ImU32 kBorderColor = IM_COL32(44, 49, 60, 255);
+constexpr ImU32 kLabelColor = IM_COL32(12, 14, 18, 205);  ///< ground of text on a picture
 constexpr ImU32 kGridColor = IM_COL32(48, 53, 64, 255);
 constexpr ImU32 kLineColor = IM_COL32(96, 104, 120, 255);
 constexpr ImU32 kTextColor = IM_COL32(226, 230, 237, 255);

@@ -16,10 +16,11 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
 /// The largest force in each part of the width.
 std::vector<PlotPoint> profile(const Timeline& timeline, size_t parts) {
   std::vector<PlotPoint> points;
-  const double part_s = Timeline::kMemory_s / static_cast<double>(parts);
-  double x = 0.5 * part_s - Timeline::kMemory_s;
+  const double whole_s = timeline.remembered_s();
+  const double part_s = whole_s / static_cast<double>(parts);
+  double x = 0.5 * part_s - whole_s;
   for (const ForceColumn& column :
-       timeline.columns(timeline.newest_s() - Timeline::kMemory_s, timeline.newest_s(), parts)) {
+       timeline.columns(timeline.newest_s() - whole_s, timeline.newest_s(), parts)) {
     if (!column.is_empty) points.push_back({x, column.most_N});
     x += part_s;
   }
@@ -94,7 +95,8 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
   const Rect content{left.x + button + margin, panel.y + 4 * brush.scale,
                      std::max(left.width - button - margin, 1.0),
                      std::max(panel.height - 10 * brush.scale - below, 1.0)};
-  const PlotAxis x = make_axis(-Timeline::kMemory_s, 0, Plot::steps_across(brush, content.width));
+  const PlotAxis x =
+      make_axis(-timeline.remembered_s(), 0, Plot::steps_across(brush, content.width));
   const std::vector<PlotPoint> force =
       profile(timeline, static_cast<size_t>(std::max(content.width / 2, 1.0)));
   double largest_N = 0;

@@ -142,7 +142,8 @@ void pass(Wire& wire, Setting::Choice& choice) {
 
 template <typename Wire>
 void pass(Wire& wire, Setting& setting) {
-  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices);
+  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices,
+       setting.usual);
   wire.choice(setting.kind, Setting::Kind::kNumber);
 }
 

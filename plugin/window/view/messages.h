@@ -23,7 +23,7 @@ namespace spidar {
 
 /// To be raised when a message changes: a player and a window of different versions report it
 /// instead of misunderstanding each other.
-constexpr uint16_t kWindowProtocol = 4;
+constexpr uint16_t kWindowProtocol = 5;
 
 // --- to the window
 

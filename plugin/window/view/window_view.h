@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/choice/feel_rules.h"
+#include "core/force/motion_rendering.h"
 #include "plugin/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
@@ -29,6 +30,7 @@ struct Setting {
   Kind kind = Kind::kNumber;
   double value = 0, low = 0, high = 0;
   std::vector<Choice> choices;
+  double usual = 0;  ///< of a number: what it is until somebody sets it
 };
 
 /// The element as it is now.
@@ -54,11 +56,14 @@ struct ElementState {
   }
 };
 
-/// "felt", or "not felt: " and why, for the last line of the window. While the surface is felt also
-/// that the device gets less stiffness than is set.
-inline std::string felt_line(const ElementState& state, const TouchScene& touch = {}) {
+/// "felt", or "not felt: " and why, for the last line of the window; `now` is the force of this
+/// moment, `no_force` that of the last second. While the surface is felt also that the device gets
+/// less stiffness than is set.
+inline std::string felt_line(const ElementState& state, const TouchScene& touch,
+                             const Wrench& now) {
   if (state.has_ended) return state.no_force;
   if (!state.no_force.empty()) return "not felt: " + state.no_force;
+  if (size_N(now) < kFeltForce_N) return "felt within the last second";
   const double wanted_N_m = state.value("touch-stiffness", 0);
   if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
   char text[96];

@@ -31,6 +31,13 @@ Rect fit(const Rect& outer, double aspect) {
           height};
 }
 
+double text_scale(double screen_scale, int width, int height) {
+  constexpr double kSteps = 8;
+  const double larger =
+      std::min(width / (screen_scale * kUsualWidth_px), height / (screen_scale * kUsualHeight_px));
+  return screen_scale * std::max(1.0, std::floor(kSteps * larger) / kSteps);
+}
+
 WindowLayout lay_out(int width, int height, double scale, bool has_speed) {
   const double w = std::max(width, 1), h = std::max(height, 1);
   const double left = kLeft * w, gap = kGap_px * scale / 2;

@@ -13,6 +13,12 @@ namespace spidar {
 /// The largest rectangle of width / height = `aspect` (> 0) in the middle of `outer`.
 Rect fit(const Rect& outer, double aspect);
 
+/// Of a window when it opens, at a scale of 1.
+constexpr int kUsualWidth_px = 1280, kUsualHeight_px = 800;
+/// Of text and lines: that of the screen, and more in a larger window, by eighths, because each
+/// step draws the fonts anew.
+double text_scale(double screen_scale, int width, int height);
+
 struct WindowLayout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
   Rect grip, tensions, controls;                       ///< right

@@ -71,6 +71,14 @@ void Timeline::zoom(double factor) {
   plotted_s_ = std::clamp(plotted_s_ * factor, kLeastPlotted_s, kMostPlotted_s);
 }
 
+double Timeline::remembered_s() const {
+  const double oldest_s = moments_.empty() ? 0 : newest_s() - moments_.front().time_s;
+  for (const double shown_s : {5.0, 10.0, 20.0, 30.0}) {
+    if (std::max(oldest_s, plotted_s_) <= shown_s) return shown_s;
+  }
+  return kMemory_s;
+}
+
 Timeline::Part Timeline::plotted() const {
   const auto is_before = [](const Moment& moment, double time_s) { return moment.time_s < time_s; };
   return {std::lower_bound(moments_.begin(), moments_.end(), newest_s() - plotted_s_, is_before),

@@ -12,6 +12,12 @@
 
 namespace spidar {
 
+/// Whether two forces are one number to a reader, who sees a decimal.
+inline bool are_same(const Wrench& wanted, const Wrench& delivered) {
+  constexpr double kShown_N = 0.05;
+  return (wanted.force_N - delivered.force_N).norm() < kShown_N;
+}
+
 /// What the plots of speed show of one moment. Times are those of CLOCK_MONOTONIC.
 struct Moment {
   double time_s = 0;
@@ -46,6 +52,9 @@ class Timeline {
   double newest_s() const { return moments_.empty() ? 0 : moments_.back().time_s; }
   /// Oldest first.
   const std::deque<Moment>& moments() const { return moments_; }
+  /// From the oldest moment on, seconds: at least what the plots show, and the whole memory once
+  /// most of it is full. One of few round numbers, so that an axis of it seldom changes.
+  double remembered_s() const;
   /// What the plots show, seconds.
   double plotted_s() const { return plotted_s_; }
   /// They show `factor` times as long.
