@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """Prints what spidarmotion attaches to each frame of FILE, or of the ball of videotestsrc.
 
-Needs python3-gi and gir1.2-gstreamer-1.0, and GST_PLUGIN_PATH as in docs/start.md.
+Needs python3-gi, gir1.2-gstreamer-1.0 and gir1.2-gst-plugins-base-1.0, and GST_PLUGIN_PATH as in docs/start.md.
 """
 import argparse
 import sys
@@ -11,17 +11,32 @@ import sys
 import gi
 
 gi.require_version("Gst", "1.0")
-from gi.repository import Gst  # noqa: E402
+gi.require_version("GstVideo", "1.0")
+from gi.repository import GLib, Gst, GstVideo  # noqa: E402
+
+
+def objects(buffer, tracks):
+    """The regions of the frame's objects, whose ids are those of the tracks."""
+    for number in sorted({track[5] for track in tracks} - {0}):
+        region = GstVideo.buffer_get_video_region_of_interest_meta_id(buffer, number)
+        if region is not None and GLib.quark_to_string(region.roi_type) == "spidar-object":
+            yield region
 
 
 def read(_pad, info):
-    meta = info.get_buffer().get_custom_meta("GstSpidarMotionMeta")
+    buffer = info.get_buffer()
+    meta = buffer.get_custom_meta("GstSpidarMotionMeta")
     if meta is not None:
         get = meta.get_structure().get_value
         tracks = get("tracks").unpack()  # [(id, from x, from y, to x, to y, object), ...]
         print(f"{get('running-time') / Gst.SECOND:7.3f} s  "
               f"velocity {get('velocity-x'):7.1f} {get('velocity-y'):7.1f} px/s  "
               f"force {get('force-x'):6.2f} {get('force-y'):6.2f} N  {len(tracks)} tracks")
+        for region in objects(buffer, tracks):
+            motion = region.get_param("spidar-motion").get_value
+            print(f"    object {region.id} at {region.x},{region.y}, {region.w} x {region.h} px: "
+                  f"{motion('velocity-x'):.1f} {motion('velocity-y'):.1f} px/s"
+                  + (", felt" if motion("felt") else ""))
     return Gst.PadProbeReturn.OK
 
 

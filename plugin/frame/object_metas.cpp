@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
+
+#include <gst-spidar/gstspidarobjectmeta.h>
 
 #include "plugin/frame/frame_luma.h"
 
 namespace spidar {
 namespace {
+
+static_assert(std::string_view(kObjectName) == GST_SPIDAR_OBJECT_TYPE);
 
 const char* text_of(GQuark quark) {
   const char* const text = g_quark_to_string(quark);
@@ -41,13 +46,13 @@ ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width,
 
 GstStructure* motion_of_object(const MovingObject& object, bool felt, int width, int height) {
   return gst_structure_new(
-      "spidar-motion", "width", G_TYPE_UINT, static_cast<guint>(width), "height", G_TYPE_UINT,
-      static_cast<guint>(height), "velocity-x", G_TYPE_DOUBLE, object.relative_px_s.x(),
-      "velocity-y", G_TYPE_DOUBLE, object.relative_px_s.y(), "screen-velocity-x", G_TYPE_DOUBLE,
-      object.on_screen_px_s.x(), "screen-velocity-y", G_TYPE_DOUBLE, object.on_screen_px_s.y(),
-      "velocity-error", G_TYPE_DOUBLE, object.error_px_s, "growth", G_TYPE_DOUBLE,
-      object.growth_1_s, "roll", G_TYPE_DOUBLE, object.roll_rad_s, "felt", G_TYPE_BOOLEAN,
-      felt ? TRUE : FALSE, nullptr);
+      GST_SPIDAR_OBJECT_PARAM, "width", G_TYPE_UINT, static_cast<guint>(width), "height",
+      G_TYPE_UINT, static_cast<guint>(height), "velocity-x", G_TYPE_DOUBLE,
+      object.relative_px_s.x(), "velocity-y", G_TYPE_DOUBLE, object.relative_px_s.y(),
+      "screen-velocity-x", G_TYPE_DOUBLE, object.on_screen_px_s.x(), "screen-velocity-y",
+      G_TYPE_DOUBLE, object.on_screen_px_s.y(), "velocity-error", G_TYPE_DOUBLE, object.error_px_s,
+      "growth", G_TYPE_DOUBLE, object.growth_1_s, "roll", G_TYPE_DOUBLE, object.roll_rad_s, "felt",
+      G_TYPE_BOOLEAN, felt ? TRUE : FALSE, nullptr);
 }
 
 }  // namespace

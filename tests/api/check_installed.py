@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 PROFILE = "only-in-the-moved-folder"
-HEADERS = {"c-api.h", "device.h", "export.h", "gstspidarmotionmeta.h", "motion.h", "picture.h", "wrench.h"}
+HEADERS = {"c-api.h", "device.h", "export.h", "gstspidarmotionmeta.h", "gstspidarobjectmeta.h", "motion.h", "picture.h", "wrench.h"}
 MANUALS = ("spidar-feel.1", "spidarctl.1", "spidartrack.1")
 META_PROGRAM = """
 #include <gst-spidar/gstspidarmotionmeta.h>

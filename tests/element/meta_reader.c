@@ -2,9 +2,11 @@
 /* Copyright 2026 the gst-spidar authors */
 /* A program in C that reads the meta. */
 #include <gst-spidar/gstspidarmotionmeta.h>
+#include <gst-spidar/gstspidarobjectmeta.h>
 
 gboolean read_motion_in_c (GstBuffer * buffer, GstSpidarFrameMotion * motion);
 GArray *read_tracks_in_c (GstBuffer * buffer);
+GArray *read_objects_in_c (GstBuffer * buffer);
 
 gboolean
 read_motion_in_c (GstBuffer * buffer, GstSpidarFrameMotion * motion)
@@ -16,4 +18,10 @@ GArray *
 read_tracks_in_c (GstBuffer * buffer)
 {
   return gst_buffer_get_spidar_tracks (buffer);
+}
+
+GArray *
+read_objects_in_c (GstBuffer * buffer)
+{
+  return gst_buffer_get_spidar_objects (buffer);
 }

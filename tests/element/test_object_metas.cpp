@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <gst-spidar/gstspidarobjectmeta.h>
 #include <gst/video/video.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +14,8 @@
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"
+
+extern "C" GArray* read_objects_in_c(GstBuffer* buffer);
 
 namespace spidar::test::object_metas_test {
 namespace {
@@ -142,6 +145,35 @@ TEST_F(ObjectMetas, HaveTheBoxAndTheVelocityOfEachObject) {
     EXPECT_EQ(found, 1) << disc;
   }
   EXPECT_EQ(felt, 1);
+}
+
+TEST_F(ObjectMetas, AreReadByAProgramInC) {
+  open("attach-meta=true");
+  for (int n = 1; n < 12; ++n) gst_buffer_unref(next());
+  GstBuffer* const out = next();
+  const std::vector<Region> regions = regions_of(out);
+  GArray* const objects = read_objects_in_c(out);
+  ASSERT_EQ(regions.size(), 3u);
+  ASSERT_EQ(objects->len, 2u) << "not the face";
+  for (guint i = 0; i < objects->len; ++i) {
+    const auto& object = g_array_index(objects, GstSpidarObject, i);
+    const Region& region = regions[i + 1];
+    EXPECT_EQ(object.id, static_cast<guint>(region.id));
+    EXPECT_EQ(Vector2d(object.x, object.y), Vector2d(region.x, region.y));
+    EXPECT_EQ(Vector2d(object.w, object.h), Vector2d(region.width, region.height));
+    EXPECT_EQ(Vector2d(object.width, object.height), Vector2d(kWidth, kHeight));
+    EXPECT_EQ(Vector2d(object.velocity_x, object.velocity_y), region.velocity_px_s);
+    EXPECT_EQ(Vector2d(object.screen_velocity_x, object.screen_velocity_y), region.screen_px_s);
+    EXPECT_EQ(object.velocity_error, region.error_px_s);
+    EXPECT_EQ(object.felt != FALSE, region.felt);
+  }
+  g_array_unref(objects);
+  gst_buffer_unref(out);
+  GstBuffer* const plain = gst_buffer_new();
+  GArray* const none = read_objects_in_c(plain);
+  EXPECT_EQ(none->len, 0u);
+  g_array_unref(none);
+  gst_buffer_unref(plain);
 }
 
 TEST_F(ObjectMetas, OfTheFeltObjectTheMessageHasTheErrorToo) {

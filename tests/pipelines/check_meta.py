@@ -20,7 +20,14 @@ def check_example():
                            text=True).stdout.splitlines()
     row = re.compile(
         r" *([0-9.]+) s  velocity +(\S+) +(\S+) px/s  force +(\S+) +(\S+) N  ([0-9]+) tracks")
-    rows = [[float(value) for value in row.fullmatch(line).groups()] for line in lines]
+    thing = re.compile(r"    object 1 at (\d+),(\d+), (\d+) x (\d+) px: \S+ \S+ px/s, felt")
+    boxes = [[int(value) for value in thing.fullmatch(line).groups()]
+             for line in lines if line.startswith("    object")]
+    assert len(boxes) > 20, f"the ball is an object in {len(boxes)} frames"
+    for x, y, w, h in boxes:  # the ball's radius is 20 px, the picture's size 320 x 240
+        assert 40 <= w < 110 and 40 <= h < 110 and x + w <= 320 and y + h <= 240, (x, y, w, h)
+    rows = [[float(value) for value in row.fullmatch(line).groups()]
+            for line in lines if not line.startswith("    object")]
     assert len(rows) == 30, f"{len(rows)} frames, not 30"
     # The ball flies: after the first frame there are tracks. It is an object from the second pair of
     # frames on, and the force goes the way of the motion, whose y axis points down, apart from the
