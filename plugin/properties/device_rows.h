@@ -14,7 +14,7 @@ Property<Settings> profile_row() {
   return Property<Settings>::text(
       {"profile", "Profile",
        "Geometry and motors of the device: name of a shipped profile, or a .toml file. Motors of "
-       "a real board get no force without one"},
+       "a real board get no force without one. Read from NULL to READY"},
       kNull, KEPT_IN(profile));
 }
 

@@ -79,26 +79,25 @@ std::vector<MotionRow> feel_rows() {
             "ten times the one that is set) and a dead zone for slow motions",
             "adaptive"}},
           kControllable, KEPT_IN(analyzer.controller.kind)),
-      with(
-          MotionRow::choice<MotionKind>(
-              {"motion", "Motion", "Which motion in the picture is rendered as force"},
-              "GstSpidarFeltMotion",
-              {{MotionKind::kMean,
-                "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
-                "closest to the paper (eq. 1-10)",
-                "mean"},
-               {MotionKind::kObject,
-                "The dominant object relative to the background; no force when only the camera "
-                "moves",
-                "object"},
-               {MotionKind::kObjects,
-                "All objects relative to the background, weighted by area and by distance from the "
-                "pointer",
-                "objects"},
-               {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
-                "camera"}},
-              kControllable, KEPT_IN(analyzer.motion)),
-          follow_motion),
+      with(MotionRow::choice<MotionKind>(
+               {"motion", "Motion", "Which motion in the picture is rendered as force"},
+               "GstSpidarFeltMotion",
+               {{MotionKind::kMean,
+                 "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
+                 "closest to the paper (eq. 1-10)",
+                 "mean"},
+                {MotionKind::kObject,
+                 "The one object that stands out most, relative to the background; no force when "
+                 "only the camera moves",
+                 "object"},
+                {MotionKind::kObjects,
+                 "All objects at once: their mean relative to the background, weighted by area and "
+                 "by distance from the pointer",
+                 "objects"},
+                {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
+                 "camera"}},
+               kControllable, KEPT_IN(analyzer.motion)),
+           follow_motion),
       MotionRow::text(
           {"feel", "Feel",
            "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, or the rules "
