@@ -21,7 +21,8 @@ const pen = {
   closePath() {}, stroke() {},
 };
 const part = (more) => ({ addEventListener() {}, ...more });
-const film = part({ clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0, readyState: 4 });
+const on = {};
+const film = part({ addEventListener(name, call) { on[name] = call; }, clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0, readyState: 4 });
 const parts = {
   track: { textContent: data }, film, said: part(), wide: part(), pad: part(), rumble: part({ checked: true }),
   arrow: { getContext: () => pen },
@@ -48,6 +49,18 @@ film.paused = true;
 pulses = [];
 vibrated_ms = [];
 for (let i = 0; i < 3; ++i) every();
+/** Where it plays from after it was opened, and after this was done to it. */
+const playedFrom = (change) => {
+  film.currentTime = 0;
+  on.loadedmetadata();
+  change();
+  on.seeking();
+  on.play();
+  return film.currentTime;
+};
+let poster_s = null;
+const begins_s = playedFrom(() => { poster_s = film.currentTime; });
+const sought_s = playedFrom(() => { film.currentTime = poster_s / 2; });
 console.log(JSON.stringify({
-  moments, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
+  poster_s, begins_s, sought_s, moments, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
   most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));

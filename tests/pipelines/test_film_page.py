@@ -102,6 +102,11 @@ class FilmPage(track_case.TrackCase):
         shown = self.assert_shows(self.samples("a film.avi.haptic.wav"), tolerance_N)
         self.assertEqual((shown["url"], shown["title"]), ("a%20film.avi", "a film.avi"))
         self.assertGreater(max(map(len, (moment["pulses"] for moment in shown["moments"]))), 0)
+        # Before it plays, the page shows the moment of the largest force; a seek of the user is kept.
+        poster_s = shown["poster_s"]
+        self.assertAlmostEqual(math.hypot(*mean_force(self.samples("a film.avi.haptic.wav"), round(100 * poster_s))),
+                               shown["most_N"], delta=math.sqrt(3) * tolerance_N)
+        self.assertEqual((shown["begins_s"], shown["sought_s"]), (0, poster_s / 2))
 
     @track_case.needs("node")
     def test_a_pause_ends_the_vibration_once(self):
