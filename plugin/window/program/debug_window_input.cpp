@@ -123,8 +123,8 @@ std::string DebugWindow::hint() const {
   const std::string track =
       report_.track ? "Playing " + report_.track->substr(report_.track->rfind('/') + 1) + ". " : "";
   if (has_clicked_) return track;
-  const char* const choosing = "A click on an object has it felt in this scene. ";
-  const char* const leading = "The left button, held in the picture, moves the simulated hand.";
+  const char* const choosing = "Click an object to feel it in this scene. ";
+  const char* const leading = "Hold the left button in the picture to move the simulated hand.";
   return track + (offers_choice(report_) && !report_.frame.objects.empty() ? choosing : "") +
          (offers_hand() ? leading : "");
 }
