@@ -199,8 +199,15 @@ ShownPicture DebugWindow::shown_picture() const {
   picture.max_force_N = report_.controller.max_force_N;
   picture.detail = detail_;
   picture.requested = requested_;
-  if (state_.device && are_same(state_.device->last.wanted, state_.device->last.delivered))
-    picture.delivered_N = state_.device->last.delivered.force_N.norm();
+  if (state_.device) {
+    // The loop is between two frames; the arrow of this one has no other length to the eye.
+    constexpr double kUnseen = 0.2;
+    const Eigen::Vector3d& asked_N = report_.frame.wrench.force_N;
+    const TickRecord& last = state_.device->last;
+    const bool is_arrow = (last.delivered.force_N - asked_N).norm() < kUnseen * asked_N.norm();
+    if (is_arrow && are_same(last.wanted, last.delivered))
+      picture.delivered_N = last.delivered.force_N.norm();
+  }
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
