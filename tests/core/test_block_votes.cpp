@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Which blocks vote on the motion of the camera, and how much each vote counts.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +47,37 @@ TEST(BlockVotes, CountTwiceInTheTwoColumnsAndRowsAtEachBorder) {
   }
   // The texture is alike everywhere; what comes into the picture fits less well.
   EXPECT_GT(sum[true] / count[true], 1.5 * sum[false] / count[false]);
+}
+
+/// Whether the votes are lost when as many pixels from the middle show another texture as before,
+/// and all around is plain.
+bool are_lost(double reach_px) {
+  const Texture before(1, 8), after(2, 8);
+  BlockField field;
+  for (const Texture* texture : {&before, &after}) {
+    Picture picture(kFieldWidth, kFieldHeight);
+    picture.fill([&](double x, double y) {
+      const bool is_inside =
+          std::max(std::abs(x - kFieldWidth / 2.0), std::abs(y - kFieldHeight / 2.0)) < reach_px;
+      return is_inside ? texture->at(x, y) : 128;
+    });
+    PaddedImage padded;
+    reduce_blocks(picture.view(), 1, padded);
+    padded.repeat_border();
+    field.update(padded);
+  }
+  const std::vector<float> persistence;
+  const std::vector<uint8_t> burned_in;
+  BackgroundVotes votes;
+  collect_edges(field, {persistence, burned_in}, votes);
+  return votes.are_lost;
+}
+
+TEST(BlockVotes, AreNotLostWhereOneThingIsThatIsSmall) {
+  // It touches three by three blocks at most, and twelve say something.
+  EXPECT_FALSE(are_lost(kBlock_px));
+  // Six by six at least.
+  EXPECT_TRUE(are_lost(3 * kBlock_px));
 }
 
 }  // namespace

@@ -92,6 +92,19 @@ bool has_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
   return corners > kCoarser * kCoarser / 2;
 }
 
+/// Whether more of the picture is lost than found, and more than says nothing: a ball that bounces
+/// before a plain wall may be all that is lost.
+bool is_new(const BlockField& field) {
+  size_t lost = 0;
+  size_t found = 0;
+  for (size_t i = 0; i < field.blocks().size(); ++i) {
+    const BlockField::Match match = field.match_of(i);
+    lost += match == BlockField::Match::kLost;
+    found += match == BlockField::Match::kFound;
+  }
+  return lost > found && lost >= kLeastVotes;
+}
+
 }  // namespace
 
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
@@ -102,7 +115,7 @@ void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& v
   if (!collect(field, past, Voters::kEdgesToo, votes)) {
     collect(field, past, Voters::kTextured, votes);
   }
-  votes.are_lost = field.are_lost([](size_t) { return true; });
+  votes.are_lost = is_new(field);
 }
 
 void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
