@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -141,6 +142,28 @@ TEST(DominantObject, GoesOnAtOnceWithWhatIsAtThePlaceOfALostOne) {
     choice(dominant, {object(1, 10)}, kLong);
     there.position_px.x() = x_px;
     EXPECT_EQ(choice(dominant, {lost, there}), expected) << x_px;
+  }
+}
+
+TEST(DominantObject, GoesOnAtOnceWithWhatAppearsWhereALostOneMayHaveTurnedTo) {
+  // A ball that falls by 18 px a frame bounces where it is not seen: it is expected below.
+  MovingObject ball = object(1, 10);
+  ball.size_px << 40, 40;
+  ball.on_screen_px_s.y() = 18 / kFrame_s;
+  MovingObject lost = out_of_sight(1);
+  lost.size_px = ball.size_px;
+  lost.position_px.y() = 2 * 18;
+  MovingObject above = object(3, 9);
+  above.size_px = ball.size_px;
+  // In a frame it gets 18 px from where it was; each is 40 px high.
+  for (const auto& [y_px, known, expected] :
+       {std::tuple(-57, false, 3u), {-59, false, 1u}, {-57, true, 1u}}) {
+    DominantObject dominant;
+    above.position_px.y() = y_px;
+    MovingObject before = above;
+    before.id = known ? above.id : 2;
+    choice(dominant, {ball, before}, kLong);
+    EXPECT_EQ(choice(dominant, {lost, above}), expected) << y_px << (known ? ", known" : "");
   }
 }
 

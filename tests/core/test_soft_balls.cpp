@@ -45,14 +45,14 @@ std::vector<Vector2d> path(double radius_px) {
 
 /// Fraction of the moving frames in which the ball's motion is right, as in the benchmark of real
 /// films: within 30 degrees and a factor of 2.
-double right_fraction(double radius_px, double edge_px) {
+double right_fraction(double radius_px, double edge_px, double noise_grey = 2) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 1);
   std::vector<double> wall(kWidth * kHeight);
-  for (double& grey : wall) grey = 75 + 2 * noise(random);
+  for (double& grey : wall) grey = 75 + noise_grey * noise(random);
   // Every frame begins at another position of it.
   std::vector<double> grain(2 * kWidth * kHeight);
-  for (double& grey : grain) grey = noise(random);
+  for (double& grey : grain) grey = noise_grey / 2 * noise(random);
   const std::vector<Vector2d> positions = path(radius_px);
   Picture picture(kWidth, kHeight);
   MotionAnalyzer analyzer;
@@ -96,6 +96,17 @@ TEST_P(SoftBall, IsFollowedHoweverFarOutOfFocus) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Radii, SoftBall, testing::Values(20, 40, 60));
+
+TEST(SharpBall, IsFollowedHoweverSmall) {
+  // It begins to move three times, of which each may take two of at least 84 frames; it bounces
+  // twice, of which each may take one.
+  for (const double noise_grey : {0.0, 2.0}) {
+    for (const int radius_px : {8, 10, 14, 16, 30, 45}) {
+      EXPECT_GE(right_fraction(radius_px, 2, noise_grey), 1 - 8 / 84.0)
+          << "radius of " << radius_px << " px, noise of " << noise_grey;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace spidar::test::soft_balls_test

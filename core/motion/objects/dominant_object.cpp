@@ -29,6 +29,13 @@ bool takes_place(const MovingObject& object, const MovingObject& hidden) {
 
 }  // namespace
 
+/// Whether an object is where the followed one may have gone since it was seen last, whichever way
+/// it has turned, and has not been known before.
+bool DominantObject::may_be_it(const MovingObject& object) const {
+  if (object.id <= newest_id_) return false;
+  return last_box_px_.intersects(object.box_px());
+}
+
 DominantObject::DominantObject() {
   rivals_.reserve(kMostRivals);
   next_.reserve(kMostRivals);
@@ -52,7 +59,15 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   // Objects that leave the picture are dropped.
   const bool is_free = id_ == 0 || (followed && followed->has_left);
   const bool in_sight = followed && followed->tracks > 0 && !is_free;
-  if (in_sight) lost_s_ = 0;
+  if (in_sight) {
+    lost_s_ = 0;
+    last_box_px_ = followed->box_px();
+    last_speed_px_s_ = followed->on_screen_px_s.norm();
+    newest_id_ = objects.back().id;
+  } else {
+    const Eigen::Vector2d reach_px = Eigen::Vector2d::Constant(last_speed_px_s_ * interval_s);
+    last_box_px_ = {last_box_px_.min() - reach_px, last_box_px_.max() + reach_px};
+  }
   // In the frame that is nearest to that time.
   const double enough_s = std::max(0.0, kReason_s - interval_s / 2);
   const double least_s = in_sight ? -kReason_s : 0;
@@ -64,7 +79,8 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
         interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
-    const bool continues = followed && followed->tracks == 0 && takes_place(object, *followed);
+    const bool continues =
+        followed && followed->tracks == 0 && (takes_place(object, *followed) || may_be_it(object));
     const bool may_take_over = is_free || continues || reason_s > enough_s;
     if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;

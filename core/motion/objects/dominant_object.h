@@ -26,6 +26,8 @@ namespace spidar {
 /// lost: after twice kReason_s it is followed at once. So are the first object, any object after
 /// the followed one has left at the border of the picture, and one that covers half of the position
 /// at which the followed one would be while it is out of sight: it is a part of the same object.
+/// One that first appears where the followed one may have gone since it was lost, however it has
+/// turned, is that object: a ball that bounces in a frame in which it is not found.
 class DominantObject {
  public:
   DominantObject();
@@ -49,9 +51,14 @@ class DominantObject {
   };
 
   double reason_before(uint32_t id) const;
+  bool may_be_it(const MovingObject& object) const;
 
-  uint32_t id_ = 0;            ///< 0: none
-  double lost_s_ = 0;          ///< since the object that is followed was in sight
+  uint32_t id_ = 0;    ///< 0: none
+  double lost_s_ = 0;  ///< since the object that is followed was in sight
+  /// Its last box, grown by how far it may have got since; how fast it was, the newest object then.
+  Eigen::AlignedBox2d last_box_px_;
+  double last_speed_px_s_ = 0;
+  uint32_t newest_id_ = 0;
   std::vector<Rival> rivals_;  ///< all others of the last frame
   std::vector<Rival> next_;
 };
