@@ -99,7 +99,7 @@ void WrenchTimeline::join_smoothly(Segment& next) noexcept {
   Segment& last = segments_[0];
   const bool has_begun = present_ns_ > last.from_ns;
   const bool is_plain =  // neither late nor bending away from the segment before
-      size() > 1 && last.to_ns == last.frame.time_ns && last.from_ns >= segments_[1].to_ns;
+      size() > 1 && last.to_ns == last.frame.motion_ns() && last.from_ns >= segments_[1].to_ns;
   if (has_begun || !is_plain) return;
   const Wrench before = last.from_rest ? Wrench() : segments_[1].frame.wrench;
   last.to_slope = next.from_slope =
@@ -130,22 +130,22 @@ int64_t WrenchTimeline::soonest(const TimedWrench& before,
 WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noexcept {
   Segment next;
   next.frame = added;
-  next.from_ns = next.to_ns = added.time_ns;
+  const int64_t motion_ns = next.from_ns = next.to_ns = added.motion_ns();
   if (segments_.empty()) return next;
 
   const Segment& last = segments_[0];
   const int64_t soonest_ns = soonest(last.frame, added);
-  const bool is_late = std::max(soonest_ns, last.to_ns) > added.time_ns;
+  const bool is_late = std::max(soonest_ns, last.to_ns) > motion_ns;
   if (is_late) {
     // When the last frame has expired, the force is on its way to rest already, and there is no
     // curve over which to fade in.
     const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);
     if (at_rest) return next;
     next.from_ns = std::max(present_ns_, last.from_ns);
-    next.to_ns = std::max(soonest_ns, added.time_ns);
-  } else if (is_gap(last.frame, added.time_ns)) {
+    next.to_ns = std::max(soonest_ns, motion_ns);
+  } else if (is_gap(last.frame, motion_ns)) {
     next.from_rest = true;
-    next.from_ns = std::max(present_ns_, added.time_ns - kRamp_ns);
+    next.from_ns = std::max(present_ns_, motion_ns - kRamp_ns);
   } else {
     next.from_ns = std::max(present_ns_, last.to_ns);
     join_smoothly(next);
@@ -154,15 +154,23 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
 }
 
 bool WrenchTimeline::push(const TimedWrench& added) noexcept {
-  if (!segments_.empty()) {
-    TimedWrench& last = segments_[0].frame;
-    if (added.time_ns <= last.time_ns) return false;
-    if (added.repeated) {
-      if (!has_expired(last, present_ns_)) hold_until(last, added);
-      return true;
-    }
+  if (segments_.empty()) {
+    segments_.add(segment_to(added));
+    return true;
   }
-  segments_.add(segment_to(added));
+  TimedWrench& last = segments_[0].frame;
+  if (added.time_ns <= last.time_ns) return false;
+  if (added.repeated) {
+    if (!has_expired(last, present_ns_)) hold_until(last, added);
+    return true;
+  }
+  TimedWrench next = added;
+  const uint64_t most_ns =
+      std::min<uint64_t>(elapsed_ns(last.time_ns, added.time_ns) - 1, INT64_MAX);
+  next.before_ns = is_gap(last, added.time_ns)
+                       ? 0
+                       : std::clamp<int64_t>(added.before_ns, 0, static_cast<int64_t>(most_ns));
+  segments_.add(segment_to(next));
   return true;
 }
 
@@ -174,19 +182,25 @@ TimelineResult WrenchTimeline::at(int64_t time_ns) noexcept {
   if (later == size()) return result;
 
   const Segment& reached = segments_[later];
-  const uint64_t since_ns = elapsed_ns(reached.frame.time_ns, time_ns);
   result.frame_time_ns = reached.frame.time_ns;
+  result.late_ns = reached.to_ns - reached.frame.motion_ns();
   size_t begun = 0;
   while (begun + 1 < size() && segments_[begun].from_ns > time_ns) ++begun;
-  if (since_ns == 0 && reached.to_ns == time_ns) {
-    result.wrench = reached.frame.wrench;
+  const auto is_met = [&](size_t age) {
+    const Segment& segment = segments_[age];
+    return segment.to_ns == time_ns && segment.frame.motion_ns() == time_ns;
+  };
+  const bool begins = segments_[begun].from_ns == time_ns && begun + 1 < size();
+  if (is_met(begun) || (begins && is_met(begun + 1))) {
+    result.wrench = segments_[is_met(begun) ? begun : begun + 1].frame.wrench;
     result.found = Found::kExact;
   } else if (time_ns < segments_[begun].to_ns) {
     result.wrench = value(begun, time_ns);
     result.found = Found::kInterpolated;
   } else {
+    const TimedWrench& newest = segments_[std::min(begun, later)].frame;
     result.wrench = segments_[begun].frame.wrench;
-    result.found = has_expired(reached.frame, time_ns) ? Found::kExpired : Found::kHeld;
+    result.found = has_expired(newest, time_ns) ? Found::kExpired : Found::kHeld;
   }
   return result;
 }

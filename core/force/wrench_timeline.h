@@ -14,18 +14,23 @@ namespace spidar {
 /// A wrench for one frame.
 struct TimedWrench {
   int64_t time_ns = 0;  ///< running time at which the frame is shown
-  /// With no later frame soon the wrench holds for this long, then it is expired.
+  /// With no later frame soon the wrench holds for this long after `time_ns`, then it is expired.
   int64_t hold_ns = 0;
   Wrench wrench;
   /// The frame shows the picture before again: the wrench of that one holds on, from `time_ns` for
   /// `hold_ns`. `wrench` is the same, for a timeline that has forgotten the frame before.
   bool repeated = false;
+  /// The wrench is that of so long before the frame: a motion that was measured between two
+  /// pictures is that of the time halfway between them.
+  int64_t before_ns = 0;
+
+  int64_t motion_ns() const noexcept { return time_ns - before_ns; }
 };
 
 /// How a wrench was found.
 enum class Found {
   kNothing,       ///< empty, or before the first frame: wrench is zero
-  kExact,         ///< the time of a frame
+  kExact,         ///< the time of a frame, if its wrench is that of the same time
   kInterpolated,  ///< between two frames
   kHeld,          ///< after the last frame, within its hold time
   kExpired,       ///< after that: the wrench is the last one, for a ramp to rest, not to be applied
@@ -35,16 +40,17 @@ struct TimelineResult {
   Wrench wrench;
   Found found = Found::kNothing;
   int64_t frame_time_ns = INT64_MIN;  ///< of the newest frame at or before the time asked for
+  int64_t late_ns = 0;  ///< how much later than its time the wrench of that frame is met
 };
 
 /// A short memory of timed wrenches. Interpolates, never extrapolates. Fixed size, no allocation.
 ///
-/// Between two frames runs a cubic Hermite curve: exact at the frames, its slope continuous there,
-/// each component rising or falling only, and so never outside the two values. Slopes are those of
-/// M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy and
-/// Astrophysics 239 (1990), equation 11, where the frame after is known by the time that the curve
-/// towards a frame begins, and zero where it is not: waiting for it would be delay, and any other
-/// slope could lead past what that frame turns out to be.
+/// Between the times of two wrenches runs a cubic Hermite curve: exact at these, its slope
+/// continuous there, each component rising or falling only, and so never outside the two values.
+/// Slopes are those of M. Steffen, "A simple method for monotonic interpolation in one dimension",
+/// Astronomy and Astrophysics 239 (1990), equation 11, where the frame after is known by the time
+/// that the curve towards a frame begins, and zero where it is not: waiting for it would be delay,
+/// and any other slope could lead past what that frame turns out to be.
 ///
 /// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
 /// holds and expires as if the next frame were not known, and rises from zero to that of the next
@@ -52,8 +58,8 @@ struct TimelineResult {
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// A frame that is known less than approach_after() ahead of its time is met so long after it is
-  /// known, for a step would be felt as a knock. To rest, and from it, it takes kApproach_ns.
+  /// A frame that is known less than approach_after() ahead of its motion is met so long after it
+  /// is known, for a step would be felt as a knock. To rest, and from it, it takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
   /// Fraction of the interval between two frames: the less often pictures change, the more the
   /// force changes at once, and the longer that takes. A force that changes during this fraction of
@@ -82,9 +88,10 @@ class WrenchTimeline {
   static constexpr int64_t kRamp_ns = 40'000'000;
 
   /// Returns false, and ignores the entry, when its time is not later than that of the last one. A
-  /// repeated frame does not shape the curve, which runs from the frame before it to the next
-  /// different one; it only prolongs the hold of the frame before, unless that has expired. When
-  /// the timeline is full, it drops the oldest entry.
+  /// motion before the last frame counts as right after it, and one across a gap as that of its own
+  /// frame. A repeated frame does not shape the curve, which runs from the frame before it to the
+  /// next different one; it only prolongs the hold of the frame before, unless that has expired.
+  /// When the timeline is full, it drops the oldest entry.
   ///
   /// The curve never changes before the time that at() was asked for last, neither in value nor in
   /// slope. A late frame therefore fades in from that time, over what the curve would have been
@@ -109,7 +116,7 @@ class WrenchTimeline {
   struct Segment {
     TimedWrench frame;
     int64_t from_ns = 0;
-    int64_t to_ns = 0;  ///< frame.time_ns, or later
+    int64_t to_ns = 0;  ///< frame.motion_ns(), or later
     Wrench from_slope;  ///< N/s and Nm/s
     Wrench to_slope;
     bool from_rest = false;

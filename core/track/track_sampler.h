@@ -29,14 +29,14 @@ class TrackSampler {
     latest_ns_ = frame.time_ns;
     if (!frame.repeated) {
       before_newest_ns_ = newest_ns_;
-      newest_ns_ = frame.time_ns;
+      newest_ns_ = frame.motion_ns();
     }
     return true;
   }
 
   /// Until this time, future frames do not change the curve, unless they are further than
-  /// `look_ahead_ns` from the last added one: the time of the last but one frame that does not
-  /// repeat a picture.
+  /// `look_ahead_ns` from the last added one: the time of the motion of the last but one frame that
+  /// does not repeat a picture.
   int64_t settled_ns(int64_t look_ahead_ns) const noexcept {
     return std::max(before_newest_ns_, latest_ns_ - look_ahead_ns);
   }
@@ -60,7 +60,7 @@ class TrackSampler {
   WrenchTimeline timeline_;
   int64_t next_ns_ = 0;
   int64_t latest_ns_ = INT64_MIN / 2;  // of all frames added
-  int64_t newest_ns_ = INT64_MIN / 2;  // of those that show a picture of their own
+  int64_t newest_ns_ = INT64_MIN / 2;  // motion of those that show a picture of their own
   int64_t before_newest_ns_ = INT64_MIN / 2;
   int64_t expired_ns_ = 0;  // for how long the wrench has been going to rest
 };

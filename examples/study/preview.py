@@ -63,14 +63,16 @@ def compare(forces_N, limit_N, is_matched):
 
 
 def frames_of(clip, properties, name, limit_N):
-    """Time, ns, and force, N, of each frame, without a device."""
+    """Force, N, of each frame, without a device, and the time, ns, of its motion: halfway since the frame before."""
     with tempfile.TemporaryDirectory() as folder:
         trace = Path(folder, "trace.csv")
         with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
             player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
         with open(trace, encoding="utf-8", newline="") as file:
-            return [[int(row["running_time_ns"]), *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
-                    for row in csv.DictReader(file)]
+            rows = list(csv.DictReader(file))
+        times_ns = [int(row["running_time_ns"]) for row in rows]
+        return [[(before_ns + time_ns) // 2, *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
+                for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)]
 
 
 def measure(clip, properties, limit_N, is_matched, alphas):

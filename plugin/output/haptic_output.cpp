@@ -54,7 +54,8 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       not_negative(session.timing().lateness.quantile_ns(0.999)), "skew-median", G_TYPE_UINT64,
       not_negative(loop.skew().quantile_ns(0.5)), "skew-p99", G_TYPE_UINT64,
       not_negative(loop.skew().quantile_ns(0.99)), "device-late", G_TYPE_UINT64,
-      not_negative(snapshot.late_ns), nullptr);
+      not_negative(snapshot.late_ns), "motion-late", G_TYPE_UINT64,
+      not_negative(snapshot.motion_late_ns), nullptr);
   const Wrench& delivered = snapshot.last.delivered;
   gst_structure_set(structure, "force-x", G_TYPE_DOUBLE, delivered.force_N.x(), "force-y",
                     G_TYPE_DOUBLE, delivered.force_N.y(), "force-z", G_TYPE_DOUBLE,

@@ -72,7 +72,8 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
   void enter(TimedWrench& entry) override { entry.time_ns += skipped_before_ns_; }
   TimedWrench shown(const TimedWrench& entry) const override {
     TimedWrench shown = entry;
-    shown.time_ns = instant_rate_.at_sink(shown.time_ns);
+    shown.time_ns = instant_rate_.at_sink(entry.time_ns);
+    shown.before_ns = shown.time_ns - instant_rate_.at_sink(entry.motion_ns());
     return shown;
   }
 

@@ -83,6 +83,7 @@ static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
   if (gst_buffer_get_spidar_motion(buffer, &motion)) {
     frame.known = true;
     frame.compared = motion.interval > 0;
+    frame.interval_ns = static_cast<int64_t>(motion.interval);
     frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
                     {motion.torque_x, motion.torque_y, motion.torque_z}};
     // A picture that has stood still for long gives no force, so its wrench differs.

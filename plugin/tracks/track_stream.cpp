@@ -155,7 +155,7 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
   const bool follows = frame.compared || frame.repeats;
   if (frame.known) {
     const int64_t hold_ns = follows ? WrenchTimeline::hold_after(since_ns) : 0;
-    sampler_.add({time_ns, hold_ns, frame.wrench, frame.repeats});
+    sampler_.add({time_ns, hold_ns, frame.wrench, frame.repeats, frame.interval_ns / 2});
   }
   last_wrench_ = frame.wrench;
   const int64_t lasts_ns = has_duration ? running_ns(to) - time_ns : -1;

@@ -311,6 +311,7 @@ void HapticLoop::publish(const TickRecord& record) noexcept {
   snapshot.unfelt_ns = unfelt_ns_;
   snapshot.vibration = vibration_.state();
   snapshot.late_ns = record.playing ? schedule_.late_ns() : 0;
+  snapshot.motion_late_ns = schedule_.motion_late_ns();
   snapshot_.store(snapshot);
 }
 

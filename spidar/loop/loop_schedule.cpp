@@ -14,6 +14,7 @@ void LoopSchedule::forget(uint32_t generation) noexcept {
   known_ns_ = INT64_MIN;
   newest_ns_ = INT64_MIN;
   reached_ns_ = INT64_MIN;
+  motion_late_ns_ = 0;
 }
 
 /// Whether an entry was scheduled after a flush that has just taken place: it is for the next tick.
@@ -24,7 +25,7 @@ bool LoopSchedule::is_of_the_future(uint32_t generation) const noexcept {
 void LoopSchedule::take_wrenches(bool playing, int64_t running_ns) noexcept {
   while (const auto* next = wrenches_.front()) {
     if (next->generation == timeline_generation_) {
-      known_ns_ = std::max(known_ns_, next->entry.time_ns);
+      known_ns_ = std::max(known_ns_, next->entry.motion_ns());
       const bool soon = timeline_.size() < 2 || before_newest_ns_ - kHorizon_ns <= running_ns;
       // At a high frame rate there are more frames within the horizon than fit into the timeline,
       // which would drop the frame that is on the screen.
@@ -85,6 +86,7 @@ TimelineResult LoopSchedule::find(bool playing, int64_t running_ns, int64_t lag_
   if (result.found != Found::kNothing && result.frame_time_ns != reached_ns_) {
     reached_ns_ = result.frame_time_ns;
     skew_.add(running_ns + lag_ns - reached_ns_);
+    motion_late_ns_ = result.late_ns;
   }
   return result;
 }

@@ -55,6 +55,9 @@ class LoopSchedule {
 
   /// How much later than its frame the device renders what was found last.
   int64_t late_ns() const noexcept { return look_ahead_.late_ns(); }
+  /// How much later than its motion the wrench of the frame reached last was met, because the frame
+  /// became known too late.
+  int64_t motion_late_ns() const noexcept { return motion_late_ns_; }
 
   /// Wrenches whose time was not later than that of the previous one, since the last call.
   uint64_t take_refused() noexcept;
@@ -86,6 +89,7 @@ class LoopSchedule {
   int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
+  int64_t motion_late_ns_ = 0;
   uint64_t refused_ = 0;
 };
 

@@ -121,6 +121,9 @@ struct LoopSnapshot {
   /// How much later than its frame the device renders a wrench, because the film is not known as
   /// far ahead as the device lags.
   int64_t late_ns = 0;
+  /// How much later than its motion the wrench of the newest frame came, because the frame became
+  /// known too late.
+  int64_t motion_late_ns = 0;
 };
 
 }  // namespace spidar

@@ -23,6 +23,7 @@ const Benchmark kBenchmarks[] = {
     {"camera", camera, "[TEXT]          how the camera moves where little shows it"},
     {"cost", cost, "                the element in a pipeline"},
     {"filter", filter, "                error and delay of the 1 € filter"},
+    {"lag", lag, "                the force behind a motion on the screen"},
     {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
     {"pose", pose, "                the pose solver beside others"},
 #ifdef HAS_REAL_FILM

@@ -18,14 +18,16 @@ Wrench wrench_of(double k) {
   return {{std::sin(k), 2 * std::cos(3 * k), 0.3 * k}, {0.01 * k, 0.1 * std::sin(2 * k), -0.02}};
 }
 
-/// Frames that are not whole milliseconds apart, every fifth of which shows the picture before.
+/// Frames that are not whole milliseconds apart, every fifth of which shows the picture before,
+/// with motions halfway between two pictures.
 std::vector<TimedWrench> film(int frames, int64_t interval_ns) {
   std::vector<TimedWrench> film;
   for (int i = 0; i < frames; ++i) {
     const bool repeated = i % 5 == 4;
     const int shown = repeated ? i - 1 : i;
-    film.push_back(
-        {i * interval_ns, WrenchTimeline::hold_after(interval_ns), wrench_of(shown), repeated});
+    const int64_t apart_ns = i == 0 ? 0 : (i % 5 == 0 ? 2 : 1) * interval_ns;
+    film.push_back({i * interval_ns, WrenchTimeline::hold_after(interval_ns), wrench_of(shown),
+                    repeated, apart_ns / 2});
   }
   return film;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -254,6 +255,90 @@ TEST(WrenchTimeline, CountsFutureFrames) {
   EXPECT_EQ(timeline.size_after(-1), 2u);
   EXPECT_EQ(timeline.size_after(0), 1u);
   EXPECT_EQ(timeline.size_after(kFrame_ns), 0u);
+}
+
+/// Of a motion that rises by 0.01 N a millisecond, as it is halfway between two pictures.
+TimedWrench measured(int64_t before_ms, int64_t ms) {
+  const double middle_ms = 0.5 * static_cast<double>(before_ms + ms);
+  const int64_t kMs = 1'000'000;
+  return {ms * kMs, 0, {{0.01 * middle_ms, 0, 0}, {0, 0, 0}}, false, (ms - before_ms) * kMs / 2};
+}
+
+TEST(WrenchTimeline, AMotionBetweenTwoPicturesIsThatOfTheirMiddle) {
+  WrenchTimeline timeline;
+  int64_t before_ms = 0;
+  for (const int64_t ms : {20, 40, 80, 90, 130, 170}) {
+    timeline.push(measured(before_ms, ms));
+    before_ms = ms;
+  }
+  for (int64_t ms = 30; ms <= 110; ++ms) {
+    const TimelineResult result = timeline.at(1'000'000 * ms);
+    EXPECT_NEAR(result.wrench.force_N.x(), 0.01 * static_cast<double>(ms), 1e-15);
+    EXPECT_EQ(result.found == Found::kExact, ms == 30 || ms == 60 || ms == 85 || ms == 110) << ms;
+    EXPECT_EQ(result.late_ns, 0);
+    const int64_t shown_ms = ms < 40 ? 20 : ms < 80 ? 40 : ms < 90 ? 80 : 90;
+    EXPECT_EQ(result.frame_time_ns, 1'000'000 * shown_ms);
+  }
+}
+
+TEST(WrenchTimeline, WhereEachFrameIsKnownWhenItIsDueTheMotionBeforeItChangesNothing) {
+  for (const int64_t interval_ns : {int64_t{16'666'667}, kFrame_ns, int64_t{83'333'333}}) {
+    SCOPED_TRACE(interval_ns);
+    const int64_t hold_ns = WrenchTimeline::hold_after(interval_ns);
+    WrenchTimeline at_frame, in_the_middle;
+    int64_t next_ns = 0;
+    int n = 0;
+    // Ten frames, and then none until all has expired.
+    for (int64_t now_ns = 0; now_ns < 14 * interval_ns + 4 * kRamp_ns; now_ns += 1'000'000) {
+      for (; n < 10 && next_ns <= now_ns; next_ns += interval_ns, ++n) {
+        const Wrench wrench = wrench_of(1 + n % 3);
+        at_frame.push({next_ns, hold_ns, wrench});
+        in_the_middle.push({next_ns, hold_ns, wrench, false, n > 0 ? interval_ns / 2 : 0});
+      }
+      const TimelineResult expected = at_frame.at(now_ns), result = in_the_middle.at(now_ns);
+      ASSERT_TRUE(same_bits(result.wrench, expected.wrench)) << now_ns;
+      ASSERT_EQ(result.found == Found::kExpired, expected.found == Found::kExpired) << now_ns;
+      ASSERT_EQ(result.frame_time_ns, expected.frame_time_ns) << now_ns;
+    }
+    const int64_t approach_ns =
+        std::min(WrenchTimeline::approach_after(interval_ns), WrenchTimeline::kLatest_ns);
+    // The present is that of the tick before, or of the frame itself.
+    const int64_t late_ns = in_the_middle.at(next_ns).late_ns;
+    EXPECT_LE(late_ns, interval_ns / 2 + approach_ns);
+    EXPECT_GE(late_ns, interval_ns / 2 + approach_ns - 1'000'000);
+  }
+}
+
+TEST(WrenchTimeline, TheMotionOfAFrameThatIsAheadIsHeldUntilItIsShown) {
+  WrenchTimeline timeline;
+  timeline.push({0, 0, Wrench()});  // expires at once
+  TimedWrench next = timed(kFrame_ns, 2);
+  next.before_ns = kFrame_ns / 2;
+  timeline.push(next);
+  const TimelineResult result = timeline.at(kFrame_ns * 3 / 4);
+  EXPECT_EQ(result.found, Found::kHeld);
+  EXPECT_TRUE(same_bits(result.wrench, wrench_of(2)));
+  EXPECT_EQ(timeline.at(2 * kFrame_ns).found, Found::kHeld);
+  EXPECT_EQ(timeline.at(2 * kFrame_ns + 1).found, Found::kExpired);
+}
+
+TEST(WrenchTimeline, AMotionBeforeTheFrameBeforeFollowsThatAtOnce) {
+  WrenchTimeline timeline = two_frames();
+  TimedWrench next = timed(2 * kFrame_ns, 5);
+  next.before_ns = 10 * kFrame_ns;
+  EXPECT_TRUE(timeline.push(next));
+  EXPECT_TRUE(same_bits(timeline.at(kFrame_ns).wrench, wrench_of(3)));
+  EXPECT_TRUE(same_bits(timeline.at(kFrame_ns + 1).wrench, wrench_of(5)));
+}
+
+TEST(WrenchTimeline, AMotionAcrossAGapIsThatOfItsFrame) {
+  WrenchTimeline timeline;
+  timeline.push(timed(0, 1));
+  TimedWrench next = timed(10 * kFrame_ns, 2);
+  next.before_ns = 5 * kFrame_ns;
+  timeline.push(next);
+  EXPECT_EQ(timeline.at(10 * kFrame_ns - kRamp_ns - 1).found, Found::kExpired);
+  EXPECT_EQ(timeline.at(10 * kFrame_ns).found, Found::kExact);
 }
 
 TEST(WrenchTimeline, SpansTheWholeRangeOfTime) {

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/pipelines/stepped_pipeline.h"
 
+#include <iterator>
 #include <utility>
 
 #include <gst/base/gstbasesink.h>
@@ -139,6 +140,7 @@ HapticLoop& SteppedPipeline::loop() {
 }
 
 TickRecord SteppedPipeline::tick() {
+  ticked_ = now();
   return watch_.tick(loop(), monotonic_ns(this));
 }
 
@@ -151,12 +153,36 @@ GstClockTime SteppedPipeline::await(guint waiters) {
   return next;
 }
 
-TickRecord SteppedPipeline::step(guint waiters) {
+int64_t SteppedPipeline::half_frame_ns(GstClockTime next) {
+  const auto frame = wrenches().find(shown_);
+  const bool has_motion = frame != wrenches_.end() && frame != wrenches_.begin() &&
+                          !frame->second.stacked().isZero(0) && state_->track.path().empty();
+  if (!has_motion) return 0;
+  const WrenchBacklog& schedule = state_->schedule;
+  const auto shown_ns = static_cast<int64_t>(shown_);
+  const auto until_ns = static_cast<int64_t>(next) - static_cast<int64_t>(now());
+  const int64_t due_ns = schedule.at_sink_ns(shown_ns) - schedule.skipped_ns();
+  if (due_ns != static_cast<int64_t>(running_time()) + until_ns) return 0;
+  const auto before_ns = static_cast<int64_t>(std::prev(frame)->first);
+  const auto since_ns =
+      static_cast<int64_t>(static_cast<double>(shown_ns - before_ns) / schedule.rate_multiplier());
+  const int64_t half_ns = since_ns / 2;
+  const int64_t passed_ns = static_cast<int64_t>(next) - half_ns - static_cast<int64_t>(ticked_);
+  const bool is_gap = since_ns > WrenchTimeline::kLongestHold_ns + 2 * WrenchTimeline::kRamp_ns;
+  const bool is_there =
+      half_ns <= until_ns && passed_ns >= WrenchTimeline::approach_after(since_ns);
+  return is_there && !is_gap ? half_ns : 0;
+}
+
+TickRecord SteppedPipeline::step(guint waiters, const std::function<void()>& beside) {
   const GstClockTime next = await(waiters);
-  if (next > now()) gst_test_clock_set_time(clock_, next);
-  state_->output.follower().refresh();
   shown_ = taken_;
+  early_ns_ = next > now() ? half_frame_ns(next) : 0;
+  if (next > now()) gst_test_clock_set_time(clock_, next - static_cast<GstClockTime>(early_ns_));
+  state_->output.follower().refresh();
   const TickRecord record = tick();
+  if (beside) beside();
+  if (early_ns_ > 0) gst_test_clock_set_time(clock_, next);
   gst_clock_id_unref(gst_test_clock_process_next_clock_id(clock_));
   return record;
 }

@@ -47,8 +47,12 @@ class SteppedPipeline {
   /// Waits until `waiters` elements wait for the clock; returns the earliest of their times.
   GstClockTime await(guint waiters = 1);
   /// Waits like await(), moves the clock to that time, ticks the loop once, and lets that element
-  /// continue. Returns the record of the tick.
-  TickRecord step(guint waiters = 1);
+  /// continue. Returns the record of the tick, which comes early_ns() before that time: where the
+  /// sink shows a frame with a motion, halfway since the frame before, when that motion is felt.
+  /// It is 0 across a gap, and where the tick before is too near for the force to be there.
+  /// `beside` is called with the tick.
+  TickRecord step(guint waiters = 1, const std::function<void()>& beside = {});
+  int64_t early_ns() const { return early_ns_; }
   /// Moves the clock without letting anything pass, and ticks the loop every millisecond. Returns
   /// the record of the last tick.
   TickRecord idle(GstClockTime duration);
@@ -84,6 +88,7 @@ class SteppedPipeline {
  private:
   void wait_for_state();
   TickRecord tick();
+  int64_t half_frame_ns(GstClockTime next);
   void take(GstMessage* message);
 
   /// Time for the haptic loop; continues when the pipeline's clock is replaced.
@@ -101,6 +106,8 @@ class SteppedPipeline {
   unsigned messages_ = 0;                                 // types seen
   std::atomic<GstClockTime> taken_{GST_CLOCK_TIME_NONE};  // by the sink
   GstClockTime shown_ = GST_CLOCK_TIME_NONE;
+  int64_t early_ns_ = 0;
+  GstClockTime ticked_ = 0;  // at which the loop was ticked last
   std::function<GstClockTime(int, GstClockTime)> pts_;
   int frames_ = 0;  // streaming thread
 };

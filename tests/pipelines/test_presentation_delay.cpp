@@ -24,11 +24,8 @@ void expect_in_time(SteppedPipeline& pipeline, int frames, GstClockTime delay, g
       continue;  // a source's step
     SCOPED_TRACE(running_time);
     ++n;
-    EXPECT_EQ(tick.running_ns, static_cast<int64_t>(running_time));
-    const auto frame = pipeline.wrenches().find(running_time);
-    ASSERT_NE(frame, pipeline.wrenches().end());
-    EXPECT_EQ(tick.found, Found::kExact);
-    EXPECT_EQ(tick.wanted.force_N, frame->second.force_N);
+    EXPECT_EQ(tick.running_ns + pipeline.early_ns(), static_cast<int64_t>(running_time));
+    expect_wrench_of(pipeline, tick, running_time);
     if (tick.wanted.force_N.norm() > 0) ++felt;
   }
   EXPECT_GT(felt, frames / 2);

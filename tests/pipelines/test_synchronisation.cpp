@@ -29,8 +29,8 @@ TEST(Synchronisation, BetweenTwoFramesTheWrenchIsBetweenTheirs) {
   SteppedPipeline pipeline("videotestsrc " + kScene + kSink);
   pipeline.set_state(GST_STATE_PLAYING);
   for (int n = 0; n < 6; ++n) pipeline.step();
-  const GstClockTime from = 5 * kFrame;
-  pipeline.await();  // the next frame has come through the element
+  const GstClockTime from = 5 * kFrame;  // their motions are those of half a frame before
+  pipeline.await();                      // the next frame has come through the element
   const TickRecord tick = pipeline.idle(kFrame / 4);
   ASSERT_TRUE(pipeline.wrenches().count(from) && pipeline.wrenches().count(from + kFrame));
   const Wrench& before = pipeline.wrenches().at(from);
@@ -53,7 +53,8 @@ TEST(Synchronisation, OffsetMovesTheForceAndNotThePicture) {
     for (size_t n = 0; n < 5; ++n) {
       pipeline.await_analysed(n + 3);  // 30 ms ahead of the picture the next frame is needed
       const TickRecord tick = pipeline.step();
-      EXPECT_EQ(tick.running_ns, static_cast<int64_t>(pipeline.running_time()) - offset);
+      EXPECT_EQ(tick.running_ns + pipeline.early_ns(),
+                static_cast<int64_t>(pipeline.running_time()) - offset);
     }
     g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(0), nullptr);
     expect_wrench_of_frame(pipeline, pipeline.step());

@@ -39,9 +39,10 @@ struct Film {
            " animation-mode=frames ! video/x-raw,format=GRAY8,width=320,height=240,framerate=" +
            std::to_string(rate_Hz) + "/1";
   }
-  /// Running time at which the last frame but one is shown. What is felt from there on is the way
-  /// to rest, which live depends on when the end of the stream becomes known.
-  int64_t compared_us() const { return int64_t{1'000'000} * (frames - 2) / rate_Hz; }
+  /// Running time of the motion of the last frame but one, half a frame before it is shown. What is
+  /// felt from there on is the way to rest, which live depends on when the end of the stream
+  /// becomes known.
+  int64_t compared_us() const { return int64_t{500'000} * (2 * frames - 5) / rate_Hz; }
 };
 
 class TrackFidelity : public testing::Test {
@@ -61,9 +62,10 @@ class TrackFidelity : public testing::Test {
     const bool analyses = properties.empty();
     Ticks ticks;
     for (int frame = 0; frame < film.frames; ++frame) {
-      // The curve between two frames follows from the one before and the one after them.
+      // The curve between two motions follows from the one before and the one after them, and
+      // begins half a frame before the first of the two is shown.
       if (analyses) {
-        pipeline.await_analysed(static_cast<size_t>(std::min(frame + 3, film.frames)));
+        pipeline.await_analysed(static_cast<size_t>(std::min(frame + 4, film.frames)));
       }
       keep(ticks, pipeline.step());
       if (frame + 1 == film.frames) break;

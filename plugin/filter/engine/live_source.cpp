@@ -3,6 +3,7 @@
 #include "plugin/filter/engine/live_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/force/wrench_timeline.h"
@@ -58,6 +59,18 @@ void LiveSource::follow(const FrameStamp& stamp) {
   if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) restart();
 }
 
+/// `shown` in place of the frame's own wrench. Between two pictures, a motion is measured as it is
+/// halfway between them; during a repeated one, the next picture is not there yet.
+void LiveSource::schedule(const Frame& frame, const PacedTime& time, bool moved,
+                          const Wrench& shown) {
+  if (!frame.goes_on()) picture_ns_ = time.running_ns;
+  const double apart_ns =
+      frame.goes_on() ? static_cast<double>(time.running_ns - picture_ns_)
+                      : schedule_.rate_multiplier() * static_cast<double>(frame.interval_ns);
+  schedule_.add({time.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0), shown,
+                 frame.goes_on(), std::llround(apart_ns) / 2});
+}
+
 void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   follow(stamp);
   const int64_t running_ns = stamp.running_ns;
@@ -65,8 +78,7 @@ void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   // videorate makes such a gap of a frame that is shown again.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
   if (frame) {
-    schedule_.add({running_ns, WrenchTimeline::hold_after(time.since_ns),
-                   turn.to_displayed(scaled(frame->wrench, motion_fraction_)), frame->goes_on()});
+    schedule(*frame, time, true, turn.to_displayed(scaled(frame->wrench, motion_fraction_)));
   } else {
     run_out(static_cast<GstClockTime>(running_ns));
   }
@@ -132,14 +144,12 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   const TouchProperties& touch = frame.settings.touch;
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
   no_force_.set_touching(touch.kind != TouchKind::kOff);
-  const bool goes_on = report.frame.goes_on();
   // This fraction of the film's motion is rendered, reported and shown in addition to touch.
   motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
   report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {
     touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
-    schedule_.add({frame.stamp.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0),
-                   report.frame.wrench, goes_on});
+    schedule(report.frame, time, moved, report.frame.wrench);
   }
 }
 

@@ -48,6 +48,7 @@ class LiveSource {
 
  private:
   void follow(const FrameStamp& stamp);
+  void schedule(const Frame& frame, const PacedTime& time, bool moved, const Wrench& shown);
   bool follows(const PassingFrame& frame, FrameReport& report);
   bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                FrameReport& report);
@@ -63,6 +64,7 @@ class LiveSource {
   MotionAnalyzer analyzer_;
   FramePacer pacer_;
   uint32_t epoch_ = 0;
+  int64_t picture_ns_ = 0;         // at which the picture of the newest frame was first shown
   std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
   double motion_fraction_ = 1;     // of the newest frame's wrench
 };
