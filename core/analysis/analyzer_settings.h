@@ -29,6 +29,7 @@ struct AnalyzerSettings {
   FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;
+  double washout_Hz = 0;  ///< cut-off of Washout, finite and ≥ 0; 0: none
 };
 
 /// Closest to the paper: mean velocity of the points of OpenCvTracker, unfiltered, nonlinear

@@ -68,6 +68,7 @@ void validate(const AnalyzerSettings& settings) {
   validate(settings.controller);
   validate(settings.filter);
   validate(settings.axes);
+  validate_washout(settings.washout_Hz);
   if (!settings.pointer.allFinite()) {
     throw std::invalid_argument("the pointer's coordinates must be finite");
   }
@@ -152,6 +153,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   if (frame.picture == PictureKind::kFirst) {
     lost_frames_.reset();
     filter_.reset();
+    washout_.reset();
     fade_.reset();
     frame.felt_object = 0;
     frame.motion = {};
@@ -162,6 +164,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   ImageMotion felt = motion_of_choice(frame, turn, choice);
   if (frame.picture == PictureKind::kSame) {
     filter_.stop();
+    washout_.reset();
     fade_.reset();
     const int tracked = felt.tracked;
     felt = ImageMotion();
@@ -171,14 +174,20 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
                                               felt.velocity_px_s.norm()));
   const double interval_s = frame.interval_s();
   frame.motion = bound_motion(felt, frame.width, interval_s);
-  // The filter does not mix the motions of two objects.
-  if (fade_.turn_to(felt_thing(choice, frame.felt_object))) filter_.reset();
+  // Neither filter nor washout mixes the motions of two objects.
+  if (fade_.turn_to(felt_thing(choice, frame.felt_object))) {
+    filter_.reset();
+    washout_.reset();
+  }
   const ImageMotion steady =
       filter_.filter(frame.motion, frame.height, interval_s, settings_.filter);
   const Wrench wanted =
       render_motion(*controller_, steady, settings_.axes, frame.height, interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
-  frame.wrench = fade_.fade(amplified(wanted, gain, settings_.controller.max_force_N), interval_s);
+  const double most_N = settings_.controller.max_force_N;
+  const Wrench passed =
+      washout_.pass(amplified(wanted, gain, most_N), interval_s, settings_.washout_Hz, most_N);
+  frame.wrench = fade_.fade(passed, interval_s);
 }
 
 }  // namespace spidar

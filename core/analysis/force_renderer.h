@@ -12,6 +12,7 @@
 #include "core/choice/object_choice.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
+#include "core/force/washout.h"
 #include "core/motion/cadence.h"
 #include "core/wrench.h"
 
@@ -58,7 +59,7 @@ inline Wrench WrenchFade::fade(const Wrench& wrench, double interval_s) {
   return felt_;
 }
 
-/// camera and objects → the motion that is felt → filter → gain controller → wrench.
+/// camera and objects → the motion that is felt → filter → gain controller → washout → wrench.
 class ForceRenderer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
@@ -83,6 +84,7 @@ class ForceRenderer {
   ObjectChoice choice_;
   LostFrames lost_frames_;
   MotionFilter filter_;
+  Washout washout_;
   WrenchFade fade_;
   std::unique_ptr<GainController> controller_;
 };

@@ -65,7 +65,7 @@ MotionRow pointer_row() {
       }};
 }
 
-/// Which motion is felt, and how: from `controller` to `filter-beta`.
+/// Which motion is felt, and how: from `controller` to `washout`.
 std::vector<MotionRow> feel_rows() {
   return {
       MotionRow::choice<ControllerKind>(
@@ -133,6 +133,11 @@ std::vector<MotionRow> feel_rows() {
            "How much the filter's cutoff rises with the motion's rate of change, in Hz per px/s^2 "
            "at 480 lines"},
           0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
+      MotionRow::number(
+          {"washout", "Washout",
+           "Cutoff below which the force fades, in Hz: what lasts falls to 37 % in 1/(2 pi cutoff) "
+           "seconds, while changes pass. 0: nothing fades"},
+          0, 1, kControllable, KEPT_IN(analyzer.washout_Hz)),
   };
 }
 

@@ -26,7 +26,7 @@ namespace {
 /// or for a pipeline, of which there is none.
 constexpr const char* kAnalysis[] = {"alpha",       "controller",        "depth-gain", "feel",
                                      "filter-beta", "filter-min-cutoff", "max-force",  "motion",
-                                     "pointer",     "roll-gain"};
+                                     "pointer",     "roll-gain",         "washout"};
 
 template <size_t kCount>
 bool contains(const char* const (&names)[kCount], const std::string& name) {

@@ -27,7 +27,7 @@ class Inspected(gst_case.GstCase):
     def test_presets_have_the_values_that_they_are_called_after(self):
         element = Gst.ElementFactory.make("spidarmotion")
         names = ("motion", "controller", "alpha", "max-force", "depth-gain", "roll-gain", "filter-min-cutoff",
-                 "filter-beta")
+                 "filter-beta", "washout")
 
         def values():
             return {name: element.get_property(name) for name in names}

@@ -123,14 +123,14 @@ class Properties(ElementCase):
 
     def test_defaults_are_the_documented_ones(self):
         defaults = {"device": "sim", "profile": None, "max-force": 3, "alpha": .0025, "motion": "object", "pointer": "0.5,0.5",
-                    "filter-min-cutoff": 1, "filter-beta": .08, "ts-offset": 0, "qos": False, "touch": "off",
+                    "filter-min-cutoff": 1, "filter-beta": .08, "washout": 0, "ts-offset": 0, "qos": False, "touch": "off",
                     "touch-relief": 8, "touch-stiffness": 500, "touch-friction": .3, "touch-texture": 0, "motion-fraction": 0}
         self.assertEqual(self.values(make(), defaults), list(defaults.values()))
 
     def test_every_setting_reads_back_what_was_written(self):
         for touch in ("luma", "depth-below"):
             wanted = {"device": "none", "profile": "spidar-g6c", "controller": "adaptive", "motion": "camera",
-                      "pointer": "0.25,1", "max-force": 1.5, "alpha": .02, "filter-min-cutoff": 4, "filter-beta": .5,
+                      "pointer": "0.25,1", "max-force": 1.5, "alpha": .02, "filter-min-cutoff": 4, "filter-beta": .5, "washout": .25,
                       "depth-gain": 2.5, "roll-gain": 0, "ts-offset": -5000000, "on-device-error": "error",
                       "post-messages": False, "trace": "/a", "haptic-trace": "/b", "touch": touch, "touch-relief": 12,
                       "touch-stiffness": 300, "touch-friction": .1, "touch-texture": 2, "motion-fraction": .4}
@@ -167,7 +167,7 @@ class Properties(ElementCase):
         element = make()
         # Those of its base classes left out.
         own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
-        self.assertLessEqual(len(own), 30)
+        self.assertLessEqual(len(own), 31)
         for spec in own:
             self.assertLessEqual(len(spec.blurb.split()), 25, spec.name)
             self.assertNotIn("GstSpidarMotion", spec.value_type.name, "repeats the element")
