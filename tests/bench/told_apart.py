@@ -25,7 +25,9 @@ WEBER = 0.11  # of force, at the wrist: IEEE Trans. Haptics 2013, PubMed 2480832
 MOVING_S = 1
 ALPHAS_S_PX = (0.00125, 0.0025, 0.005, 0.01)
 MAX_FORCE_N = 3  # steps do not depend on it, but for what is weaker than FELT_N
-SETTINGS = [("linear", 0)] + [(controller, alpha) for controller in ("nonlinear", "adaptive") for alpha in ALPHAS_S_PX]
+# Properties, but for alpha, which `linear` does not have.
+SETTINGS = [("controller=linear", 0)] + [(f"controller={controller}", alpha) for controller in ("nonlinear", "adaptive")
+                                         for alpha in ALPHAS_S_PX] + [("motion=mean", alpha) for alpha in (0.0025, 0.01)]
 
 
 def steps(forces_N):
@@ -37,12 +39,12 @@ def steps(forces_N):
 def main():
     build = Path(os.environ.get("BUILD", "build")).resolve()
     films = films_of([Path(folder) for folder in sys.argv[1:]] or sys.exit("usage: tests/bench/told_apart.py FOLDER..."))
-    print("| controller | alpha, s/px | steps in a film | in all films | too weak % | near the limit % "
+    print("| properties | alpha, s/px | steps in a film | in all films | too weak % | near the limit % "
           "| median, N | changes, turns, starts a minute |\n" + "|---" * 8 + "|")
-    for controller, alpha in SETTINGS:
+    for setting, alpha in SETTINGS:
         tally, each_film, all_N = Tally(), [], []
         for film in films:
-            frames = play(build, film, [f"controller={controller}", f"max-force={MAX_FORCE_N}"] + [f"alpha={alpha}"] * (alpha > 0))
+            frames = play(build, film, [setting, f"max-force={MAX_FORCE_N}"] + [f"alpha={alpha}"] * (alpha > 0))
             tally.add_calm(frames)
             moving = [frame for frame in frames if frame.is_felt]
             if sum(frame.seconds for frame in moving) < MOVING_S:
@@ -52,7 +54,7 @@ def main():
             all_N += forces_N
         share = lambda of: f"{100 * sum(map(of, all_N)) / len(all_N):.0f}"
         calm = ", ".join(f"{60 * n / tally.seconds:.1f}" for n in (tally.changes, tally.turns, tally.starts))
-        print(f"| {controller} | {alpha or '-'} | {statistics.median(each_film):.1f} "
+        print(f"| {setting} | {alpha or '-'} | {statistics.median(each_film):.1f} "
               f"| {steps(all_N):.1f} | {share(lambda f: f < FELT_N)} | {share(lambda f: f > 0.9 * MAX_FORCE_N)} "
               f"| {statistics.median(all_N):.2f} | {calm} |", flush=True)
 
