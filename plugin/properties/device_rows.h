@@ -13,8 +13,8 @@ template <typename Settings>
 Property<Settings> profile_row() {
   return Property<Settings>::text(
       {"profile", "Profile",
-       "Geometry and motors of the device: name of a shipped profile, or a .toml file. Motors of "
-       "a real board get no force without one. Read from NULL to READY"},
+       "Geometry and motors: name of a shipped profile, or a .toml file. A real board gets no "
+       "force without one. Read from NULL to READY"},
       kNull, KEPT_IN(profile));
 }
 
