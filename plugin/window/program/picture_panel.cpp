@@ -16,7 +16,7 @@ namespace spidar {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
-constexpr double kThin_px = 1;                // their width
+constexpr double kThinTrack_px = 1;           // their width
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -59,7 +59,7 @@ void draw_tracks(const Overlay& over, const ArrowStyle& style) {
   for (size_t i = 0; i < arrows.size(); ++i) {
     const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
     if (!over.picture.detail) {
-      arrows[i].width_px = kThin_px * over.brush.scale;
+      arrows[i].width_px = kThinTrack_px * over.brush.scale;
       arrows[i].color = kWhite;
     }
     const unsigned opacity = over.picture.detail ? 255 : is_felt ? kFelt : kFaint;
