@@ -3,6 +3,10 @@
 /// How strong a force may be on a grip that a hand may let go of at any time.
 #pragma once
 
+#include <algorithm>
+
+#include "spidar/profiles/profile.h"
+
 namespace spidar {
 
 /// Mass of a grip without a hand. No source states one: from a hollow sphere to one with motors.
@@ -17,10 +21,11 @@ constexpr double kReleased_J = 0.05;
 /// reading for a velocity, and a tick until the command that follows it.
 constexpr double kNoticed_s = 3e-3;
 
-/// The whole force accelerates a released grip until it is noticed and, on average, for the lag of
-/// the drives: to kReleased_m_s if the grip is one of kLightestGrip_kg. N.
+/// The largest force limit. The whole force accelerates a released grip until it is noticed and, on
+/// average, for the lag of the drives: to kReleased_m_s if the grip is one of kLightestGrip_kg.
+/// What any device takes, it takes with slow drives, too: at 3 N and 40 ms, 34 g get 1.4 m/s.
 constexpr double released_force_N(double drive_lag_s) noexcept {
-  return kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s);
+  return std::max(kAnyForce_N, kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s));
 }
 
 }  // namespace spidar

@@ -102,9 +102,8 @@ namespace {
 
 GripAbilities abilities_of(const Profile& profile) {
   GripAbilities abilities;
-  // What any device takes, it takes with slow drives, too: at 3 N and 40 ms, 34 g get 1.4 m/s.
-  abilities.largest_force_N = std::min(
-      largest_force_N(profile), std::max(kAnyForce_N, released_force_N(profile.drive_lag_s)));
+  abilities.largest_force_N =
+      std::min(largest_force_N(profile), released_force_N(profile.drive_lag_s));
   return abilities;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/force/motion_rendering.h"
+#include "spidar/grip/released_grip.h"
 
 namespace spidar {
 namespace {
@@ -28,9 +29,17 @@ bool has_wanted(const TickRecord& record) noexcept {
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
     : grip_(std::move(grip)),
       shared_limits_(limits),
-      set_limits_(limits),
-      limits_(limits),
-      limits_before_(limits) {}
+      set_limits_(bounded(limits)),
+      limits_(set_limits_),
+      limits_before_(set_limits_) {}
+
+/// Whoever sets a limit, a grip that is let go must not be thrown.
+SafetyLimits HapticLoop::bounded(SafetyLimits limits) const noexcept {
+  const GripTraits& traits = grip_->traits();
+  if (traits.can_fly)
+    limits.max_force_N = std::min(limits.max_force_N, released_force_N(traits.drive_lag_s));
+  return limits;
+}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -124,7 +133,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
 
   // Keeps the values of the last tick while the writer is updating them.
   shared_clock_.try_load(clock_);
-  shared_limits_.try_load(set_limits_);
+  if (SafetyLimits limits; shared_limits_.try_load(limits)) set_limits_ = bounded(limits);
   const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
   follow_limits(dt_s);
   find_wanted(record);

@@ -101,7 +101,7 @@ class HapticLoop {
   /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
   /// One caller at a time. From the next tick on, the force approaches another total limit at the
-  /// slew limit.
+  /// slew limit. No more than released_force_N() is given to a grip that can fly.
   void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
@@ -156,6 +156,7 @@ class HapticLoop {
   void energise() noexcept;
   void lose() noexcept;
   void refuse(const std::string& reason);
+  SafetyLimits bounded(SafetyLimits limits) const noexcept;
   void follow_limits(double dt_s) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void count_gap(const TickRecord& record) noexcept;
@@ -181,7 +182,7 @@ class HapticLoop {
   Seqlock<LoopSnapshot> snapshot_;
   // Loop thread only.
   PlaybackClock clock_;
-  SafetyLimits set_limits_;     // as they were set
+  SafetyLimits set_limits_;     // bounded() of those that were set
   SafetyLimits limits_;         // in effect, see limits_in_effect()
   SafetyLimits limits_before_;  // in effect before this tick
   Wrench exerted_;              // delivered by the last acknowledged command

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/grip/released_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 
@@ -249,10 +250,26 @@ TEST(HapticLoop, LoweredLimitIsApproachedAtTheSlewLimit) {
 
 // A pause takes no longer from more force, but the slew limit would.
 TEST(HapticLoop, LimitsOfZeroAreAPause) {
-  Limited driver(20, 0.1);
-  ASSERT_EQ(driver.last.commanded.force_N.norm(), 20);
+  Limited driver(10, 0.1);
+  ASSERT_EQ(driver.last.commanded.force_N.norm(), 10);
   driver.set(0, 0);
   EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0);
+}
+
+// Before, a program that set the limit of a loop itself threw 50 g at 7 m/s.
+TEST(HapticLoop, NoLimitThrowsAGripThatIsLetGo) {
+  SafetyLimits limits;
+  limits.max_force_N = 30;
+  LoopDriver constructed(limits);
+  const double most_N = released_force_N(constructed.profile.drive_lag_s);
+  ASSERT_LT(most_N, limits.max_force_N);
+  constructed.open();
+  constructed.loop->schedule({0, INT64_MAX / 2, push_right(30)});
+  constructed.play(0);
+  const TickRecord last = constructed.run(150 * kMs);
+  EXPECT_EQ(last.commanded.force_N.norm(), most_N);
+  EXPECT_EQ(last.max_force_N, most_N);
+  EXPECT_EQ(Limited(30, 0.05).last.commanded.force_N.norm(), most_N);
 }
 
 TEST(HapticLoop, ALimitIsNoSaw) {

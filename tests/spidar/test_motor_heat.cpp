@@ -61,7 +61,7 @@ TEST(MotorHeat, NeverAboveOneWithinTheLimit) {
 
 TEST(MotorHeat, TheLoopReducesTheForceInsteadOfOverheating) {
   SafetyLimits limits;
-  limits.max_force_N = 20;
+  limits.max_force_N = 5;
   LoopDriver driver(limits);
   driver.open();
   driver.loop->schedule({0, INT64_MAX / 2, push_right(5)});
