@@ -11,7 +11,8 @@
 namespace spidar {
 namespace {
 
-constexpr size_t kMaxRow_bytes = 2048;  // 49 fields of at most 32 characters
+constexpr size_t kMaxRow_bytes = 2048;                       // 49 fields of at most 32 characters
+constexpr const char* kFirstColumns = "tick,monotonic_ns,";  // of every version
 
 }  // namespace
 
@@ -57,7 +58,7 @@ void append_row(const TickRecord& record, std::string& csv) {
 }
 
 TickTrace::TickTrace(const std::string& path) {
-  const std::string reason = file_.open(path);
+  const std::string reason = file_.open(path, kFirstColumns);
   if (!reason.empty())
     throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
   row_.reserve(kMaxRow_bytes);

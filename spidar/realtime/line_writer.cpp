@@ -129,11 +129,11 @@ struct LineWriter::Output {
   Status status;
 };
 
-std::string LineWriter::open(const std::string& path) {
+std::string LineWriter::open(const std::string& path, std::string_view begin) {
   close();
   last_ = {};
   std::string reason;
-  const int opened = open_own_output(path.c_str(), reason);
+  const int opened = open_own_output(path.c_str(), begin, reason);
   if (opened < 0) return reason;
   const auto output = std::make_shared<Output>(opened);
   try {

@@ -44,7 +44,7 @@ class LineWriter {
 
   /// As open_own_output(), with a pipe that nobody reads as an error. Returns empty, or why the
   /// file cannot be written.
-  std::string open(const std::string& path);
+  std::string open(const std::string& path, std::string_view begin);
   bool is_open() const { return output_ != nullptr; }
 
   /// Whole lines, each with its end. Waits only if more than kMostWaiting_bytes wait, and once for

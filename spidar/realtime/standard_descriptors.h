@@ -10,6 +10,7 @@
 #include <ctime>
 #include <fcntl.h>
 #include <string>
+#include <string_view>
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -91,10 +92,21 @@ inline std::string output_reason(int error) {
                           : std::strerror(error);
 }
 
+/// Whether the file is empty, or begins with `begin`.
+inline bool is_empty_or_begins(const char* path, std::string_view begin) {
+  const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return false;
+  std::string found(begin.size(), '\0');
+  const ssize_t bytes = pread(file, found.data(), found.size(), 0);
+  close(file);
+  return bytes == 0 || (bytes == static_cast<ssize_t>(begin.size()) && found == begin);
+}
+
 /// As open_output() with O_NONBLOCK, but the file is emptied and locked until it is closed, so that
 /// two traces do not overwrite each other. Devices, pipes and the standard output may have several
-/// writers, and some network file systems have no locks. Returns −1 with the reason in words.
-inline int open_own_output(const char* path, std::string& reason) {
+/// writers, and some network file systems have no locks. A file is emptied only if it begins with
+/// `begin`, as all do that the caller writes: a film is not. Returns −1 with the reason in words.
+inline int open_own_output(const char* path, std::string_view begin, std::string& reason) {
   const int opened = open_output(path, O_NONBLOCK);
   struct stat status {};
   if (opened < 0) {
@@ -106,6 +118,8 @@ inline int open_own_output(const char* path, std::string& reason) {
     return opened;
   if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     reason = "another element or program is writing it; each needs its own file";
+  } else if (!is_empty_or_begins(path, begin)) {
+    reason = "there is a file with something else in it, which is not replaced; name another file";
   } else if (ftruncate(opened, 0) != 0) {
     reason = std::strerror(errno);
   } else {

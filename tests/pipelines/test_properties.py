@@ -264,6 +264,28 @@ class Traces(ElementCase):
         self.assertFalse(self.path("trace.txt").exists())
         self.assertEqual(kept.read_text(), "as it was")
 
+    def test_a_trace_replaces_a_trace_and_nothing_else(self):
+        for properties, name in (("device=none trace=", "t.csv"), ("device=none trace=", "t.jsonl"),
+                                 ("device=sim haptic-trace=", "film.mkv")):
+            with self.subTest(properties + name):
+                file = self.path(name)
+                file.write_text("the only copy of a film")
+                self.open(f"{properties}{file}", 64, 64)
+                self.push(3)
+                warnings = self.warnings()
+                self.element.get_parent().set_state(Gst.State.NULL)
+                self.assertEqual(len(warnings), 1)
+                self.assertIn("a file with something else in it, which is not replaced", warnings[0])
+                self.assertEqual(file.read_text(), "the only copy of a film")
+                file.unlink()
+                for _ in range(2):
+                    self.open(f"{properties}{file}", 64, 64)
+                    self.push(3)
+                    self.element.get_parent().set_state(Gst.State.NULL)
+                    self.assertEqual(self.warnings(), [])
+                self.assertEqual(file.read_text().count("running_ns") + file.read_text().count("running_time_ns"),
+                                 3 if name == "t.jsonl" else 1)
+
     def test_a_pipe_whose_reader_has_left_is_a_warning_and_the_video_goes_on(self):
         pipe = self.path("trace.csv")
         os.mkfifo(pipe, 0o600)

@@ -56,14 +56,14 @@ class LineWriterPipe : public testing::Test {
 };
 
 TEST_F(LineWriterPipe, WithoutAReaderIsRefusedAtOnce) {
-  EXPECT_NE(writer.open(path).find("a pipe that nobody reads"), std::string::npos);
+  EXPECT_NE(writer.open(path, kLine).find("a pipe that nobody reads"), std::string::npos);
   EXPECT_FALSE(writer.is_open());
   EXPECT_EQ(open_output(path.c_str(), 0), -1) << "would wait for ever";
 }
 
 TEST_F(LineWriterPipe, WhatAReaderThatStandsStillDoesNotTakeIsDroppedAndCounted) {
   const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK);
-  ASSERT_EQ(writer.open(path), "");
+  ASSERT_EQ(writer.open(path, kLine), "");
   // Twice what may wait, and what a pipe holds is little beside it. It takes no longer than the
   // standstill: with a wait for each line this would take hours.
   const uint64_t lines = 2 * LineWriter::kMostWaiting_bytes / kLine.size();
@@ -80,7 +80,7 @@ TEST_F(LineWriterPipe, WhatAReaderThatStandsStillDoesNotTakeIsDroppedAndCounted)
 
 TEST_F(LineWriterPipe, ASlowReaderGetsEveryLine) {
   const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK);
-  ASSERT_EQ(writer.open(path), "");
+  ASSERT_EQ(writer.open(path, kLine), "");
   fcntl(reader, F_SETFL, 0);
   std::string text;
   std::thread reading([&] {
@@ -102,7 +102,7 @@ TEST(LineWriter, AKilledProcessLeavesWholeLines) {
   const pid_t child = fork();
   if (child == 0) {
     LineWriter writer;
-    if (!writer.open(path).empty()) _exit(1);
+    if (!writer.open(path, kLine).empty()) _exit(1);
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // also when this test is ended
     while (true) {
       writer.add(kLine);
@@ -140,12 +140,31 @@ TEST(LineWriter, TheStandardOutputIsContinuedWhereItIs) {
     with_output_into(path, [name] {
       bool good = write(STDOUT_FILENO, "printed\n", 8) == 8;
       LineWriter writer;
-      good = good && writer.open(name).empty();
+      good = good && writer.open(name, kLine).empty();
       writer.add("a line\n");
       good = good && writer.close().lines == 1;
       return good && write(STDOUT_FILENO, "printed\n", 8) == 8;
     });
     EXPECT_EQ(content(path), "printed\na line\nprinted\n");
+  }
+}
+
+TEST(LineWriter, OnlyAFileThatBeginsInTheSameWayIsReplaced) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path / "trace.csv";
+  const auto reason_with = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    LineWriter writer;
+    const std::string reason = writer.open(path, "tick,");
+    EXPECT_EQ(content(path), reason.empty() ? "" : text);
+    return reason;
+  };
+  for (const char* text : {"", "tick,", "tick,of an older version\n1,2\n"})
+    EXPECT_EQ(reason_with(text), "") << text;
+  for (const char* text : {"the only copy of a film", "t", "tock,1\n"}) {
+    EXPECT_EQ(reason_with(text),
+              "there is a file with something else in it, which is not replaced; name another file")
+        << text;
   }
 }
 
@@ -155,7 +174,7 @@ TEST(LineWriter, ALinkToAnotherFileIsRefused) {
   std::ofstream(kept) << "as it was\n";
   fs::create_symlink(kept, link);
   LineWriter writer;
-  EXPECT_NE(writer.open(link).find("it is a link"), std::string::npos);
+  EXPECT_NE(writer.open(link, kLine).find("it is a link"), std::string::npos);
   EXPECT_EQ(content(kept), "as it was\n");
 }
 

@@ -108,6 +108,19 @@ TEST_F(WindowTest, APictureThatCannotBeWrittenSaysWhy) {
             std::string::npos);
 }
 
+TEST_F(WindowTest, APictureReplacesNothingElse) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path / "film.png";
+  const std::string precious = "the only copy of a film";
+  std::ofstream(path) << precious;
+  Window window(std::make_shared<FakeSource>());
+  EXPECT_NE(window.take_picture(path, kLong).find("not as a debug window left it"),
+            std::string::npos);
+  std::string found;
+  std::getline(std::ifstream(path), found);
+  EXPECT_EQ(found, precious);
+}
+
 TEST_F(WindowTest, CanBeMadeSmallAndLarge) {
   Window window(std::make_shared<FakeSource>());
   give(window, {});

@@ -15,6 +15,9 @@ constexpr const char* kHeader =
     "running_time_ns,stream_time_ns,features,tracked,velocity_x_px_s,velocity_y_px_s,"
     "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,no_force_reason,"
     "device_no_force_reason\n";
+// What files of every version begin with.
+constexpr const char* kFirstColumn = "running_time_ns,";
+constexpr const char* kFirstKey = "{\"running_time_ns\":";
 
 /// In small or capital letters.
 bool ends_with(std::string_view text, std::string_view end) {
@@ -30,7 +33,7 @@ std::string FrameTrace::open(const std::string& path) {
   if (!is_json_ && !ends_with(path, ".csv")) {
     return "its name ends neither in .csv nor in .jsonl, which says what to write";
   }
-  std::string reason = file_.open(path);
+  std::string reason = file_.open(path, is_json_ ? kFirstKey : kFirstColumn);
   if (reason.empty() && !is_json_) file_.add(kHeader);
   return reason;
 }

@@ -11,12 +11,14 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <imgui.h>
 #include <stb/stb_image_write.h>
 #include <stdexcept>
 
 #include <GLFW/glfw3.h>
 
+#include "plugin/tracks/written_mark.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar {
@@ -44,9 +46,15 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Of pictures, for mark_written().
+const std::string kMaker = "spidar-window";
+
 /// Pixels of three bytes, the lowest row first. Returns empty, or why the file cannot be written.
 std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                       const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_regular_file(path, none) && !is_as_written(path, kMaker))
+    return "there is a file, and it is not as a debug window left it; name another file";
   const int opened = open_output(path.c_str(), O_TRUNC);
   if (opened < 0) return output_reason(errno);
   std::FILE* file = fdopen(opened, "wb");
@@ -67,6 +75,7 @@ std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                            },
                            const_cast<void*>(static_cast<const void*>(&write)), width, height, 3,
                            rgb.data(), 3 * width) != 0;
+  if (std::fflush(file) == 0) mark_written(fileno(file), kMaker);
   const bool closed = std::fclose(file) == 0;
   return encoded && complete && closed ? "" : "it cannot be written; is the disk full?";
 }
