@@ -11,7 +11,7 @@
 namespace spidar {
 namespace {
 
-constexpr size_t kMaxRow_bytes = 2048;                       // 49 fields of at most 32 characters
+constexpr size_t kMaxRow_bytes = 2048;                       // 51 fields of at most 32 characters
 constexpr const char* kFirstColumns = "tick,monotonic_ns,";  // of every version
 
 }  // namespace
@@ -20,7 +20,7 @@ std::string trace_header() {
   std::string header;
   CsvRow row(header);
   for (const char* name : {"tick", "monotonic_ns", "lateness_ns", "running_ns", "frame_ns", "found",
-                           "playing", "device"}) {
+                           "playing", "device", "acknowledged", "brakes"}) {
     row.field(name);
   }
   for (const char* which : {"wanted", "commanded", "delivered"}) {
@@ -44,6 +44,7 @@ void append_row(const TickRecord& record, std::string& csv) {
   row.number(record.tick).number(record.monotonic_ns).number(record.lateness_ns);
   row.number(record.running_ns).number(record.frame_ns == INT64_MIN ? -1 : record.frame_ns);
   row.field(to_string(record.found)).number(record.playing ? 1 : 0).field(to_string(record.device));
+  row.number(record.acknowledged ? 1 : 0).number(record.brakes ? 1 : 0);
   row.wrench(record.wanted).wrench(record.commanded).wrench(record.delivered);
   for (int i = 0; i < kMaxStrings; ++i) row.number(record.tension_N[i]);
   const Eigen::Quaterniond& q = record.pose.orientation;

@@ -43,6 +43,8 @@ TickRecord some_record() {
   r.found = Found::kInterpolated;
   r.playing = true;
   r.device = DeviceState::kRunning;
+  r.acknowledged = false;
+  r.brakes = true;
   r.wanted = {{0.1, 0.2, 0.3}, {1e-7, 0, -0.5}};
   r.commanded = {{1, 2, 3}, {4, 5, 6}};
   r.delivered = {{7, 8, 9}, {10, 11, 12}};
@@ -60,6 +62,7 @@ TickRecord some_record() {
 TEST(TickTrace, HeaderAndRow) {
   EXPECT_EQ(trace_header(),
             "tick,monotonic_ns,lateness_ns,running_ns,frame_ns,found,playing,device,"
+            "acknowledged,brakes,"
             "wanted_force_x_N,wanted_force_y_N,wanted_force_z_N,"
             "wanted_torque_x_Nm,wanted_torque_y_Nm,wanted_torque_z_Nm,"
             "commanded_force_x_N,commanded_force_y_N,commanded_force_z_N,"
@@ -75,7 +78,7 @@ TEST(TickTrace, HeaderAndRow) {
   std::string row;
   append_row(some_record(), row);
   EXPECT_EQ(row,
-            "12,9000000000000001,-3,40000000,33366666,interpolated,1,running,"
+            "12,9000000000000001,-3,40000000,33366666,interpolated,1,running,0,1,"
             "0.1,0.2,0.3,1e-07,0,-0.5,1,2,3,4,5,6,7,8,9,10,11,12,"
             "0.5,1.5,2.5,3.5,4.5,5.5,6.5,7.5,0.01,0.02,0.03,0.5,-0.5,0.5,-0.5,5.9e-06,3,2.5,0.1,"
             "0.004,-0.5,0.25,2\n");

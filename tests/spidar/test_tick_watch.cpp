@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Checks that TickWatch, which monitors the other tests, detects every violation.
+#include <fstream>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
+#include "spidar/loop/tick_trace.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::tick_watch_test {
@@ -116,6 +120,65 @@ TEST(TickWatch, LetsTheForceFadeInBeforeTheNextFrame) {
   for (int i = 0; i < 40; ++i) played.tick(0.1);
   played.show_frame();
   for (int i = 0; i < 100; ++i) played.tick(0.1);
+}
+
+/// Rows of a trace, a millisecond apart.
+class Rows {
+ public:
+  explicit Rows(const TemporaryFolder& folder) : path_(folder.path / "trace.csv"), file_(path_) {
+    record_.device = DeviceState::kRunning;
+    file_ << trace_header() << '\n';
+  }
+
+  void add(double force_N, bool acknowledged, bool brakes) {
+    ++record_.tick;
+    record_.monotonic_ns += kTick_ns;
+    record_.commanded.force_N.x() = force_N;
+    record_.acknowledged = acknowledged;
+    record_.brakes = brakes;
+    record_.max_force_N = SafetyLimits{}.max_force_N;
+    record_.max_torque_Nm = SafetyLimits{}.max_torque_Nm;
+    std::string row;
+    append_row(record_, row);
+    file_ << row;
+  }
+
+  void see() {
+    file_.flush();
+    TickWatch().see_trace(path_);
+  }
+
+ private:
+  const std::string path_;
+  std::ofstream file_;
+  TickRecord record_;
+};
+
+// A device that does not answer keeps what it was told last, and is lost after kMaxErrors.
+TEST(TickWatch, TellsInATraceWhatTheDeviceDidNotAnswer) {
+  for (const bool acknowledged : {false, true}) {
+    const TemporaryFolder folder;
+    Rows rows(folder);
+    for (int i = 0; i < 40; ++i) rows.add(0.1, true, false);
+    for (int i = 1; i < HapticLoop::kMaxErrors; ++i) rows.add(0.1, acknowledged, false);
+    if (acknowledged)
+      EXPECT_NONFATAL_FAILURE(rows.see(), "not at rest");
+    else
+      rows.see();
+  }
+}
+
+TEST(TickWatch, TellsInATraceWhenTheBrakeActs) {
+  for (const bool brakes : {true, false}) {
+    const TemporaryFolder folder;
+    Rows rows(folder);
+    rows.add(0.2, true, false);
+    rows.add(-0.2, true, brakes);
+    if (brakes)
+      rows.see();
+    else
+      EXPECT_NONFATAL_FAILURE(rows.see(), "force changes too fast");
+  }
 }
 
 TEST(TickWatch, MissesTheTrace) {

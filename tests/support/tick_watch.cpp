@@ -67,6 +67,8 @@ TickRecord record_of(const Row& row) {
                                   DeviceState::kClosing, DeviceState::kIdle, DeviceState::kLost}) {
     if (row.text("device") == to_string(state)) record.device = state;
   }
+  record.acknowledged = row.integer("acknowledged") != 0;
+  record.brakes = row.integer("brakes") != 0;
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
     record.commanded.force_N[i] = row.number("commanded_force_" + axis + "_N");

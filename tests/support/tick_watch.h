@@ -22,7 +22,7 @@ class TickWatch {
   TickRecord tick(HapticLoop& loop, int64_t now_ns);
 
   /// Checks the next tick of a loop that ran under these limits. It uses tick, monotonic_ns,
-  /// running_ns, frame_ns, found, playing, device and commanded.
+  /// running_ns, frame_ns, found, playing, device, acknowledged, brakes and commanded.
   void see(const TickRecord& record, const SafetyLimits& limits);
 
   /// Checks the trace of a loop that ran under the total limits in the trace and the other limits
