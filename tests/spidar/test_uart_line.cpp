@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/link_thread.h"
+#include "spidar/boards/uart_board.h"
+#include "spidar/emulation/emulated_transport.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_transport.h"
 #include "tests/support/pseudo_terminal.h"
@@ -41,11 +43,32 @@ class UartLines : public testing::Test {
     return make_device(spec, profile, settings);
   }
 
-  /// The line's thread is a scheduler away: a slow machine may miss deadlines, not answers.
+  // The line's thread is a scheduler away: a slow machine may miss deadlines, not answers.
+
+  static void open(StringDevice& board) {
+    for (;;) {
+      try {
+        return board.open();
+      } catch (const DeviceError& error) {
+        const bool may_be_late =
+            error.trouble() == DeviceTrouble::kAbsent || error.trouble() == DeviceTrouble::kFailed;
+        if (!may_be_late) throw;
+      }
+    }
+  }
+
   static void exchange_until(StringDevice& board, double volt, LinkFault wanted,
                              DeviceReading& reading) {
     while (board.exchange(all_volts(volt), reading) != wanted) {
     }
+  }
+
+  /// The answer to an earlier command may have come late, too, in place of that to the last one.
+  static void exchange_until_counted(StringDevice& board, double volt, size_t string, int count,
+                                     DeviceReading& reading) {
+    do {
+      exchange_until(board, volt, LinkFault::kNone, reading);
+    } while (reading.count[string] != count);
   }
 
   const Profile profile = load_profile("spidar-g6x5-r");
@@ -57,24 +80,21 @@ class UartLines : public testing::Test {
 TEST_F(UartLines, OneBoardOfEightMotors) {
   UartLine line({first_motors, {{4, kB5M}}});
   const auto board = device("uart:" + line.path());
-  board->open();
+  open(*board);
   EXPECT_TRUE(first.all_zero());
   DeviceReading reading;
   for (int i = 1; i <= 100; ++i) {
     first.count[7] = 500 * i;
-    exchange_until(*board, -1.0, LinkFault::kNone, reading);
+    exchange_until_counted(*board, -1.0, 7, 500 * i, reading);
   }
-  EXPECT_EQ(reading.count[7], 50'000);
   // Bit for bit: −1 V is −1241.2 digits.
   EXPECT_EQ(first.digit[0], -1241);
-  board->close();
-  EXPECT_TRUE(first.all_zero());
 }
 
 TEST_F(UartLines, AskedForTwiceInOneProcess) {
   UartLine line({first_motors, {{4, kB5M}}});
   const auto board = device("uart:" + line.path());
-  board->open();
+  open(*board);
   const auto again = device("uart:" + line.path());
   try {
     again->open();
@@ -85,7 +105,7 @@ TEST_F(UartLines, AskedForTwiceInOneProcess) {
     EXPECT_NE(text.find("another element of this one"), std::string::npos) << text;
   }
   board->close();
-  again->open();
+  open(*again);
 }
 
 TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
@@ -101,7 +121,7 @@ TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
     const auto board =
         device("uart:" + line.path() + (two_lines ? "," + other->path() : std::string()));
     EXPECT_EQ(board->description(), "");
-    board->open();
+    open(*board);
     EXPECT_EQ(board->description(),
               "UART motor boards: number 1 of model 5 with 4 motors, number " +
                   std::to_string(two_lines ? 1 : 6) + " of model 5 with 4 motors");
@@ -111,8 +131,7 @@ TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
     DeviceReading reading;
     exchange_until(*board, 0.5, LinkFault::kNone, reading);
     last.count[at] = -77;
-    exchange_until(*board, 0.5, LinkFault::kNone, reading);
-    EXPECT_EQ(reading.count[5], -77) << two_lines;
+    exchange_until_counted(*board, 0.5, 5, -77, reading);
     EXPECT_EQ(last.digit[at], static_cast<int>(std::lround(0.5 * 4096 / 3.3)));
   }
 }
@@ -120,7 +139,7 @@ TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
 TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
   UartLine line({first_motors, {{0, kB5M}}});
   const auto board = device("uart:" + line.path());
-  board->open();
+  open(*board);
   DeviceReading reading;
   line.set_silent(true);
   exchange_until(*board, 1, LinkFault::kTimeout, reading);
@@ -131,9 +150,17 @@ TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
 
 TEST_F(UartLines, AHangUpIsAnUnplug) {
   std::optional<UartLine> line(std::in_place, EmulatedUart(first_motors, {{0, kB3M}}));
-  std::optional<UartLine> survivor(std::in_place, EmulatedUart(second_motors, {{0, kB3M}}));
-  const auto board = device("uart:" + line->path() + "," + survivor->path());
-  board->open();
+  // This one answers at once, so that each step of its ramp arrives.
+  std::vector<std::unique_ptr<Transport>> lines;
+  lines.push_back(std::make_unique<TtyTransport>("uart", line->path(), uart_motor::kBaud));
+  lines.push_back(std::make_unique<EmulatedTransport>(
+      std::make_unique<EmulatedUart>(second_motors, std::vector<EmulatedUart::Station>{{0, kB3M}}),
+      std::make_shared<EmulatedWire>()));
+  BoardSettings settings;
+  settings.guardian = settings.threaded = false;
+  const auto board = std::make_unique<StringLink>(
+      std::make_unique<UartBoard>("uart", profile, std::move(lines)), settings);
+  open(*board);
   DeviceReading reading;
   exchange_until(*board, 1, LinkFault::kNone, reading);
   EXPECT_FALSE(second.all_zero());
@@ -143,9 +170,7 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   // The boards of the line that is left are taken down slowly.
   const int full = second.digit[0];
   board->close();
-  while (!second.all_zero()) {
-  }
-  survivor.reset();
+  EXPECT_TRUE(second.all_zero());
   const std::vector<int>& put_out = second.history;
   for (size_t i = 1; i < put_out.size(); ++i)
     EXPECT_LE(put_out[i - 1] - put_out[i], full / StringLink::kRamp_ms + 1) << i;
@@ -180,11 +205,11 @@ TEST_F(UartLines, OnlyTheSameBoardsComeBack) {
   UartLine line({first_motors, {{4, kB5M}}}), other({second_motors, {{4, kB5M}}});
   point_to(line);
   const auto board = device("uart:" + link.string());
-  board->open();
+  open(*board);
   board->close();
   point_to(other);
   try {
-    board->open();
+    open(*board);
     FAIL();
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("is another device"), std::string::npos)
@@ -192,12 +217,12 @@ TEST_F(UartLines, OnlyTheSameBoardsComeBack) {
   }
   EXPECT_EQ(second.updates, 0u);
   point_to(line);
-  board->open();
+  open(*board);
   board->close();
   // The adapter is the same, and what is connected to it is not.
   line.connect({second_motors, {{5, kB5M}}});
   try {
-    board->open();
+    open(*board);
     FAIL();
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("these are other boards"), std::string::npos)
