@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
@@ -150,6 +151,34 @@ TEST_P(LongTrack, IsFeltWhereTheFilmTurns) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, LongTrack, testing::Values("wav", "flac", "mka"),
                          [](const auto& format) { return std::string(format.param); });
+
+// Of a slow disk. Before, what came late was not given any more.
+TEST(TrackReplay, BackwardsNothingIsLeftOutThatComesLate) {
+  const auto blocks = std::make_shared<ReadAhead>();
+  constexpr int kBlock_ms = 40;
+  const auto put = [&](int begin_ms) {
+    TrackBlock block;
+    block.begin_ns = begin_ms * kMs_ns;
+    block.duration_ns = kBlock_ms * kMs_ns;
+    block.count = kBlock_ms;
+    ASSERT_TRUE(blocks->put(block, {}));
+  };
+  for (int ms = 0; ms <= 960; ms += kBlock_ms) put(ms);
+  blocks->interrupt();  // nothing waits for the next
+  TrackReplay replay;
+  replay.set_track(blocks);
+  std::vector<int64_t> given_ms;
+  const FrameStamp frame{1, 1000 * kMs_ns, 0, kFrame_ms * kMs_ns, -1.0};
+  const auto play = [&] {
+    replay.play(frame, [&](const TrackBlock& block) {
+      given_ms.push_back(1000 + kFrame_ms - block.time_ns(block.count - 1) / kMs_ns);
+    });
+  };
+  play();
+  for (int ms = 1000; ms <= 1080; ms += kBlock_ms) put(ms);
+  play();
+  EXPECT_EQ(given_ms, (std::vector<int64_t>{1000, 960, 920}));
+}
 
 TEST(ReadAhead, WhatCannotBeReadFurtherIsSaidWhenAllHasBeenTaken) {
   ReadAhead blocks;

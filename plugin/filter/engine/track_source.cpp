@@ -152,8 +152,10 @@ void TrackReplay::play(const FrameStamp& frame,
   const int64_t until_ns = expected_ns_ + margin_ns;
   if (backwards) {
     cover(until_ns, at_ns, true);
-    for (auto block = window_.rbegin(); block != window_.rend() && end_of(*block) > until_ns;
-         ++block) {
+    // What is not there yet of the end comes first.
+    const bool is_whole = end_ns_ >= std::min(at_ns, given_ns_);
+    for (auto block = window_.rbegin();
+         is_whole && block != window_.rend() && end_of(*block) > until_ns; ++block) {
       if (block->begin_ns >= given_ns_) continue;
       give(timed(*block, frame));
       given_ns_ = block->begin_ns;
