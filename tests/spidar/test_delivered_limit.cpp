@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/grip/picture_size.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/tension_command.h"
 #include "tests/support/random_motion.h"
@@ -15,17 +16,22 @@
 namespace spidar::test::delivered_limit_test {
 namespace {
 
-constexpr double kReach_m = 0.02;
+constexpr double kMost_m = 0.02;
 constexpr double kFastest_Hz = 3.7;
 
-/// Goes about within 2 cm and 20° in sines of these frequencies, at up to 0.5 m/s.
-Pose wandering(double time_s, double phase) {
+/// kMost_m, or what there is room for: beyond, the grip passes the exits of its strings.
+double room_m(const Profile& profile) {
+  return std::min(kMost_m, half_room_m(profile.geometry).minCoeff());
+}
+
+/// Goes about within `reach_m` and 20° in sines of these frequencies, at up to 0.5 m/s.
+Pose wandering(double time_s, double phase, double reach_m) {
   const auto wave = [&](double rate_Hz, double shift) {
     return std::sin(2 * M_PI * rate_Hz * time_s + phase + shift);
   };
   Pose pose;
   pose.position_m =
-      kReach_m / std::sqrt(3.0) * Eigen::Vector3d(wave(3.1, 0), wave(2.3, 1), wave(kFastest_Hz, 2));
+      reach_m / std::sqrt(3.0) * Eigen::Vector3d(wave(3.1, 0), wave(2.3, 1), wave(kFastest_Hz, 2));
   const Eigen::Vector3d turn_rad =
       0.35 / std::sqrt(3.0) * Eigen::Vector3d(wave(1.3, 3), wave(0.9, 4), wave(1.1, 5));
   pose.orientation = Eigen::AngleAxisd(turn_rad.norm(), turn_rad.stableNormalized());
@@ -49,7 +55,7 @@ double turn_between_ends(const Profile& profile, double fastest_m_s) {
       string_lengths_m(profile.geometry, {}).head(profile.geometry.count).minCoeff();
   const double turn = 0.5 * 6e-3 * fastest_m_s / length_m;
   const double late_s = 6e-3 + GripMotion::kLag_s;
-  const double off_m = 0.5 * std::pow(2 * M_PI * kFastest_Hz * late_s, 2) * kReach_m;
+  const double off_m = 0.5 * std::pow(2 * M_PI * kFastest_Hz * late_s, 2) * room_m(profile);
   return turn * turn + off_m / length_m;
 }
 
@@ -69,7 +75,7 @@ TEST(DeliveredLimit, HoldsInTheHand) {
     });
     double excess_N = 0;
     for (double time_s = 0; time_s < seconds; time_s += 1e-3) {
-      grip.device.set_hand(wandering(time_s, phase));
+      grip.device.set_hand(wandering(time_s, phase, room_m(profile)));
       grip.tick();
       const FeltState felt = grip.device.felt();
       const double allowed_N = std::max(3.0, rest_force_N(profile, felt.pose).norm());
@@ -103,7 +109,7 @@ TEST(DeliveredLimit, HoldsForTheTorque) {
     for (int i = 0; i < profile.geometry.count; ++i)
       reach_m = std::max(reach_m, profile.geometry.grip_m[static_cast<size_t>(i)].norm());
     for (double time_s = 0; time_s < 1.5; time_s += 1e-3) {
-      grip.device.set_hand(wandering(time_s, phase));
+      grip.device.set_hand(wandering(time_s, phase, room_m(profile)));
       grip.tick();
       const FeltState felt = grip.device.felt();
       excess_Nm = std::max(excess_Nm, felt.wrench.torque_Nm.norm() - limits.max_torque_Nm);
