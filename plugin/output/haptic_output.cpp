@@ -10,14 +10,15 @@
 #include "core/grip/picture_size.h"
 #include "plugin/gobject/category.h"
 #include "plugin/output/card_reservation.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/auto_device.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/session/sound_devices.h"
 #include "spidar/simulation/simulated_device.h"
+#include "spidar/transports/sound_cards.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -109,7 +110,9 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
 
 /// Null for a device that no sound server uses.
 std::unique_ptr<CardReservation> reserve(GstElement* element, const std::string& device) {
-  const std::optional<int> card = sound_card_number(device);
+  const DeviceName name(device);
+  if (name.device != "sound") return nullptr;
+  const std::optional<int> card = card_number(name.rest.substr(0, name.rest.find(',')));
   if (!card) return nullptr;
   std::string refused;
   std::unique_ptr<CardReservation> taken = CardReservation::take(*card, refused);

@@ -96,8 +96,11 @@ struct BoardTraits {
 constexpr BoardTraits kCyverseTraits{sh4::kDacBits, 0, false};
 constexpr BoardTraits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
 
-/// Throws DeviceError, with the field's name, when the profile describes a board that this one
-/// cannot be.
+/// Why the profile describes a board that this one cannot be, as the end of a sentence with the
+/// field's name: "has dac_bits = 16, …". Empty if it fits.
+std::string misfit(const Profile& profile, const BoardTraits& board);
+
+/// Throws DeviceError with misfit().
 void require_fitting(const std::string& device, const Profile& profile, const BoardTraits& board);
 
 }  // namespace spidar

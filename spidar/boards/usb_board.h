@@ -18,14 +18,15 @@ namespace spidar {
 
 /// A kind of board, wherever it is connected.
 struct BoardKind {
-  const char* device;         ///< what its name for make_grip() begins with: "usb"
-  const char* title;          ///< for people: "CyVerse USB 2.0 SH4"
-  const char* profile_board;  ///< Profile::board of profiles for it; empty for one without strings
-  UsbId usb;                  ///< nothing for one that is not on USB
+  const char* device = "";  ///< what its name for make_grip() begins with: "usb"
+  const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
+  const char* profile_board =
+      "";     ///< Profile::board of profiles for it; empty for one without strings
+  UsbId usb;  ///< nothing for one that is not on USB
   /// The board at the other end of this transport. Throws DeviceError when it cannot drive the
   /// profile.
   AnyBoard (*attach)(const std::string& name, const Profile& profile,
-                     std::unique_ptr<Transport> transport);
+                     std::unique_ptr<Transport> transport) = nullptr;
 
   bool has_strings() const noexcept { return *profile_board != '\0'; }
 };

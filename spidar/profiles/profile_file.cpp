@@ -9,6 +9,7 @@
 #include <Eigen/SVD>
 
 #include "spidar/as_text.h"
+#include "spidar/profiles/board_names.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/toml_field.h"
 
@@ -301,7 +302,7 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   if (std::any_of(profile.description.begin(), profile.description.end(),
                   [](unsigned char c) { return c < ' '; }))
     description.fail("has a control character, must be one line");
-  profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", "unknown"});
+  profile.board = root["board"].one_of(board_name::kAll);
   profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
   const TomlField dac_max = root["dac_max_V"];
   profile.dac_max_V = at_most(dac_max, dac_max.positive(), kMaxDac_V, "volts");

@@ -5,7 +5,7 @@
 /// A profile is TOML. All keys but `source` and `note` must be there, others must not:
 ///
 ///     description = "…"           one line
-///     board = "uart"              usb-sh4, usb-simple, uart, ahs, unknown
+///     board = "uart"              see board_names.h
 ///     dac_bits = 12               8 … 16
 ///     dac_max_V = 3.3             0 … 60
 ///     [geometry]

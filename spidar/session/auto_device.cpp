@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "spidar/devices/device_registry.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/device_registry.h"
 #include "spidar/session/profile_choice.h"
 
 namespace spidar {

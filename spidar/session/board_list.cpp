@@ -2,35 +2,17 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/board_list.h"
 
-#include <netinet/in.h>
 #include <string>
-#include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include "spidar/boards/usb_board.h"
 #include "spidar/device.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/session/device_registry.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/transports/usb_bus.h"
 
 namespace spidar {
-
-bool is_listening(uint16_t port) {
-  constexpr timeval kPatience{0, 100'000};  // if the queue of the listener is full
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  setsockopt(file, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
-  const bool listening =
-      connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  close(file);
-  return listening;
-}
-
 namespace {
 
 /// What is the same for all devices of this kind.

@@ -8,8 +8,8 @@
 
 #include "spidar/boards/force_grip.h"
 #include "spidar/boards/link_thread.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/grip/string_grip.h"
-#include "spidar/session/device_registry.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/spelling.h"
 

@@ -11,10 +11,12 @@
 
 #include <toml++/toml.h>
 
+#include "spidar/boards/board_parts.h"
 #include "spidar/boards/usb_board.h"
+#include "spidar/devices/device_registry.h"
+#include "spidar/profiles/board_names.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/device_registry.h"
 
 namespace spidar {
 namespace {
@@ -55,26 +57,29 @@ void require_plugged_in(const std::string& device) {
   }
 }
 
-/// Whether profiles of this board's kind are for that board. A CyVerse board that is not plugged in
-/// may be of either kind.
-bool is_for(const std::string& profile_board, const BoardInfo& board) {
-  if (profile_board == "unknown") return true;
-  if (!board.profile_board.empty()) return profile_board == board.profile_board;
-  return profile_board == "usb-sh4" || profile_board == "usb-simple";
+/// The kinds that a board may be of: a CyVerse board that is not plugged in may be of either.
+std::vector<const DeviceKind*> kinds_of(const BoardInfo& board) {
+  if (board.name.empty()) return {};  // no device is called so
+  std::vector<const DeviceKind*> kinds = kinds_called(DeviceName(board.device).device);
+  const auto is_other = [&](const DeviceKind* kind) {
+    return !board.profile_board.empty() && kind->profile_board != board.profile_board;
+  };
+  kinds.erase(std::remove_if(kinds.begin(), kinds.end(), is_other), kinds.end());
+  return kinds;
 }
 
 /// Why the board cannot be driven with the profile; empty if it can.
-std::string misfit(const BoardInfo& board, const Profile& profile) {
-  if (!is_for(profile.board, board))
-    return board.device + ": profile \"" + profile.name + "\" is for boards of the kind " +
-           profile.board + ", and this is " +
-           (board.profile_board.empty() ? "usb-sh4 or usb-simple" : board.profile_board);
-  try {
-    make_device(board.device, profile);
-    return {};
-  } catch (const std::runtime_error& error) {
-    return error.what();
+std::string why_not(const BoardInfo& board, const Profile& profile) {
+  std::string names, why;
+  for (const DeviceKind* kind : kinds_of(board)) {
+    names += (names.empty() ? "" : " or ") + std::string(kind->profile_board);
+    if (profile.board != board_name::kUnknown && profile.board != kind->profile_board) continue;
+    why = misfit(profile, kind->traits);
+    if (why.empty()) return {};
   }
+  return board.device + ": profile \"" + profile.name + "\" " +
+         (why.empty() ? "is for boards of the kind " + profile.board + ", and this is " + names
+                      : why);
 }
 
 }  // namespace
@@ -86,7 +91,7 @@ std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   std::vector<std::string> fitting;
   for (const std::string& name : list_profiles()) {
     try {
-      if (misfit(board, load_profile(name)).empty()) fitting.push_back(name);
+      if (why_not(board, load_profile(name)).empty()) fitting.push_back(name);
     } catch (const ProfileError&) {
       continue;
     }
@@ -121,7 +126,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
     throw NoProfile(board);
   }
   Profile profile = load_profile(named.empty() ? board.profile : named);
-  const std::string why = misfit(board, profile);
+  const std::string why = why_not(board, profile);
   // None fits a board whose name is not right.
   if (!why.empty())
     throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board),

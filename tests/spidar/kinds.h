@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/device_registry.h"
 #include "spidar/emulation/emulated_transport.h"
-#include "spidar/session/device_registry.h"
 
 namespace spidar::test {
 

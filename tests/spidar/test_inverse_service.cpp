@@ -15,6 +15,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/board_list.h"
+#include "spidar/transports/loopback.h"
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"

@@ -16,10 +16,10 @@
 #include <gtest/gtest.h>
 
 #include "spidar/boards/link_thread.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/device_registry.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/pushed_grip.h"

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/session/sound_devices.h"
-
 #include <memory>
 
 #include "spidar/boards/sound_board.h"
+#include "spidar/devices/device_kind.h"
+#include "spidar/devices/device_parts.h"
+#include "spidar/emulation/emulated_force_devices.h"
 #include "spidar/printable.h"
 #include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 
 namespace spidar {
+namespace {
 
 AnyBoard make_sound(const std::string& name, const std::string& rest, const Profile&) {
   const sound::Settings settings = sound::Settings::parse(name, rest);
@@ -30,10 +32,20 @@ std::vector<BoardInfo> list_sound() {
   return boards;
 }
 
-std::optional<int> sound_card_number(const std::string& device) {
-  const std::string begin = "sound:";
-  if (device.compare(0, begin.size(), begin) != 0) return std::nullopt;
-  return card_number(device.substr(begin.size(), device.find(',') - begin.size()));
+}  // namespace
+
+DeviceKind sound_kind() {
+  DeviceKind kind;
+  kind.device = "sound";
+  kind.title = "sound card";
+  kind.board = "sound";
+  kind.names = "sound:CARD, sound:CARD,CHANNEL=DIRECTION";
+  kind.attach = attach<SoundBoard>;
+  kind.emulate = emulate<EmulatedSound>;
+  kind.simulated_motors = unconnected_motors;
+  kind.make = make_sound;
+  kind.list = list_sound;
+  return kind;
 }
 
 }  // namespace spidar

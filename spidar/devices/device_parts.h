@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What the members of a DeviceKind are made of.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "spidar/boards/board.h"
+#include "spidar/boards/board_parts.h"
+#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/emulation/emulated_transport.h"
+#include "spidar/emulation/simulated_motors.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar {
+
+/// For DeviceKind::attach.
+template <typename BoardType>
+AnyBoard attach(const std::string& name, const Profile& profile,
+                std::unique_ptr<Transport> transport) {
+  if constexpr (std::is_base_of_v<Board, BoardType>)
+    return std::unique_ptr<Board>(std::make_unique<BoardType>(name, profile, std::move(transport)));
+  else
+    return std::unique_ptr<ForceBoard>(std::make_unique<BoardType>(name, std::move(transport)));
+}
+
+/// For DeviceKind::emulate.
+template <typename Emulated>
+std::unique_ptr<EmulatedBoard> emulate(std::shared_ptr<EmulatedMotors> motors) {
+  return std::make_unique<Emulated>(std::move(motors));
+}
+
+// For DeviceKind::simulated_motors:
+
+/// What the board puts out has no effect.
+inline std::shared_ptr<EmulatedMotors> unconnected_motors(const Profile&,
+                                                          const SimulatedMechanics&) {
+  return std::make_shared<EmulatedMotors>();
+}
+
+template <uint16_t inputs>
+std::shared_ptr<EmulatedMotors> simulated_hand(const Profile&, const SimulatedMechanics&) {
+  return std::make_shared<SpringHand>(inputs);
+}
+
+template <DacScale (*dac)(const Profile&)>
+std::shared_ptr<EmulatedMotors> simulated_strings(const Profile& profile,
+                                                  const SimulatedMechanics& mechanics) {
+  return std::make_shared<SimulatedMotors>(profile, dac(profile), mechanics);
+}
+
+/// The number from 1 to `largest` in "NAME=NUMBER", of which `name` has the equals sign; 0 if
+/// `option` is something else.
+inline int option_value(const std::string& option, const std::string& name, int largest) {
+  if (option.compare(0, name.size(), name) != 0) return 0;
+  const std::string digits = option.substr(name.size());
+  if (digits.empty() || digits.size() > 5) return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const int value = std::stoi(digits);
+  return value <= largest ? value : 0;
+}
+
+}  // namespace spidar

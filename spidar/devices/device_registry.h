@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The kinds of devices that have a driver, and which of them a name means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spidar/boards/board.h"
+#include "spidar/devices/device_kind.h"
+#include "spidar/emulation/simulated_motors.h"
+#include "spidar/profiles/profile.h"
+
+namespace spidar {
+
+/// In the order in which they are listed.
+const std::vector<DeviceKind>& devices();
+
+/// A device's name, split at its first colon.
+struct DeviceName {
+  explicit DeviceName(const std::string& text);
+
+  std::string device;
+  std::string rest;
+  bool has_end = true;  ///< there is something after the colon, if there is one
+};
+
+/// The kinds that `device`, the part of a name before the colon, may mean.
+std::vector<const DeviceKind*> kinds_called(const std::string& device);
+
+/// Of "sim:sh4". Null when there is no such board, and for "sim".
+const DeviceKind* simulated_kind(const DeviceName& name);
+
+/// The board that its emulation answers, which needs no thread and no guardian. Throws DeviceError
+/// when the board cannot drive the profile, and std::invalid_argument as SimulatedDevice does.
+AnyBoard simulated_board(const DeviceKind& kind, const std::string& name, const Profile& profile,
+                         const SimulatedMechanics& mechanics = {});
+
+}  // namespace spidar
