@@ -6,8 +6,7 @@
 #include <limits>
 #include <string_view>
 
-#include <Eigen/SVD>
-
+#include "core/grip/singular_values.h"
 #include "spidar/as_text.h"
 #include "spidar/profiles/board_names.h"
 #include "spidar/profiles/profile.h"
@@ -88,7 +87,7 @@ void check_hold(const TomlField& in, const StringGeometry& geometry) {
                " N or more; the exits enclose the grip");
   Eigen::Matrix<double, 6, Eigen::Dynamic> unit = W.leftCols(geometry.count);
   unit.bottomRows<3>() /= radius_m;
-  const double weakest = Eigen::JacobiSVD<Eigen::MatrixXd>(unit).singularValues()[5];
+  const double weakest = singular_values(unit).values[5];
   if (!(weakest >= kMinStiffness))
     in["grip"].fail("leaves a motion of the grip with which no string's length changes (" +
                     as_text(weakest) + ", must be " + as_text(kMinStiffness) +
