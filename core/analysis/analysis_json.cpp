@@ -2,13 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/analysis/analysis_json.h"
 
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "core/json_text.h"
 
 namespace spidar {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <typename Vector>
 Json array(const Vector& vector) {
@@ -66,7 +65,7 @@ std::string json_line(const Frame& frame) {
        {{"force_N", array(frame.wrench.force_N)}, {"torque_Nm", array(frame.wrench.torque_Nm)}}},
       {"background", frame.background ? json_of(*frame.background) : Json()},
       {"objects", objects}};
-  return json.dump() + '\n';
+  return json_text(json) + '\n';
 }
 
 }  // namespace spidar

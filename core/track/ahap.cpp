@@ -4,17 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/json_text.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
 namespace spidar {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kLongestEvent_s = 30;
 constexpr size_t kMostPoints = 16;
@@ -44,7 +42,7 @@ std::string description(double gain) {
   return std::string("Force of a film: 1 is ").append(newtons.data(), end) + " N";
 }
 
-OrderedJson event(double time_s, double duration_s) {
+Json event(double time_s, double duration_s) {
   return {{"Event",
            {{"Time", rounded(time_s)},
             {"EventType", "HapticContinuous"},
@@ -70,15 +68,15 @@ class AhapCurveWriter {
  private:
   void put() {
     const double begin_s = seconds(points_.front().index);
-    OrderedJson controls = OrderedJson::array();
+    Json controls = Json::array();
     for (const Point& point : points_) {
       controls.push_back(
           {{"Time", rounded(seconds(point.index) - begin_s)}, {"ParameterValue", point.value}});
     }
-    const OrderedJson curve = {{"ParameterCurve",
-                                {{"ParameterID", "HapticIntensityControl"},
-                                 {"Time", begin_s},
-                                 {"ParameterCurveControlPoints", controls}}}};
+    const Json curve = {{"ParameterCurve",
+                         {{"ParameterID", "HapticIntensityControl"},
+                          {"Time", begin_s},
+                          {"ParameterCurveControlPoints", controls}}}};
     write_((is_first_ ? "" : ",") + curve.dump());
     is_first_ = false;
     points_.erase(points_.begin(), points_.end() - 1);
@@ -97,7 +95,7 @@ class AhapCurveWriter {
 
 void write_ahap(const SampleSource& samples, const WriteText& write, double tolerance,
                 double gain) {
-  write(R"({"Version":1.0,"Metadata":{"Description":)" + OrderedJson(description(gain)).dump() +
+  write(R"({"Version":1.0,"Metadata":{"Description":)" + Json(description(gain)).dump() +
         R"(},"Pattern":[)");
   const double length_s = seconds(samples.count);
   bool is_first = true;

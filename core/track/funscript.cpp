@@ -2,16 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/json_text.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
 namespace spidar {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr double kMiddle = 50;
 constexpr const char *kNotesKey = "gst-spidar", *kChannelKey = "channel", *kGainKey = "gain";
@@ -66,7 +64,7 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
                      double tolerance, double gain) {
   const Json notes = {{kChannelKey, channel}, {kGainKey, gain}};
   write(R"({"version":"1.0","inverted":false,"range":100,")" + std::string(kNotesKey) +
-        "\":" + notes.dump() + R"(,"actions":[)");
+        "\":" + json_text(notes) + R"(,"actions":[)");
   KeyframeChooser keyframes(tolerance, [&write](size_t index, double fraction) {
     write((index == 0 ? R"({"at":)" : R"(,{"at":)") + std::to_string(index) + R"(,"pos":)" +
           std::to_string(std::lround(kMiddle + kMiddle * fraction)) + "}");

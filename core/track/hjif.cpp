@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
+#include "core/json_text.h"
 #include "core/number_text.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
 namespace spidar {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::array<const char*, kTrackChannels> kChannelNames = {
     "Force x, to the right: 1 is 10 N",

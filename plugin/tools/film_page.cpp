@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include <glib.h>
 
 #include "core/force/motion_rendering.h"
+#include "core/json_text.h"
 #include "core/track/keyframes.h"
 #include "plugin/tools/film_page_html.h"
 
@@ -44,10 +44,9 @@ std::string curve_text(const std::vector<double>& force_N, double tolerance_N, d
 }
 
 /// As the content of a script element, which only "<" could end.
-std::string script_json(const nlohmann::ordered_json& value) {
+std::string script_json(const Json& value) {
   std::string text;
-  for (const char c : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-    text += c == '<' ? "\\u003c" : std::string(1, c);
+  for (const char c : json_text(value)) text += c == '<' ? "\\u003c" : std::string(1, c);
   return text;
 }
 
@@ -76,15 +75,15 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
-  nlohmann::ordered_json track = {{"film", name},
-                                  {"url", url},
-                                  {"later_s", later_s},
-                                  {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
-                                  {"most_N", most_N}};
+  Json track = {{"film", name},
+                {"url", url},
+                {"later_s", later_s},
+                {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
+                {"most_N", most_N}};
   Html html;
   // As exact as a hand can feel, or as there is room for in a long film.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
-    track["force"] = nlohmann::ordered_json::array();
+    track["force"] = Json::array();
     for (const std::vector<double>& force_N : force_N_)
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
     html.text = page;

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <stdexcept>
 #include <sys/prctl.h>
@@ -18,6 +17,7 @@
 
 #include <gst/gst.h>
 
+#include "core/json_text.h"
 #include "plugin/tools/film_recorder.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
@@ -47,15 +47,9 @@ enum Argument {
   kProperties
 };
 
-/// Each answer is one of these letters, a text, and a zero byte.
-enum Answer : char {
-  kPercent = 'p',
-  kFelt = 'f',
-  kRemark = 'r',
-  kSummary = 's',
-  kError = 'e',
-  kEnd = 'd'
-};
+// Each answer is an object in MessagePack after its length, a uint32_t: {"percent": 40} as often as
+// it rises, and last what FilmResult has, or {"error": why}. Its texts are bytes, as names of files
+// are.
 
 // --- the process that has the list of films
 
@@ -83,7 +77,7 @@ class Answers {
     ends_[1] = -1;
   }
   /// Gives all answers until the process has ended.
-  void read(const std::function<void(char kind, const std::string& text)>& take) const {
+  void read(const std::function<void(const Json& answer)>& take) const {
     std::string unread;
     char bytes[4096];
     for (;;) {
@@ -91,8 +85,12 @@ class Answers {
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) return;
       unread.append(bytes, static_cast<size_t>(got));
-      for (size_t zero; (zero = unread.find('\0')) != std::string::npos; unread.erase(0, zero + 1))
-        if (zero > 0) take(unread[0], unread.substr(1, zero - 1));
+      for (uint32_t length = 0; unread.size() >= sizeof length;) {
+        std::memcpy(&length, unread.data(), sizeof length);
+        if (unread.size() < sizeof length + length) break;
+        take(Json::from_msgpack(unread.substr(sizeof length, length)));
+        unread.erase(0, sizeof length + length);
+      }
     }
   }
 
@@ -148,19 +146,16 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
   Answers answers;
   const pid_t process = start_process(job, answers.end(), part);
   answers.close_end();
-  FilmResult result;
-  std::string error = "the process that read it ended without a result";
-  answers.read([&](char kind, const std::string& text) {
-    if (kind == kPercent) tell(std::atoi(text.c_str()));
-    if (kind == kFelt) result.felt = text;
-    if (kind == kRemark) result.remark = text;
-    if (kind == kSummary) result.summary = text;
-    if (kind == kError) error = text;
-    if (kind == kEnd) error.clear();
+  Json last = {{"error", "the process that read it ended without a result"}};
+  answers.read([&](const Json& answer) {
+    if (answer.contains("percent"))
+      tell(answer["percent"]);
+    else
+      last = answer;
   });
   await_end(process);
-  if (!error.empty()) throw std::runtime_error(error);
-  return result;
+  if (last.contains("error")) throw std::runtime_error(last["error"].get<std::string>());
+  return {last["felt"], last["remark"], last["summary"]};
 }
 
 // --- the process of a film
@@ -169,10 +164,13 @@ class Answering {
  public:
   explicit Answering(int descriptor) : descriptor_(descriptor) {}
 
-  void say(Answer kind, const std::string& text) const {
-    const std::string answer = static_cast<char>(kind) + text + '\0';
-    for (size_t at = 0; at < answer.size();) {
-      const ssize_t written = write(descriptor_, answer.data() + at, answer.size() - at);
+  void say(const Json& answer) const {
+    std::string bytes;
+    Json::to_msgpack(answer, bytes);
+    const auto length = static_cast<uint32_t>(bytes.size());
+    bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
+    for (size_t at = 0; at < bytes.size();) {
+      const ssize_t written = write(descriptor_, bytes.data() + at, bytes.size() - at);
       if (written < 0 && errno == EINTR) continue;
       if (written <= 0) _exit(kFailed);  // nobody waits for it
       at += static_cast<size_t>(written);
@@ -185,18 +183,16 @@ class Answering {
 
 /// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
 /// be felt), largest_force_N, fingerprint and settings.
-std::string summary_of(const std::string& track) {
+Json summary_of(const std::string& track) {
   Summariser summariser;
   const TrackCondition condition =
       read_track(track, [&summariser](const TrackSample& sample) { summariser.add(sample); });
   const TrackSummary summary = summariser.summary();
-  const nlohmann::ordered_json line = {
-      {"duration_s", static_cast<double>(summary.samples) / kTrackRate_Hz},
-      {"felt", summary.felt},
-      {"largest_force_N", summary.largest_force_N},
-      {"fingerprint", to_text(condition.notes.film)},
-      {"settings", condition.notes.settings.value_or("")}};
-  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return {{"duration_s", static_cast<double>(summary.samples) / kTrackRate_Hz},
+          {"felt", summary.felt},
+          {"largest_force_N", summary.largest_force_N},
+          {"fingerprint", to_text(condition.notes.film)},
+          {"settings", condition.notes.settings.value_or("")}};
 }
 
 void inspect(const std::string& film, const std::string& track, const std::string& settings) {
@@ -247,22 +243,22 @@ int run_film_process(int argc, char** argv) {
   try {
     gst_init(nullptr, nullptr);
     std::string recorded = track;
+    Json result = {{"felt", ""}, {"remark", ""}};
     if (descriptor == kNoPart) {
       inspect(film, track, properties.settings);
     } else {
       const PartFile part(track, descriptor);
       recorded = part.path();
       const FilmOutcome outcome = record_film(film, part, properties, [&answers](int percent) {
-        answers.say(kPercent, std::to_string(percent));
+        answers.say({{"percent", percent}});
       });
-      answers.say(kFelt, outcome.felt);
-      answers.say(kRemark, outcome.remark);
+      result = {{"felt", outcome.felt}, {"remark", outcome.remark}};
     }
-    if (std::atoi(argv[kIsSummarised])) answers.say(kSummary, summary_of(recorded));
-    answers.say(kEnd, "");
+    result["summary"] = std::atoi(argv[kIsSummarised]) ? summary_of(recorded) : Json::object();
+    answers.say(result);
     return kDone;
   } catch (const std::exception& error) {
-    answers.say(kError, error.what());
+    answers.say({{"error", error.what()}});
     return kFailed;
   }
 }

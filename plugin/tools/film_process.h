@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "core/json_text.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tracks/part_file.h"
 
@@ -21,9 +22,9 @@ struct FilmJob {
 };
 
 struct FilmResult {
-  std::string felt;     ///< how much of the film is felt, and why the rest is not
-  std::string remark;   ///< what else is to be known of it; usually empty
-  std::string summary;  ///< of the track, as an object of JSON
+  std::string felt;    ///< how much of the film is felt, and why the rest is not
+  std::string remark;  ///< what else is to be known of it; usually empty
+  Json summary;        ///< of the track, an object; without is_summarised, it is empty
 };
 
 /// Records the film of `job` into `part`. `tell` is called with the percentage that is done,

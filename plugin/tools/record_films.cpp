@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,6 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/json_text.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
@@ -32,10 +32,10 @@ namespace {
 struct RecordedFilm {
   std::string film;
   std::filesystem::path track;
-  std::string result;   ///< "recorded", "there" or "failed"
-  std::string remark;   ///< a warning or, if it failed, the cause; may be empty
-  double seconds = 0;   ///< of work
-  std::string summary;  ///< FilmResult::summary
+  std::string result;  ///< "recorded", "there" or "failed"
+  std::string remark;  ///< a warning or, if it failed, the cause; may be empty
+  double seconds = 0;  ///< of work
+  Json summary;        ///< FilmResult::summary
 };
 
 [[noreturn]] void fail(const std::string& path) {
@@ -45,15 +45,14 @@ struct RecordedFilm {
 /// A line of JSON for the manifest, without the end of the line. Unless the film failed, it has
 /// what the track says of itself.
 std::string manifest_line(const RecordedFilm& film) {
-  nlohmann::ordered_json line = {{"film", film.film},
-                                 {"result", film.result},
-                                 {"seconds", film.seconds},
-                                 {"version", SPIDAR_VERSION}};
+  Json line = {{"film", film.film},
+               {"result", film.result},
+               {"seconds", film.seconds},
+               {"version", SPIDAR_VERSION}};
   if (!film.remark.empty()) line[film.result == "failed" ? "error" : "warning"] = film.remark;
   if (film.result != "failed") line["track"] = film.track.string();
-  if (!film.summary.empty()) line.update(nlohmann::ordered_json::parse(film.summary));
-  // File names are bytes, and JSON is UTF-8.
-  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (!film.summary.empty()) line.update(film.summary);
+  return json_text(line);
 }
 
 /// Appends lines to a file, also from several threads and processes.
@@ -216,7 +215,7 @@ class FilmBatch {
   void fail(size_t index, std::string cause) {
     const ListedFilm& film = options_.films[index];
     try {
-      manifest_.add({film.path, options_.file_of(film), "failed", cause, 0, ""});
+      manifest_.add({film.path, options_.file_of(film), "failed", cause, 0, {}});
     } catch (const std::exception& error) {
       cause += std::string("; ") + error.what();
     }

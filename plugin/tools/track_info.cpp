@@ -3,11 +3,11 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "core/force/motion_rendering.h"
+#include "core/json_text.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
@@ -27,7 +27,7 @@ std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
 constexpr double kMaxSlew_N_s = 300;
 
 void print_json(const TrackCondition& found, const TrackSummary& summary) {
-  nlohmann::ordered_json info;
+  Json info;
   if (!found.film.empty()) info = {{"film", found.film}, {"belongs", found.other.empty()}};
   info["track"] = found.track;
   info["samples"] = summary.samples;
@@ -43,8 +43,7 @@ void print_json(const TrackCondition& found, const TrackSummary& summary) {
     info["channels"][channel_name(i)] = {
         {"peak", channel.peak}, {"rms", channel.rms}, {"above_30_Hz", channel.above_30_Hz}};
   }
-  // File names are bytes, and JSON is UTF-8.
-  std::cout << info.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  std::cout << json_text(info) << '\n';
 }
 
 }  // namespace

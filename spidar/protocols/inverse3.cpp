@@ -6,12 +6,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "core/json_text.h"
 
 namespace spidar::inverse3 {
 namespace {
-
-using Json = nlohmann::json;
 
 /// From the foot of the device, in its own axes.
 const Eigen::Vector3d kMiddle_m(0, -0.1, 0.18);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Numbers for people, and data for other programs, in which names include units.
+/// Numbers for people, and for other programs.
 #pragma once
 
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "core/json_text.h"
 
 namespace spidar {
 
@@ -27,16 +28,8 @@ namespace spidar {
   return text;
 }
 
-using Json = nlohmann::ordered_json;
-
 inline Json to_json(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return std::vector<double>(values.data(), values.data() + values.size());
-}
-
-/// Indented, or with `indent` −1 on a single line. File names are bytes, and JSON is UTF-8. Numbers
-/// that are not finite are null.
-inline std::string json_text(const Json& json, int indent = 2) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace spidar

@@ -238,7 +238,7 @@ int calibrate_command(const CalibrateOptions& options) {
   const CalibrationResult result =
       options.centre ? calibrate_at_centre(profile, counts) : calibrate(profile, counts, settings);
   if (options.json)
-    std::cout << json_text(result_json(profile, result, how(options)));
+    std::cout << json_text(result_json(profile, result, how(options)), 2) << '\n';
   else
     print_result(profile, result, how(options));
   if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;

@@ -51,7 +51,7 @@ class Monitor {
     if (readings_++ % kReadingsPerLine != 0) return;
     const double time_s = 1e-9 * static_cast<double>(kTick_ns * (readings_ - 1));
     if (json_)
-      std::cout << json_text(json_of(time_s, reading, lengths_m, result), -1);
+      std::cout << json_text(json_of(time_s, reading, lengths_m, result)) << '\n';
     else
       print(time_s, reading, lengths_m, result);
     std::cout << std::flush;

@@ -97,7 +97,9 @@ void print(const PullOptions& pull, int strings, const Lengths& lengths) {
                             {"tension_N", pull.tension_N},
                             {"seconds", pull.seconds},
                             {"length_m", to_json(lengths.pulled_m.head(strings))},
-                            {"length_change_m", to_json(change_m.head(strings))}});
+                            {"length_change_m", to_json(change_m.head(strings))}},
+                           2)
+              << '\n';
     return;
   }
   std::cout << formatted("string %d: %.2f N for %g s\nlengths changed by", pull.string,

@@ -56,7 +56,7 @@ std::string text_of(const Json& object, const char* name) {
 int list(const ListOptions& options) {
   const Json found = found_devices();
   if (options.json) {
-    std::cout << json_text(found);
+    std::cout << json_text(found, 2) << '\n';
     return kDone;
   }
   std::cout << "devices\n";
@@ -238,7 +238,7 @@ int info(const InfoOptions& options) {
   const FoundBoard found = read(chosen);
   if (interrupted()) return kInterrupted;
   if (options.json)
-    std::cout << json_text(json_of(chosen, found));
+    std::cout << json_text(json_of(chosen, found), 2) << '\n';
   else
     print(chosen, found);
   return kDone;

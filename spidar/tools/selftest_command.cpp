@@ -196,7 +196,7 @@ int selftest(const SelftestOptions& options) {
     else
       print_lag(std::cout, profile, test, lag.value_or(LagVerdict()));
   }
-  if (options.json) std::cout << json_text(json);
+  if (options.json) std::cout << json_text(json, 2) << '\n';
   if (options.output) write(options, profile, report, lag);
   return right ? kDone : kFailed;
 }
