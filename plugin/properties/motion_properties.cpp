@@ -65,8 +65,20 @@ MotionRow pointer_row() {
       }};
 }
 
+/// With analysis_mark().
+std::vector<MotionRow> marked(std::vector<MotionRow> rows) {
+  for (MotionRow& row : rows) {
+    row.spec = [spec = row.spec](const MotionProperties& defaults) {
+      GParamSpec* const made = spec(defaults);
+      g_param_spec_set_qdata(made, analysis_mark(), GINT_TO_POINTER(TRUE));
+      return made;
+    };
+  }
+  return rows;
+}
+
 /// Which motion is felt, and how: from `controller` to `washout`.
-std::vector<MotionRow> feel_rows() {
+std::vector<MotionRow> analysis_rows() {
   return {
       MotionRow::choice<ControllerKind>(
           {"controller", "Controller", "How speed is converted to force"}, "GstSpidarController",
@@ -269,7 +281,7 @@ const PropertyTable<MotionProperties>& motion_properties() {
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table =
       *new PropertyTable<MotionProperties>{{device_row(), profile_row<MotionProperties>()},
-                                           feel_rows(),
+                                           marked(analysis_rows()),
                                            element_rows(),
                                            display_rows(),
                                            touch_rows()};

@@ -27,6 +27,12 @@ constexpr auto kPlaying = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_S
 /// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable = static_cast<GParamFlags>(kPlaying | GST_PARAM_CONTROLLABLE);
 
+/// Marks what the force of a film's frames depends on. What is not marked is for a device, a viewer
+/// or a pipeline, and changes no haptic track.
+inline GQuark analysis_mark() {
+  return g_quark_from_static_string("spidar-analysis");
+}
+
 /// Where the settings of an element keep a property: KEPT_IN(analyzer.axes.depth).
 #define KEPT_IN(member)         \
   [](auto& settings) -> auto& { \

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/tools/film_list.h"
+
 namespace spidar {
 
 struct RecordProperties {
@@ -31,25 +33,6 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
 /// Throws UsageError for what looks like a property where a film is expected: `command` is what
 /// comes before the dashes.
 void expect_no_property(const std::string& film, const std::string& command);
-
-struct ListedFilm {
-  std::string path;
-  /// Where it is below the folder that was given; empty if the film itself was given.
-  std::filesystem::path subfolder;
-};
-
-struct FilmList {
-  std::vector<ListedFilm> films;
-  std::string left_out;  ///< what the folders have besides films, in one line; empty: nothing
-};
-
-/// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
-/// end as those of films do (".mkv" in small or capital letters), without hidden ones and hidden
-/// folders: the largest first, so that a long film does not come last and alone. Links to folders
-/// are not followed.
-/// Throws std::runtime_error if a folder has no film or cannot be read; one below it that cannot is
-/// left out.
-FilmList list_films(const std::vector<std::string>& names);
 
 struct RecordOptions {
   bool force = false;

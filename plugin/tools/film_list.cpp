@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/tools/film_list.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace spidar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFilmEnds[] = {".3g2", ".3gp",  ".asf", ".avi",  ".divx", ".f4v",
+                                     ".flv", ".m2ts", ".m2v", ".m4v",  ".mkv",  ".mov",
+                                     ".mp4", ".mpeg", ".mpg", ".mts",  ".mxf",  ".ogm",
+                                     ".ogv", ".ts",   ".vob", ".webm", ".wmv"};
+
+bool is_hidden(const fs::path& path) {
+  return path.filename().string().front() == '.';
+}
+
+/// In small letters.
+std::string end_of(const fs::path& path) {
+  std::string end = path.extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return end;
+}
+
+bool has_film_name(const fs::path& path) {
+  return std::find(std::begin(kFilmEnds), std::end(kFilmEnds), end_of(path)) != std::end(kFilmEnds);
+}
+
+/// Tracks of films, and rules of what is felt.
+bool is_beside_film(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  return end_of(stem) == ".haptic" || end_of(path) == ".feel";
+}
+
+struct FoundFilm {
+  ListedFilm film;
+  uintmax_t bytes = 0;
+};
+
+/// Finds the films in a folder and below, and counts what else is there.
+class FilmSearch {
+ public:
+  /// Throws std::runtime_error when the folder itself cannot be read.
+  explicit FilmSearch(const std::string& folder) : folder_(folder) {
+    if (const std::error_code error = look_into(folder)) {
+      throw std::runtime_error(folder + ": cannot be read: " + error.message());
+    }
+    std::sort(found_.begin(), found_.end(), [](const FoundFilm& a, const FoundFilm& b) {
+      return a.bytes != b.bytes ? a.bytes > b.bytes : a.film.path < b.film.path;
+    });
+  }
+
+  const std::vector<FoundFilm>& found() const { return found_; }
+  /// Parts of a sentence.
+  std::vector<std::string> left_out() const {
+    std::vector<std::string> parts = unreadable_;
+    for (const auto& [what, files] : passed_over_)
+      parts.push_back(std::to_string(files) + " " + what + (files == 1 ? "" : "s"));
+    size_t count = 0;
+    std::vector<std::pair<size_t, std::string>> ends;
+    for (const auto& [end, files] : others_) {
+      count += files;
+      ends.emplace_back(files, end.empty() ? "without an ending" : end);
+    }
+    if (count == 0) return parts;
+    std::stable_sort(ends.begin(), ends.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr size_t kMostEnds = 5;
+    std::string text;
+    for (size_t i = 0; i < std::min(ends.size(), kMostEnds); ++i) {
+      text += (i == 0 ? "" : ", ") + std::to_string(ends[i].first) + " " + ends[i].second;
+    }
+    parts.push_back(std::to_string(count) + (count == 1 ? " file that is" : " files that are") +
+                    " no film by the name (" + text + (ends.size() > kMostEnds ? ", …" : "") + ")");
+    return parts;
+  }
+
+ private:
+  std::error_code look_into(const fs::path& folder) {
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+         at.increment(error)) {
+      look_at(*at);
+    }
+    return error;
+  }
+
+  void look_at(const fs::directory_entry& entry) {
+    std::error_code gone;  // it may be renamed or removed in the meantime
+    const bool is_link = entry.is_symlink(gone);
+    if (entry.is_directory(gone)) {
+      // The trash of a desktop, and what a file server keeps for Macs under the names of the films.
+      if (is_hidden(entry.path())) {
+        ++passed_over_["hidden folder"];
+      } else if (is_link) {
+        ++passed_over_["linked folder"];
+      } else if (const std::error_code error = look_into(entry.path())) {
+        unreadable_.push_back(entry.path().string() + ", which cannot be read (" + error.message() +
+                              ")");
+      }
+      return;
+    }
+    if (is_hidden(entry.path())) {
+      if (has_film_name(entry.path())) ++passed_over_["hidden film"];
+      return;
+    }
+    if (!entry.is_regular_file(gone)) {
+      ++passed_over_[entry.exists(gone) ? "special file" : "dangling link"];
+      return;
+    }
+    if (!has_film_name(entry.path())) {
+      if (!is_beside_film(entry.path())) ++others_[end_of(entry.path())];
+      return;
+    }
+    const uintmax_t bytes = entry.file_size(gone);
+    if (gone) return;
+    const fs::path subfolder = entry.path().lexically_relative(folder_).parent_path();
+    found_.push_back({{entry.path().string(), subfolder}, bytes});
+  }
+
+  const fs::path folder_;
+  std::vector<FoundFilm> found_;
+  std::vector<std::string> unreadable_;
+  std::map<std::string, size_t> passed_over_;  // by what they are
+  std::map<std::string, size_t> others_;       // files, by their ending
+};
+
+}  // namespace
+
+FilmList list_films(const std::vector<std::string>& names) {
+  FilmList list;
+  for (const std::string& name : names) {
+    if (!fs::is_directory(name)) {
+      list.films.push_back({name, {}});
+      continue;
+    }
+    const FilmSearch search(name);
+    for (const std::string& part : search.left_out())
+      list.left_out += (list.left_out.empty() ? "" : "; ") + part;
+    if (search.found().empty()) {
+      throw std::runtime_error(name + ": this folder has no film (names that end in .mkv, .mp4 …)" +
+                               (list.left_out.empty() ? "" : "; left out: " + list.left_out));
+    }
+    for (const FoundFilm& one : search.found()) list.films.push_back(one.film);
+  }
+  return list;
+}
+
+}  // namespace spidar
