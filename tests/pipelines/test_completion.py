@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright 2026 the gst-spidar authors
+"""What bash completes after the programs, from their --help."""
+import os
+import subprocess
+import sys
+import unittest
+
+SCRIPT = sys.argv.pop(1)
+PROGRAMS = {name: os.environ[name] for name in ("SPIDARCTL", "SPIDARTRACK", "SPIDAR_FEEL")}
+
+
+def completed(*words):
+    """The words that may stand in the place of the last one."""
+    script = f'. "{SCRIPT}"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _gst_spidar; printf "%s\\n" "${{COMPREPLY[@]}}"'
+    run = subprocess.run(["bash", "-u", "-c", script, "bash", *words], stdout=subprocess.PIPE, check=True, text=True)
+    return run.stdout.split()
+
+
+class Completion(unittest.TestCase):
+    def test_commands(self):
+        for program in ("SPIDARCTL", "SPIDARTRACK"):
+            text = subprocess.run([PROGRAMS[program], "--help"], stdout=subprocess.PIPE, check=True, text=True).stdout
+            listed = text.split("Subcommands:\n")[1].split("\n\n")[0]
+            commands = [line.split()[0] for line in listed.splitlines() if line[2:3].strip()]
+            self.assertGreater(len(commands), 6)
+            self.assertEqual(completed(PROGRAMS[program], ""), commands)
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "co"), ["convert"])
+
+    def test_options_of_the_command(self):
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "convert", "--to"), ["--tolerance"])
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "info", "a.flac", "--"), ["--help", "--json"])
+        self.assertEqual(completed(PROGRAMS["SPIDAR_FEEL"], "--f"), ["--follow"])
+
+    def test_values_of_an_option(self):
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "convert", "--axis", "f"), ["fx", "fy", "fz"])
+
+    def test_devices(self):
+        self.assertIn("sim", completed(PROGRAMS["SPIDARCTL"], "monitor", "s"))
+        # The second word of this one is a file or a profile.
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "info", "s"), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
