@@ -16,8 +16,8 @@ struct SingularValues {
   Eigen::MatrixXd directions;
 };
 
-/// `A` must not be empty. Compiled here once, because Eigen's decompositions take the compiler up to
-/// ten seconds in every file.
+/// `A` must not be empty. Compiled here once, because Eigen's decompositions take the compiler up
+/// to ten seconds in every file.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
 }  // namespace spidar

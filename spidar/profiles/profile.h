@@ -77,7 +77,7 @@ struct Profile {
 
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;  ///< controller it was used with, see board_names.h
+  std::string board;        ///< controller it was used with, see board_names.h
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
