@@ -25,9 +25,8 @@ struct Frame : MeasuredFrame {
                   ///< is shown
 
   bool has_motion_before() const { return picture != PictureKind::kFirst; }
-  /// The picture before is shown again, and its wrench goes on, also if that is zero: the way to
-  /// the next one begins where the picture was shown first.
-  bool goes_on() const { return picture == PictureKind::kWaiting; }
+  /// The picture before is shown again, and its wrench goes on. Rest has nothing that could go on.
+  bool goes_on() const { return picture == PictureKind::kWaiting && !wrench.stacked().isZero(0); }
   /// Nothing is known. The memory stays.
   void clear() {
     std::vector<Track> kept_tracks = std::move(tracks);
