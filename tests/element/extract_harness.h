@@ -34,11 +34,13 @@ inline GstBuffer* bare_frame(GstClockTime pts) {
   return frame;
 }
 
-inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench) {
+/// Whose motion is that of the time half of `interval` before the frame.
+inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench,
+                             GstClockTime interval = kExtractedFrame) {
   GstBuffer* frame = bare_frame(pts);
   FrameReport report;
   report.frame.stamp.running_ns = static_cast<int64_t>(pts);
-  report.frame.interval_ns = kExtractedFrame;
+  report.frame.interval_ns = static_cast<int64_t>(interval);
   report.frame.wrench = wrench;
   attach_motion_meta(frame, report, 16, 16);
   return frame;
@@ -94,10 +96,11 @@ class Extract : public testing::Test {
     ASSERT_TRUE(gst_harness_push_event(h, gst_event_new_segment(&segment)));
   }
 
-  /// Frames number `first` to `last`, with the time stamps of the film `at` and one frame later.
-  void push_frames(int first, int last, GstClockTime at) {
+  /// Frames number `first` to `last`, with the time stamps of the film `at` and one frame later,
+  /// and with `interval` of running time between them.
+  void push_frames(int first, int last, GstClockTime at, GstClockTime interval = kExtractedFrame) {
     for (int i = first; i <= last; ++i, at += kExtractedFrame)
-      ASSERT_EQ(gst_harness_push(h, make_frame(at, wrench_of(i))), GST_FLOW_OK);
+      ASSERT_EQ(gst_harness_push(h, make_frame(at, wrench_of(i), interval)), GST_FLOW_OK);
   }
 
   /// Segments that came out since the last call.
@@ -138,6 +141,13 @@ class Extract : public testing::Test {
       gst_message_unref(message);
     }
     return count;
+  }
+
+  /// The sample of the motion of frame `i`, which is shown `at_ms`: halfway to the one before.
+  void expect_motion(size_t i, size_t at_ms, size_t interval_ms = 40) const {
+    ASSERT_LT(at_ms, samples.size());
+    EXPECT_EQ(samples[at_ms - interval_ms / 2], to_track_sample(wrench_of(static_cast<double>(i))))
+        << i;
   }
 
   GstHarness* h = nullptr;

@@ -91,11 +91,16 @@ def record(trial):
     expect("CRITICAL" not in outcome.text and "WARNING" not in outcome.text, outcome.text[-250:])
 
 
+def motion_s(trial, i):
+    """Stream time of the motion that is measured between picture `i` and the one before: halfway between the two."""
+    return (trial.forces[max(0, i - 1)][0] + trial.forces[i][0]) / 2
+
+
 def expect_in_time(samples, trial, error_N=TRACK_N):
-    """The force of each picture is in the samples of its time, or of a millisecond before or after."""
+    """The force of each picture is in the samples of the time of its motion, or of a millisecond before or after."""
     for i in moving(trial):
         force = trial.forces[i]
-        at = force[0] / MS
+        at = motion_s(trial, i) / MS
         near = samples[max(0, math.floor(at - 1.001)):math.ceil(at + 1.001) + 1]
         expect(near, f"the track ends at {len(samples)} ms, before picture {i} of {at:.0f} ms")
         for axis in (0, 1):
@@ -105,13 +110,13 @@ def expect_in_time(samples, trial, error_N=TRACK_N):
 
 
 def track_in_time(trial):
-    """The track has the force of each picture within a millisecond of its time, and is at rest before."""
+    """The track has the force of each picture within a millisecond of the time of its motion, and is at rest before."""
     wav = trial.folder / "track.wav"
     outcome = trial.spidartrack("convert", trial.track, wav)
     expect(outcome, outcome.text)
     trial.samples = read_samples(wav)
     expect_in_time(trial.samples, trial)
-    still = int(trial.forces[moving(trial)[0] - 1][0] / MS)
+    still = int(motion_s(trial, moving(trial)[0] - 1) / MS)
     expect(all(math.hypot(*sample) < FELT_N for sample in trial.samples[:still]), "the track is not at rest at first")
     after_s = len(trial.samples) * MS - trial.forces[-1][0]
     expect(after_s < 0.3, f"the track goes on for {after_s:.1f} s after the last picture")
