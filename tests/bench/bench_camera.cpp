@@ -49,8 +49,7 @@ std::vector<Scene> scenes() {
                                    {"faint", Wall::kFaint},
                                    {"ice", Wall::kIce},
                                    {"blur", Wall::kBlur},
-                                   {"dark", Wall::kDark},
-                                   {"meadow below sky", Wall::kMeadow}}) {
+                                   {"dark", Wall::kDark}}) {
     const auto add = [&](const char* what, const CodedFilm& film) {
       scenes.push_back({std::string("pans, ") + name + what, film});
     };
