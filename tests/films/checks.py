@@ -92,8 +92,8 @@ def record(trial):
 
 
 def motion_s(trial, i):
-    """Stream time of the motion that is measured between picture `i` and the one before: halfway between the two."""
-    return (trial.forces[max(0, i - 1)][0] + trial.forces[i][0]) / 2
+    """Stream time of the motion that picture `i` shows: halfway between it and the one that it was compared with."""
+    return trial.forces[i][0] - trial.intervals_s[i] / 2
 
 
 def expect_in_time(samples, trial, error_N=TRACK_N):

@@ -3,7 +3,6 @@
 """A film in a folder of its own, what the programs make of it, and what was found in what they wrote."""
 import bisect
 import collections
-import csv
 import json
 import os
 import select
@@ -132,14 +131,15 @@ class Trial:
 
     def look(self):
         """What every player shows, and the force of each picture."""
-        forces = self.folder / "forces.csv"
+        forces = self.folder / "forces.jsonl"
         analyse = {"device": "none", "trace": str(forces)}
         own = self.film.kind["player"]
         for player in ("playbin", "decodebin", *(["playbin3"] if own in ("playbin3", "gapless") else [])):
             self.plays[player] = self.play_quickly(player, self.path, analyse if player == "decodebin" else None)
-        with open(forces, newline="") as rows:
-            self.forces = [(1e-9 * int(row["stream_time_ns"]), float(row["force_x_N"]), float(row["force_y_N"]))
-                           for row in csv.DictReader(rows)]
+        with open(forces, encoding="utf-8") as lines:
+            rows = [json.loads(line) for line in lines]
+        self.forces = [(1e-9 * row["stream_time_ns"], *row["wrench"]["force_N"][:2]) for row in rows]
+        self.intervals_s = [1e-9 * row["interval_ns"] for row in rows]  # in which their motion happened
         forces.unlink()
         if not self.forces:
             raise RuntimeError(f"no picture is analysed: {self.plays['decodebin']['error']}")
