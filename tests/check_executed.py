@@ -14,7 +14,10 @@ LAYERS = ("core", "plugin", "spidar")
 
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 ONE_OF_TWO = "the other one of two is in this build"
+INLINED = "has only functions that Clang puts into devices(), which is executed"
 EXCUSED = {
+    "spidar/devices/cyverse_kinds.cpp": INLINED,
+    "spidar/devices/falcon_kind.cpp": INLINED,
     "spidar/transports/no_sound_transport.cpp": ONE_OF_TWO,
     "spidar/transports/no_websocket_transport.cpp": ONE_OF_TWO,
 }
