@@ -43,8 +43,10 @@ inline void expect_wrench_of(SteppedPipeline& pipeline, const TickRecord& tick,
     return;
   }
   EXPECT_TRUE(tick.found != Found::kNothing && tick.found != Found::kExpired);
+  // The loop knows the next one before its frame has left the element.
   const auto after = std::next(frame);
-  const Wrench& next = after == pipeline.wrenches().end() ? frame->second : after->second;
+  if (after == pipeline.wrenches().end()) return;
+  const Wrench& next = after->second;
   constexpr double kRounding = 1e-15;  // a few, of numbers around 1
   for (int i = 0; i < 6; ++i) {
     const double here = frame->second.stacked()[i], there = next.stacked()[i];
