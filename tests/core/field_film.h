@@ -16,6 +16,14 @@ namespace spidar::test {
 constexpr int kFieldWidth = 427;
 constexpr int kFieldHeight = 240;
 
+/// As a BlockField reads it.
+inline PaddedImage padded(const Picture& picture) {
+  PaddedImage image;
+  reduce_blocks(picture.view(), 1, image);
+  image.repeat_border();
+  return image;
+}
+
 /// A background that moves by so much in each frame, with noise of a standard deviation `noise_px`.
 inline Background background_moved_by(const Eigen::Vector2d& shift_px,
                                       double noise_px = kUsualNoise_px) {
@@ -35,10 +43,7 @@ inline std::vector<std::vector<MovingObject>> objects_in(const Scene& scene, int
   for (int n = 0; n < frames; ++n) {
     Picture picture(kFieldWidth, kFieldHeight);
     picture.fill([&](double x, double y) { return scene(n, {x, y}); });
-    PaddedImage padded;
-    reduce_blocks(picture.view(), 1, padded);
-    padded.repeat_border();
-    if (field.update(padded) != BlockField::Result::kMoved) continue;
+    if (field.update(padded(picture)) != BlockField::Result::kMoved) continue;
     found.push_back(tracker.update({field, 1, {0, 0}, kSceneFrame_s, no_windows}, background));
   }
   return found;

@@ -25,10 +25,7 @@ PaddedImage wall(double stains, const Eigen::Vector2d& moved_px, uint32_t seed) 
     const double stain = texture.at(x - moved_px.x(), y - moved_px.y()) - 128;
     return 128 + stains * stain + noise(random);
   });
-  PaddedImage padded;
-  reduce_blocks(picture.view(), 1, padded);
-  padded.repeat_border();
-  return padded;
+  return padded(picture);
 }
 
 const Eigen::Vector2d kPan_px(5, -2);

@@ -21,10 +21,7 @@ TEST(BlockVotes, CountTwiceInTheTwoColumnsAndRowsAtEachBorder) {
   for (const double moved_px : {0.0, 4.0}) {
     Picture picture(kFieldWidth, kFieldHeight);
     picture.fill([&](double x, double y) { return texture.at(x - moved_px, y); });
-    PaddedImage padded;
-    reduce_blocks(picture.view(), 1, padded);
-    padded.repeat_border();
-    field.update(padded);
+    field.update(padded(picture));
   }
   const std::vector<float> persistence;
   const std::vector<uint8_t> burned_in;
@@ -61,10 +58,7 @@ bool are_lost(double reach_px) {
           std::max(std::abs(x - kFieldWidth / 2.0), std::abs(y - kFieldHeight / 2.0)) < reach_px;
       return is_inside ? texture->at(x, y) : 128;
     });
-    PaddedImage padded;
-    reduce_blocks(picture.view(), 1, padded);
-    padded.repeat_border();
-    field.update(padded);
+    field.update(padded(picture));
   }
   const std::vector<float> persistence;
   const std::vector<uint8_t> burned_in;

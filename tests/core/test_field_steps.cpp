@@ -13,6 +13,7 @@
 #include "core/field/block_kernels.h"
 #include "core/field/block_search.h"
 #include "core/field/field_picture.h"
+#include "tests/core/field_film.h"
 #include "tests/core/plain_block_kernels.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
@@ -22,13 +23,6 @@ namespace {
 
 using test::Picture;
 using test::Texture;
-
-PaddedImage padded(const Picture& picture) {
-  PaddedImage image;
-  reduce_blocks(picture.view(), 1, image);
-  image.repeat_border();
-  return image;
-}
 
 /// Grey levels of all sizes, black and white next to each other among them.
 PaddedImage noise(int width, int height, uint32_t seed) {

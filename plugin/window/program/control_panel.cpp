@@ -22,10 +22,11 @@ std::string count_of(size_t count, const std::string& noun) {
 
 /// Of the element's properties, as their descriptions have it; a factor has none.
 const char* unit_of(const std::string& setting) {
-  constexpr std::array<std::pair<const char*, const char*>, 7> kUnits{{{"max-force", " N"},
+  constexpr std::array<std::pair<const char*, const char*>, 8> kUnits{{{"max-force", " N"},
                                                                        {"alpha", " s/px"},
                                                                        {"filter-min-cutoff", " Hz"},
                                                                        {"filter-beta", " s/px"},
+                                                                       {"washout", " Hz"},
                                                                        {"touch-relief", " mm"},
                                                                        {"touch-stiffness", " N/m"},
                                                                        {"ts-offset", " ns"}}};
