@@ -9,6 +9,7 @@
 
 #include <gst-spidar/gstspidarobjectmeta.h>
 
+#include "plugin/frame/analytics.h"
 #include "plugin/frame/frame_luma.h"
 
 namespace spidar {
@@ -58,7 +59,7 @@ GstStructure* motion_of_object(const MovingObject& object, bool felt, int width,
 }  // namespace
 
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
-  std::vector<ObjectBox> boxes;
+  std::vector<ObjectBox> boxes = read_detections(buffer);
   gpointer state = nullptr;
   while (GstMeta* const meta = gst_buffer_iterate_meta_filtered(
              buffer, &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
@@ -87,6 +88,7 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width
     region->id = static_cast<gint>(object.id);
     gst_video_region_of_interest_meta_add_param(
         region, motion_of_object(object, object.id == report.frame.felt_object, width, height));
+    attach_detection(buffer, box, object.id);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <gst/video/video.h>
@@ -15,24 +14,16 @@
 #include "core/orientation.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/frame/frame_report.h"
+#include "plugin/frame/object_box.h"
 
 namespace spidar {
 
-/// In pixels of the frame that has it; it may lie partly outside.
-struct ObjectBox {
-  std::string name;  ///< of what is in it, "face"
-  double x, y, width, height;
-};
-
-/// Of GstVideoRegionOfInterestMeta. Those without a size are left out. Their ids count them within
-/// a frame, so that they do not tell which is which in the next one.
+/// Regions (GstVideoRegionOfInterestMeta) and detections. Those without a size are left out. Ids of
+/// regions count them within a frame, so that they do not tell which is which in the next one.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
-/// The name of our objects.
-constexpr const char* kObjectName = "spidar-object";
-
-/// Attaches the objects in sight to `buffer`, which is writable, as the same metas. Those that
-/// another spidarmotion has attached are replaced.
+/// Attaches the objects in sight to `buffer`, which is writable, as both. Regions that another
+/// spidarmotion has attached are replaced.
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height);
 
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.

@@ -24,11 +24,16 @@ std::string bus_address() {
   return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";
 }
 
+std::string numbered(std::string name, int card) {
+  name += std::to_string(card);
+  return name;
+}
+
 }  // namespace
 
 CardReservation::CardReservation(int card)
-    : name_(std::string(kInterface) + ".Audio" + std::to_string(card)),
-      path_("/org/freedesktop/ReserveDevice1/Audio" + std::to_string(card)) {}
+    : name_(numbered("org.freedesktop.ReserveDevice1.Audio", card)),
+      path_(numbered("/org/freedesktop/ReserveDevice1/Audio", card)) {}
 
 CardReservation::~CardReservation() {
   if (!bus_) return;

@@ -135,7 +135,8 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("%s, line %d: no frame comes with a box%s%s.", name, rule.line,
            rule.name[0] ? " called " : "", rule.name.data()),
           ("A detector or tracker before this element attaches boxes to the frames, as "
-           "GstVideoRegionOfInterestMeta. Nothing is felt until one comes, or %s.",
+           "GstVideoRegionOfInterestMeta or GstAnalyticsODMtd. Nothing is felt until one comes, or "
+           "%s.",
            end.c_str()));
       break;
     case ChoiceState::kBoxAtRest:
