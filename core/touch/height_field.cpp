@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -80,6 +81,30 @@ SurfacePoint HeightField::at(double x_m, double y_m) const noexcept {
     along_column_m += down.derivative[j] * height_m;
   }
   return {z_m, {along_row_m / cell_x_m_, -along_column_m / cell_y_m_}};
+}
+
+std::string HeightField::shading() const {
+  constexpr double kLevel = 128, kMost = 255;
+  const Eigen::Vector3d to_light = Eigen::Vector3d(-1, 1, std::sqrt(2.0)).normalized();
+  std::string shading(kCells, '\0');
+  auto cell = shading.begin();
+  for (int y = 0; y < kRows; ++y) {
+    const float* const above = row(std::max(y - 1, 0));
+    const float* const below = row(std::min(y + 1, kRows - 1));
+    for (int x = 0; x < kColumns; ++x) {
+      const float left_m = row(y)[std::max(x - 1, 0)];
+      const float right_m = row(y)[std::min(x + 1, kColumns - 1)];
+      const SurfacePoint point{0,
+                               {static_cast<double>(right_m - left_m) / (2 * cell_x_m_),
+                                static_cast<double>(above[x] - below[x]) / (2 * cell_y_m_)}};
+      const double light = std::max(point.normal().dot(to_light), 0.0);
+      const double level = to_light.z();
+      const double grey = light < level ? kLevel * light / level
+                                        : kLevel + (kMost - kLevel) * (light - level) / (1 - level);
+      *cell++ = static_cast<char>(static_cast<uint8_t>(std::lround(std::min(grey, kMost))));
+    }
+  }
+  return shading;
 }
 
 }  // namespace spidar

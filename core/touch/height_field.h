@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -57,6 +58,11 @@ class HeightField {
   /// Evaluates the surface at a position in the device frame. NaN counts as the left or upper
   /// border.
   SurfacePoint at(double x_m, double y_m) const noexcept;
+
+  /// To look at: the brightness of each cell, rows from the top, as on maps with hill shading. The
+  /// light comes from the upper left, 45° above the picture: 128 is level, 255 faces the light, and
+  /// 0 is turned away from it by a right angle.
+  std::string shading() const;
 
  private:
   double cell_x_m_;

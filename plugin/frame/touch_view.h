@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -55,6 +56,8 @@ struct TouchScene {
   TouchMap map;
   double stiffness_N_m = 0;    ///< rendered stiffness
   double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
+  /// HeightField::shading() of the picture as it is shown; empty: nobody looks at it.
+  std::string shading = {};
 };
 
 /// Finger and proxy in one tick, as positions in the picture.

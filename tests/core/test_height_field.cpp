@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <random>
@@ -49,6 +50,24 @@ TEST(HeightField, ReproducesAPlane) {
     EXPECT_NEAR(p.slope.x(), 0.1, kSlopeRounding);
     EXPECT_NEAR(p.slope.y(), -0.2, kSlopeRounding);
   }
+}
+
+/// A slope is a difference of floats, so that a shade is rounded up or down.
+TEST(HeightField, ShadingTellsWhereASlopeFaces) {
+  const double facing = 1 / std::sqrt(2.0);  // 45° towards the upper left, where the light is
+  const auto shade = [](double slope_x, double slope_y) {
+    const std::string shading =
+        field_of([&](double x_m, double y_m) { return slope_x * x_m + slope_y * y_m; }).shading();
+    EXPECT_EQ(shading.size(), static_cast<size_t>(HeightField::kCells));
+    return static_cast<int>(
+        static_cast<uint8_t>(shading[HeightField::kCells / 2 + HeightField::kColumns / 2]));
+  };
+  EXPECT_EQ(shade(0, 0), 128);
+  EXPECT_NEAR(shade(facing, -facing), 255, 1);
+  EXPECT_NEAR(shade(-facing, facing), 0, 1);
+  EXPECT_EQ(shade(-2 * facing, 2 * facing), 0) << "no darker than in the shadow";
+  EXPECT_GT(shade(0.3, 0), 128) << "it rises to the right, and so faces left";
+  EXPECT_GT(shade(0, -0.3), 128) << "it rises downwards, and so faces up";
 }
 
 TEST(HeightField, SlopeIsTheDerivativeOfTheHeight) {

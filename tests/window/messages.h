@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/touch/height_field.h"
 #include "plugin/window/view/messages.h"
 
 namespace spidar::test {
@@ -39,6 +40,7 @@ inline FrameShown some_frame() {
   report.touch.on = true;
   report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), Orientation(1)};
   report.touch.stiffness_N_m = 300;
+  report.touch.shading.assign(HeightField::kCells, 'a');
   return frame;
 }
 

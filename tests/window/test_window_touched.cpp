@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/touch/height_field.h"
 #include "spidar/profiles/profile.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
@@ -58,6 +59,38 @@ TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
   EXPECT_TRUE(is_grey(color(79.5, 59.5))) << "within the ring: " << shown(color(79.5, 59.5));
   EXPECT_TRUE(is_orange(color(239.5, 59.5))) << shown(color(239.5, 59.5));
   EXPECT_TRUE(is_white(color(239.5, 59.5 + 24)));
+}
+
+/// The shadow is in the left upper quarter of what a viewer sees.
+TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
+  const ElementState state = touching_state();
+  for (const int quarters : {0, 1}) {
+    Window window(std::make_shared<FakeSource>(state));
+    FrameReport report = touched_facts(state.device->geometry);
+    report.turn = Orientation(quarters, true);
+    report.touch.shading.assign(HeightField::kCells, '\x80');
+    for (int y = 0; y < HeightField::kRows / 2; ++y) {
+      report.touch.shading.replace(static_cast<size_t>(y) * HeightField::kColumns,
+                                   HeightField::kColumns / 2, HeightField::kColumns / 2, '\0');
+    }
+    give(window, report, 128);
+    const Screenshot shot = look(window);
+    const PictureMap map = map_of(shot);
+    int dark = 0;
+    for (const double x : {0.1, 0.9}) {
+      for (const double y : {0.1, 0.9}) {
+        const Eigen::Vector2d p = map({320 * x, 240 * y});
+        const Color color = at(shot, p.x(), p.y());
+        EXPECT_TRUE(is_grey(color)) << shown(color);
+        const Eigen::Vector2d seen = report.turn.displayed_position({x, y});
+        const bool in_shadow = seen.x() < 0.5 && seen.y() < 0.5;
+        EXPECT_EQ(color.r < 128 / 2, in_shadow) << quarters << ": " << x << ", " << y;
+        EXPECT_EQ(color.r > 128 - 5, !in_shadow) << quarters << ": " << x << ", " << y;
+        dark += in_shadow;
+      }
+    }
+    EXPECT_EQ(dark, 1);
+  }
 }
 
 TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {

@@ -34,7 +34,8 @@ inline void touch_frame(const PassingFrame& passing, const ImageView& luma, int6
   reliefs.set_turn(report.turn);
   reliefs.set_levels(luma_levels(passing.video.info));
   reliefs.add(luma, report.frame, shown_ns, touch,
-              report.turn.stored_position(grip_position(output).value_or(middle)));
+              report.turn.stored_position(grip_position(output).value_or(middle)),
+              passing.settings.display.debug_window ? &report.touch.shading : nullptr);
   if (!on || !session) return;
   report.touch.on = true;
   report.touch.map = {GripPointer(output.profile().geometry), report.turn};

@@ -173,7 +173,8 @@ bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchPro
 }
 
 void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
-                       const TouchProperties& properties, const Eigen::Vector2d& finger) {
+                       const TouchProperties& properties, const Eigen::Vector2d& finger,
+                       std::string* shading) {
   if (!loop_) return;
   if (properties.kind == TouchKind::kOff) {
     end(shown_ns);
@@ -203,6 +204,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
   frame->displacement_m = {moved.x() * frame->relief.width_m(),
                            -moved.y() * frame->relief.height_m()};
   stiffness_N_m_ = frame->contact.stiffness_N_m;
+  if (shading) *shading = frame->relief.shading();
   frame->follows =
       touched_ && !left_out_ && generation == generation_ && analyzed.has_motion_before();
   mailbox_->publish();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -66,9 +67,11 @@ class ReliefStream {
 
   /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analyzed` the part
   /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
-  /// the device has no workspace for a picture. Allocates only when the frame size changes.
+  /// the device has no workspace for a picture. Allocates only when the frame size changes. Where
+  /// `shading` is not null, it becomes HeightField::shading(), or stays where there is no surface.
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
-           const TouchProperties& properties, const Eigen::Vector2d& finger);
+           const TouchProperties& properties, const Eigen::Vector2d& finger,
+           std::string* shading = nullptr);
   /// How the frames that follow are turned before they are shown; the relief is turned like them.
   void set_turn(const Orientation& turn) { turn_ = turn; }
   /// The brightness of black and white in the frames that follow.

@@ -116,6 +116,7 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the one above, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
+  relief_.emplace();
 }
 
 /// Between two frames of the window.
@@ -130,6 +131,7 @@ DebugWindow::~DebugWindow() {
   end_choices();
   link_.lead_hand(std::nullopt);
   texture_.reset();
+  relief_.reset();
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -168,6 +170,7 @@ void DebugWindow::read() {
     picture_ = std::move(frame->picture);
     report_ = std::move(frame->report);
     frame_s_ = now_s();
+    if (!report_.touch.shading.empty()) relief_->load_shading(report_.touch.shading);
   }
   if (picture_.is_there() && (frame || width != loaded_width_)) {
     loaded_width_ = width;
@@ -222,6 +225,7 @@ ShownPicture DebugWindow::shown_picture() const {
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
   // pointer or, since 1.91.4, a number: a cast as in C makes either.
   picture.texture = (ImTextureID)uintptr_t{texture_->id()};
+  if (!report_.touch.shading.empty()) picture.relief = (ImTextureID)uintptr_t{relief_->id()};
   picture.frame_width = texture_->frame_width();
   picture.frame_height = texture_->frame_height();
   picture.pixel_aspect = texture_->pixel_aspect();

@@ -70,7 +70,7 @@ class DebugWindow {
   GLFWwindow* window_ = nullptr;
   double screen_scale_ = 1, scale_ = 1;  ///< of text: that of the screen, and in this window
   Fonts fonts_;
-  std::optional<PictureTexture> texture_;
+  std::optional<PictureTexture> texture_, relief_;
   int width_ = 0, height_ = 0;  // of the frame buffer drawn last
 
   ElementState state_;

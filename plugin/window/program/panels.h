@@ -27,6 +27,7 @@ struct ShownPicture {
   double arrow_scale = 1;
   double max_force_N = 0;
   std::optional<TouchMark> touch;
+  ImTextureID relief{};  ///< light and shadow of what is touched, as the picture is shown; or none
   /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
   std::optional<uint32_t> requested;
   bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint

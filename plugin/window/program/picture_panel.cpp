@@ -164,6 +164,15 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
 }
 
+/// It is of the picture as it is shown, and this one is as it is stored.
+void draw_relief(const Brush& brush, const Rect& shown, const ShownPicture& picture,
+                 const Orientation& turn) {
+  const auto at = [&](double x, double y) { return im(turn.displayed_position({x, y})); };
+  brush.list.AddImageQuad(picture.relief, upper_left(shown), im(shown.x + shown.width, shown.y),
+                          lower_right(shown), im(shown.x, shown.y + shown.height), at(0, 0),
+                          at(1, 0), at(1, 1), at(0, 1));
+}
+
 PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameReport& report) {
   const VisiblePart& visible = report.visible;
   return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
@@ -195,6 +204,7 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   brush.list.AddImage(picture.texture, upper_left(map.shown), lower_right(map.shown),
                       im(visible.x / w, visible.y / h),
                       im((visible.x + visible.width) / w, (visible.y + visible.height) / h));
+  if (picture.relief) draw_relief(brush, map.shown, picture, report.turn);
   brush.list.PushClipRect(upper_left(map.shown), lower_right(map.shown), true);
   ArrowStyle style;
   style.scale = picture.arrow_scale;

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <string>
 #include <vector>
 
 #include <GLFW/glfw3.h>
 #include <gst/video/video.h>
 
+#include "core/touch/height_field.h"
 #include "plugin/window/view/shared_pictures.h"
 
 namespace spidar {
@@ -62,6 +65,20 @@ class PictureTexture {
     gst_video_frame_unmap(&target);
     gst_video_frame_unmap(&source);
     return true;
+  }
+
+  /// Of a relief, to lie over a picture: shadow darkens it, and light brightens it.
+  void load_shading(const std::string& shading) {
+    constexpr int kLevel = 128, kPictureStays = 3;  // a third of the picture is always seen
+    std::vector<uint8_t> rgba;
+    rgba.reserve(4 * shading.size());
+    for (const char cell : shading) {
+      const int above = static_cast<uint8_t>(cell) - kLevel;
+      const auto grey = static_cast<uint8_t>(above < 0 ? 0 : 255);
+      const int opacity = std::min(255, 2 * std::abs(above)) * (kPictureStays - 1) / kPictureStays;
+      rgba.insert(rgba.end(), {grey, grey, grey, static_cast<uint8_t>(opacity)});
+    }
+    upload(rgba.data(), HeightField::kColumns, HeightField::kRows);
   }
 
   /// RGBA, rows from the top, without padding.

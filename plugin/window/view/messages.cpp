@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/touch/height_field.h"
 #include "plugin/window/view/wire.h"
 
 namespace spidar {
@@ -76,7 +77,9 @@ void pass(Wire& wire, ControllerSettings& controller) {
 template <typename Wire>
 void pass(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
-  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction);
+  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction,
+       touch.shading);
+  if (!touch.shading.empty() && touch.shading.size() != HeightField::kCells) return wire.fail();
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
