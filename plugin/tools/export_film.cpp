@@ -7,9 +7,11 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <glib.h>
 
+#include "plugin/tools/felt_boxes.h"
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
@@ -58,6 +60,7 @@ class ExportedFilm {
       throw UsageError(film_ + ": is a track; give the film that it is for");
     expect_own_track(condition_);
     unplayed_ = why_no_browser(film_);
+    place_arrow();
   }
 
   /// A page that plays the film from where it is.
@@ -119,6 +122,18 @@ class ExportedFilm {
   }
 
  private:
+  /// On what is felt, if the track tells how it was measured.
+  void place_arrow() {
+    if (!condition_.notes.settings) return;
+    try {
+      std::vector<FeltBox> boxes = find_felt_boxes(film_, *condition_.notes.settings);
+      for (FeltBox& box : boxes) box.stream_ns -= condition_.later_ns;
+      page_.set_boxes(boxes);
+    } catch (const std::runtime_error& error) {
+      in_the_middle_ = std::string("; the arrow stays in the middle: ") + error.what();
+    }
+  }
+
   FilmPage::Html html(const std::string& url, double more_s) const {
     return page_.html(url, fs::path(film_).filename(),
                       1e-9 * static_cast<double>(condition_.later_ns) + more_s);
@@ -142,15 +157,16 @@ class ExportedFilm {
   }
 
   void tell(const std::string& to, const FilmPage::Html& html, const std::string& more) const {
-    std::printf("%s: %s; %zu KB, exact to %.2f N%s\n", film_.c_str(), to.c_str(),
-                html.text.size() / 1000, html.tolerance_N, more.c_str());
+    std::printf("%s: %s; %zu KB, exact to %.2f N%s%s\n", film_.c_str(), to.c_str(),
+                html.text.size() / 1000, html.tolerance_N, more.c_str(), in_the_middle_.c_str());
   }
 
   const std::string film_;
   const PartFile::Replaces replaces_;
   FilmPage page_;
   TrackCondition condition_;
-  std::string unplayed_;  // why browsers do not play it
+  std::string unplayed_;       // why browsers do not play it
+  std::string in_the_middle_;  // why it is not known where the felt object is
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include <glib.h>
 
@@ -16,13 +17,13 @@
 namespace spidar {
 namespace {
 
-constexpr int kZero = 128, kSteps = 127;  // of a byte that is a force
+constexpr int kZero = 128, kSteps = 127;  // of a byte that is a value
 
 /// See curveOf() of the page.
-std::string curve_text(const std::vector<double>& force_N, double tolerance_N, double most_N) {
+std::string curve_text(const std::vector<double>& values, double tolerance, double most) {
   std::string bytes;
   size_t before = 0;
-  KeyframeChooser points(tolerance_N, [&](size_t i, double value_N) {
+  KeyframeChooser points(tolerance, [&](size_t i, double value) {
     constexpr int kBits = 7;
     constexpr size_t kMore = size_t{1} << kBits;
     const size_t distance = i - before;
@@ -32,10 +33,10 @@ std::string curve_text(const std::vector<double>& force_N, double tolerance_N, d
       const size_t bits = (distance >> shift) % kMore;
       bytes += static_cast<char>(shift > 0 ? bits + kMore : bits);
     }
-    bytes += static_cast<char>(kZero + std::lround(kSteps * value_N / most_N));
+    bytes += static_cast<char>(kZero + std::lround(kSteps * value / most));
     before = i;
   });
-  for (const double value_N : force_N) points.add(value_N);
+  for (const double value : values) points.add(value);
   points.finish();
   gchar* const text = g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
   std::string result = text;
@@ -69,9 +70,30 @@ void FilmPage::add(const TrackSample& sample) {
   count_ = 0;
 }
 
+void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
+  constexpr double kStep_ns = 1e9 * kStep_samples / kTrackRate_Hz;
+  auto next = boxes.begin();
+  for (size_t step = 0; step < force_N_[0].size(); ++step) {
+    const double now_ns = kStep_ns * static_cast<double>(step);
+    while (next != boxes.end() && static_cast<double>(next->stream_ns) <= now_ns) ++next;
+    FeltBox box;  // between two frames
+    if (next != boxes.begin()) box = *std::prev(next);
+    if (box.is_known() && next != boxes.end() && next->is_known()) {
+      const double share = (now_ns - static_cast<double>(box.stream_ns)) /
+                           static_cast<double>(next->stream_ns - box.stream_ns);
+      for (size_t i = 0; i < box.edges.size(); ++i)
+        box.edges[i] += share * (next->edges[i] - box.edges[i]);
+    }
+    for (size_t i = 0; i < box.edges.size(); ++i) edges_[i].push_back(2 * box.edges[i] - 1);
+  }
+}
+
 FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
                               double later_s) const {
   constexpr double kCoarser = 1.25;
+  // A line on the screen is as exact as that in each direction.
+  double edges_off = 2 * 0.005;
+  constexpr double kMostOff = 2 * 0.1;  // another place, to the eye
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
@@ -86,6 +108,10 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
     track["force"] = Json::array();
     for (const std::vector<double>& force_N : force_N_)
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
+    track["box"] = Json::array();
+    for (const std::vector<double>& edge : edges_)
+      if (edges_off < kMostOff) track["box"].push_back(curve_text(edge, edges_off, 1));
+    edges_off *= kCoarser;
     html.text = page;
     html.text.replace(at, place.size(), script_json(track));
     html.tolerance_N = lines_N + most_N / kSteps / 2;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/track/track_format.h"
+#include "plugin/tools/felt_boxes.h"
 
 namespace spidar {
 
@@ -19,6 +20,10 @@ class FilmPage {
 
   /// The next millisecond of the track. Samples that are not numbers count as none.
   void add(const TrackSample& sample);
+
+  /// Where the felt object is, in the order of time, which is that of the track. Without them, the
+  /// arrow begins in the middle of the picture.
+  void set_boxes(const std::vector<FeltBox>& boxes);
 
   struct Html {
     std::string text;
@@ -37,6 +42,7 @@ class FilmPage {
   size_t count_ = 0;
   std::array<std::vector<double>, kAxes> force_N_;  // means of steps
   double largest_N_ = 0;
+  std::array<std::vector<double>, 4> edges_;  // of FeltBox, from -1 to 1, of each step; or empty
 };
 
 }  // namespace spidar

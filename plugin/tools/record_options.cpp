@@ -163,6 +163,15 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   return properties;
 }
 
+RecordProperties properties_of(const std::string& settings) {
+  std::vector<std::string> words;
+  for (auto [name, value] : split(settings)) {
+    value.erase(std::remove(value.begin(), value.end(), '"'), value.end());
+    words.push_back(name + '=' + value);
+  }
+  return parse_record_properties(words, 1);
+}
+
 void expect_no_property(const std::string& film, const std::string& command) {
   if (film.find('=') == std::string::npos || fs::exists(film)) return;
   throw UsageError(film + ": there is no such film; properties follow --: spidartrack " + command +

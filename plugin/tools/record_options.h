@@ -30,6 +30,9 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 /// std::runtime_error when GStreamer has no spidarmotion.
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
 
+/// Of the settings of a track. Throws std::runtime_error as parse_record_properties() does.
+RecordProperties properties_of(const std::string& settings);
+
 /// Throws UsageError for what looks like a property where a film is expected: `command` is what
 /// comes before the dashes.
 void expect_no_property(const std::string& film, const std::string& command);

@@ -10,15 +10,17 @@ const vm = require("vm");
 const [data, script] = [...fs.readFileSync(process.argv[2], "utf8")
   .matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map((found) => found[1]);
 
-let places = [], tip = null, pulses = [], vibrated_ms = [], every = null, next = null;
+let places = [], tip = null, origin = null, box = null, pulses = [], vibrated_ms = [], every = null, next = null;
 const pen = {
   beginPath() { places = []; },
   moveTo(x, y) { places.push([x, y]); },
   lineTo(x, y) { places.push([x, y]); },
-  clearRect() { tip = null; },
+  clearRect() { tip = origin = box = null; },
   // The second corner of the head.
-  fill() { if (pen.fillStyle === "white") tip = [places[1][0] - 400, 240 - places[1][1]]; },
-  closePath() {}, stroke() {},
+  fill() { if (pen.fillStyle === "white") tip = [places[1][0] - origin[0], origin[1] - places[1][1]]; },
+  closePath() {},
+  stroke() { if (places.length === 2) [origin] = places; },  // the shaft
+  strokeRect(...args) { box = args; },
 };
 const part = (more) => ({ addEventListener() {}, ...more });
 const on = {};
@@ -43,7 +45,7 @@ const moments = process.argv.slice(3).map((time) => {
   vibrated_ms = [];
   next();
   every();
-  return { tip, said: parts.said.textContent, pulses, vibrated_ms };
+  return { tip, origin, box, said: parts.said.textContent, pulses, vibrated_ms };
 });
 film.paused = true;
 pulses = [];

@@ -108,6 +108,33 @@ class FilmPage(track_case.TrackCase):
                                shown["most_N"], delta=math.sqrt(3) * tolerance_N)
         self.assertEqual((shown["begins_s"], shown["sought_s"]), (0, poster_s / 2))
 
+    @track_case.needs("node", "ffmpeg")
+    def test_the_arrow_stands_on_what_is_felt(self):
+        """A square of 50 px goes to the right before a wall, in 400 x 240 px, which film_page.js shows twice as large."""
+        self.run_in_folder(
+            "ffmpeg -nostdin -v error -f lavfi -i nullsrc=size=400x240:rate=25:duration=2 -vf "
+            "\"geq=lum='if(lt(abs(X-60-80*T),25)*lt(abs(Y-120),25),128+100*sin((X-80*T)/3)*sin(Y/4),"
+            "128+60*sin(X/11)*sin(Y/9))':cb=128:cr=128\" -c:v libvpx film.webm")
+        block_px, frame_px = 8, 80 / 25  # what a box is off by; how far it goes in a frame
+        self.spidartrack("record", "film.webm")
+        self.export("film.webm", "on.html")
+        off_px = block_px + frame_px + .02 * 400
+        for time_s in (.5, 1, 1.5):
+            moment = self.run_page(time_s, page="on.html")["moments"][0]
+            left, top, width, height = (length / 2 for length in moment["box"])
+            self.assertAlmostEqual(left + width / 2, 60 + 80 * time_s, delta=off_px)
+            self.assertAlmostEqual(top + height / 2, 120, delta=off_px)
+            self.assertAlmostEqual(width, 50, delta=2 * off_px)
+            self.assertAlmostEqual(moment["origin"][0] / 2, left + width / 2, delta=1e-6)
+            self.assertAlmostEqual(moment["origin"][1] / 2, top + height / 2, delta=1e-6)
+        # A track that does not tell how it was measured.
+        self.path("film.webm.haptic.flac").unlink()
+        self.make_track("film.webm.haptic.wav", count=2000)
+        self.export("film.webm", "middle.html")
+        moments = self.run_page(.2, .4, .6, .8, 1, page="middle.html")["moments"]
+        self.assertEqual([moment["box"] for moment in moments], 5 * [None])
+        self.assertIn([400, 240], [moment["origin"] for moment in moments])
+
     @track_case.needs("node")
     def test_a_pause_ends_the_vibration_once(self):
         self.make_film()
