@@ -146,6 +146,13 @@ class ShownFilm(track_case.TrackCase):
         self.spidartrack("show", "text.mkv", "text.mp4", status=1)
         self.assertEqual(self.files(), {"film.mkv", "cut.mkv", "text.mkv"})
 
+    def test_a_film_that_ends_at_its_first_picture_is_named_and_gstreamer_says_nothing(self):
+        self.make_film(frames=1)
+        said = self.spidartrack("show", "film.avi", "film.mp4", status=1)
+        self.assertIn("film.avi: it is a single picture", said)
+        self.assertNotIn("WARNING", said)
+        self.assertEqual(self.files(), {"film.avi"})
+
     def test_a_missing_encoder_is_named_with_its_package(self):
         self.make_film()
         installed = json.loads(self.run_in_folder(
