@@ -22,11 +22,11 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
 
 /// The velocity additionally lags by its low-pass filter; the remaining delay applies to all
 /// forces.
-ForcePath path_of(const ContactSettings& settings, double dt_s) noexcept {
+ForcePath path_of(const ContactSettings& settings) noexcept {
   ForcePath path;
   path.max_force_N = settings.max_force_N;
   path.max_slew_N_s = settings.max_slew_N_s;
-  path.lag_s = std::max(0.0, settings.delay_s - 1.5 * dt_s);
+  path.lag_s = std::max(0.0, settings.delay_s - 1.5 * path.tick_s);
   path.velocity_lag_s = settings.delay_s + 1 / (2 * M_PI * ContactForce::kVelocityCutoff_Hz);
   path.least_mass_kg = settings.least_mass_kg;
   return path;
@@ -58,10 +58,13 @@ void validate(const ContactSettings& s) {
 }
 
 void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
-  if (started_ && dt_s > 0) {
-    const double turns = 2 * M_PI * kVelocityCutoff_Hz * dt_s;
-    velocity_m_s_ += (1 - std::exp(-turns)) * ((grip_m - last_m_) / dt_s - velocity_m_s_);
+  // The two poses are those of the exchanges that ended the two ticks before.
+  const double way_s = before_s_ > 0 ? before_s_ : dt_s;
+  if (started_ && way_s > 0) {
+    const double turns = 2 * M_PI * kVelocityCutoff_Hz * way_s;
+    velocity_m_s_ += (1 - std::exp(-turns)) * ((grip_m - last_m_) / way_s - velocity_m_s_);
   }
+  before_s_ = dt_s;
   last_m_ = grip_m;
   started_ = true;
 }
@@ -79,7 +82,7 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   Eigen::Vector3d force_N = wanted_N(texture, settings, grip_m);
   if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
   follow_energy(settings, way_m, grip_m);
-  const ForcePath path = path_of(settings, dt_s);
+  const ForcePath path = path_of(settings);
   force_N *= budget_.allowed_fraction(force_N, path, dt_s);
   budget_.command(force_N, settings.beside_N, path, dt_s);
   return force_N;

@@ -58,9 +58,10 @@ class ContactForce {
   static constexpr double kMostTextureSlope = 0.15;
   static constexpr double kMostTexture_N = 1;
 
-  /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. It is zero
-  /// without contact and never pulls the grip into the surface. `texture` holds heights whose slope
-  /// is rendered, or is null. The settings must be valid. Neither allocates nor throws.
+  /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. The grip
+  /// was at `grip_m` in the exchange of that tick. It is zero without contact and never pulls the
+  /// grip into the surface. `texture` holds heights whose slope is rendered, or is null. The
+  /// settings must be valid. Neither allocates nor throws.
   Eigen::Vector3d tick(const MovingRelief& surface, const HeightField* texture,
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
@@ -81,6 +82,7 @@ class ContactForce {
   TouchProxy proxy_;
   EnergyBudget budget_;
   bool started_ = false;
+  double before_s_ = 0;  // dt_s of the last tick
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();
 };

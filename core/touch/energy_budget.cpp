@@ -28,9 +28,11 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
+  double passed_s = 0;
+  for (size_t age = 0; age < kSlope; ++age)
+    passed_s += age < dt_s_.size() ? dt_s_[age] : path.tick_s;
   const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(kSlope);
-  const Eigen::Vector3d then_m_s =
-      velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / (kSlope * dt_s));
+  const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
   const double out_m_s = then_m_s.dot(direction);
   const double left_J = std::max(0.0, left_J_ - mean_N_.dot(direction) * dt_s * out_m_s);
   const double mass_kg = path.least_mass_kg;
@@ -38,7 +40,8 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   const double impulse_Ns = whole_Ns - path.lag_s * std::max(0.0, force_N_.dot(direction));
   if (!(impulse_Ns > 0)) return 0;
   const double slew_N_s = path.max_slew_N_s;
-  return slew_N_s * (std::sqrt(dt_s * dt_s + 2 * impulse_Ns / slew_N_s) - dt_s);
+  const double tick_s = path.tick_s;
+  return slew_N_s * (std::sqrt(tick_s * tick_s + 2 * impulse_Ns / slew_N_s) - tick_s);
 }
 
 /// When little energy is left, the bound follows the noise of the velocity. A slower rise than that
@@ -66,12 +69,13 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   };
   follow(wanted_N + beside_N, limited_N_);
   follow(beside_N, beside_N_);
+  dt_s_.add(dt_s);
   const Eigen::Vector3d own_N = limited_N_ - beside_N_;
   before_N_ = mean_N_;
   // Response of a first-order lag to a force that is held for one tick.
   const Eigen::Vector3d behind_N = force_N_ - own_N;
-  const double fading = path.lag_s > 0 ? std::exp(-dt_s / path.lag_s) : 0;
-  mean_N_ = own_N + behind_N * ((1 - fading) * path.lag_s / dt_s);
+  const double fading = path.lag_s > 0 ? std::exp(-path.tick_s / path.lag_s) : 0;
+  mean_N_ = own_N + behind_N * ((1 - fading) * path.lag_s / path.tick_s);
   force_N_ = own_N + behind_N * fading;
 }
 

@@ -18,6 +18,9 @@ struct ForcePath {
   double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
   double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
+  /// How long a force is held until the next one, which may be late, so that `dt_s` says nothing of
+  /// it.
+  double tick_s = 0.001;
 };
 
 /// Tracks the energy that a contact has absorbed from the hand, and bounds the force so that the
@@ -26,10 +29,13 @@ struct ForcePath {
 /// Automation 18, 2002) that predicts. Observing the past is not enough: a force with limited slew
 /// and a lag still pushes after the energy is spent.
 ///
-/// A force F that is reduced from now on at the slew limit still delivers the impulse J = lag ·
-/// (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v, this
-/// impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the energy
-/// that is left.
+/// A force F that is reduced from the next tick on at the slew limit still delivers the impulse J =
+/// lag · (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v,
+/// this impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the
+/// energy that is left.
+///
+/// `dt_s` is the time since the last tick, which a late tick makes longer, and the next one
+/// shorter.
 class EnergyBudget {
  public:
   /// Call once per tick, before choosing the force. `way_m` is the displacement of the grip since
@@ -65,6 +71,7 @@ class EnergyBudget {
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  // infinite: it was not bounded
   History<Eigen::Vector3d, kSlope + 1> velocity_m_s_;
+  History<double, kSlope> dt_s_;  // of the last ticks: in these, the velocity became what it is
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  // contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   // alone, with the same limits
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();    // on the grip, at the end of the last tick

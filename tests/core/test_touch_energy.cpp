@@ -93,6 +93,46 @@ std::pair<double, double> sink_N(double slew_N_s) {
   return {before_N, after_N};
 }
 
+/// Forces of a grip that rests in a surface which has taken little energy, so that the budget
+/// bounds them, while ticks come as a busy machine lets them: late, and then early. `step_m` is by
+/// how much the encoders count in and out in every third of them.
+std::pair<double, double> least_and_most_N(bool is_busy, double step_m) {
+  constexpr int kIn_ticks = 10, kRest_ticks = 200, kBusy_ticks = 400;
+  constexpr double kLate_s[] = {2.5e-3, 0.2e-3, 0.3e-3, 1.8e-3, 0.2e-3, 1e-3};
+  const HeightField plane = plane_field(0);
+  ContactSettings settings;
+  settings.max_slew_N_s = 20;
+  ContactForce force;
+  std::pair<double, double> found{1e9, 0};
+  for (int n = -1; n < kIn_ticks + kRest_ticks + kBusy_ticks; ++n) {
+    const bool is_at_rest = n >= kIn_ticks + kRest_ticks;
+    const double dt_s = is_busy && is_at_rest ? kLate_s[n % 6] : TouchedGrip::kTick_s;
+    const double out_m = is_at_rest && n % 6 < 3 ? step_m : 0;
+    const double depth_m = 0.003 * std::min(1.0, n / static_cast<double>(kIn_ticks));
+    const double now_N = force.tick({&plane}, nullptr, settings, {0, 0, out_m - depth_m}, dt_s).z();
+    if (is_at_rest) found = {std::min(found.first, now_N), std::max(found.second, now_N)};
+  }
+  return found;
+}
+
+/// How long ago the last tick was says nothing of how long a force is held.
+TEST(TouchEnergy, TicksThatComeLateChangeNoForceAtRest) {
+  const auto [least_N, most_N] = least_and_most_N(false, 0);
+  EXPECT_GT(least_N, 0.05);
+  EXPECT_LT(most_N, 0.5 * 1.5) << "of 500 N/m and 3 mm: the budget does bound it";
+  const auto [late_least_N, late_most_N] = least_and_most_N(true, 0);
+  EXPECT_NEAR(late_least_N, least_N, 1e-9);
+  EXPECT_NEAR(late_most_N, most_N, 1e-9);
+}
+
+/// A step of the encoders is a velocity only over the time that it took.
+TEST(TouchEnergy, TicksThatComeLateMakeNoSpeedOfAStep) {
+  constexpr double kStep_m = 2.7e-6;  // of a SPIDAR-GCC along z
+  const auto [least_N, most_N] = least_and_most_N(false, kStep_m);
+  const auto [late_least_N, late_most_N] = least_and_most_N(true, kStep_m);
+  EXPECT_LT(late_most_N - late_least_N, 2 * (most_N - least_N));
+}
+
 TEST(TouchEnergy, ASurfaceThatSinksTakesNoMoreThanTheForceThatThereIs) {
   // A force that may rise by 20 N/s has taken far less than the spring holds when the grip is in.
   const auto [before_N, after_N] = sink_N(20);
