@@ -49,7 +49,8 @@ std::vector<Scene> scenes() {
                                    {"faint", Wall::kFaint},
                                    {"ice", Wall::kIce},
                                    {"blur", Wall::kBlur},
-                                   {"dark", Wall::kDark}}) {
+                                   {"dark", Wall::kDark},
+                                   {"meadow below sky", Wall::kMeadow}}) {
     const auto add = [&](const char* what, const CodedFilm& film) {
       scenes.push_back({std::string("pans, ") + name + what, film});
     };

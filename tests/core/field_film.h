@@ -24,6 +24,14 @@ inline PaddedImage padded(const Picture& picture) {
   return image;
 }
 
+/// After a cut.
+inline Past nothing_before() {
+  static const std::vector<float> persistence;
+  static const std::vector<uint8_t> burned_in;
+  static const std::vector<uint32_t> objects;
+  return {persistence, burned_in, objects};
+}
+
 /// A background that moves by so much in each frame, with noise of a standard deviation `noise_px`.
 inline Background background_moved_by(const Eigen::Vector2d& shift_px,
                                       double noise_px = kUsualNoise_px) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How areas of a picture out of focus move, and what its plain parts show.
+// How areas of a picture out of focus move, and what its plain parts and its border show.
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/field/areas.h"
+#include "core/motion/camera/border_ring.h"
 #include "core/motion/camera/plain_parts.h"
 #include "tests/core/field_film.h"
 #include "tests/support/texture.h"
@@ -15,11 +16,12 @@ namespace spidar::test::areas_test {
 namespace {
 
 /// Of a wall out of focus, of which `stains` is the contrast, that has moved by `moved_px`; with
-/// noise of a standard deviation of one grey level.
-PaddedImage wall(double stains, const Eigen::Vector2d& moved_px, uint32_t seed) {
+/// noise of a standard deviation of one grey level, or another one.
+PaddedImage wall(double stains, const Eigen::Vector2d& moved_px, uint32_t seed,
+                 double noise_grey = 1) {
   const Texture texture(1, 24);
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0, 1);
+  std::normal_distribution<double> noise(0, noise_grey);
   Picture picture(kFieldWidth, kFieldHeight);
   picture.fill([&](double x, double y) {
     const double stain = texture.at(x - moved_px.x(), y - moved_px.y()) - 128;
@@ -62,14 +64,12 @@ TEST(Areas, MoveAsThePictureDoesWhereNoBlockShowsIt) {
 }
 
 TEST(PlainParts, TellAPanFromRestAndFromNoise) {
-  const std::vector<float> persistence;
-  const std::vector<uint8_t> burned_in;
   const MotionModel pan = background_moved_by(kPan_px).model;
   const auto have_moved = [&](double stains, const Eigen::Vector2d& moved_px) {
     const BlockField field = field_after(kMostBack + 1, stains, moved_px);
     PlainParts plain;
     for (int n = 1; n < kMostBack; ++n) plain.remember(field, pan);
-    return plain.have_moved(field, {persistence, burned_in}, pan);
+    return plain.have_moved(field, nothing_before(), pan);
   };
   EXPECT_TRUE(have_moved(0.1, kPan_px));
   EXPECT_FALSE(have_moved(0.1, {0, 0}));
@@ -83,6 +83,39 @@ TEST(PlainParts, AreComparedWithPicturesBeforeARepeatedOne) {
   EXPECT_EQ(field.pictures_back(), 0);
   field.update(wall(0.1, 3 * kPan_px, 3));
   EXPECT_EQ(field.pictures_back(), 3);
+}
+
+TEST(Border, TellsAPanFromRest) {
+  const MotionModel pan = background_moved_by(kPan_px).model;
+  EXPECT_TRUE(border_has_moved(field_after(2, 0.4, kPan_px), nothing_before(), pan));
+  EXPECT_FALSE(border_has_moved(field_after(2, 0.4, {0, 0}), nothing_before(), pan));
+}
+
+TEST(Border, SaysNothingInNoise) {
+  // Of two pixels there is less noise halfway between them.
+  BlockField field;
+  for (const uint32_t seed : {1u, 2u}) field.update(wall(0, {0, 0}, seed, 3));
+  const MotionModel pan = background_moved_by({4.5, -2.5}).model;
+  EXPECT_FALSE(border_has_moved(field, nothing_before(), pan));
+}
+
+TEST(Border, IsNotThatOfAnObject) {
+  const BlockField field = field_after(2, 0.4, kPan_px);
+  const BlockGrid& grid = field.grid();
+  const MotionModel pan = background_moved_by(kPan_px).model;
+  const auto has_moved_beside = [&](int columns, int rows) {
+    std::vector<uint32_t> objects(grid.size());
+    for (size_t i = 0; i < objects.size(); ++i) {
+      objects[i] = grid.column(i) < columns && grid.row(i) < rows;
+    }
+    const Past past{nothing_before().persistence, nothing_before().burned_in, objects};
+    return border_has_moved(field, past, pan);
+  };
+  EXPECT_TRUE(has_moved_beside(grid.columns / 3, grid.rows / 3));
+  // It leaves less of the border than it has.
+  EXPECT_FALSE(has_moved_beside(grid.columns - 1, grid.rows - 1));
+  // Nor is it an object that three borders cut.
+  EXPECT_TRUE(has_moved_beside(grid.columns - 1, grid.rows));
 }
 
 }  // namespace

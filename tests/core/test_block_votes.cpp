@@ -23,10 +23,8 @@ TEST(BlockVotes, CountTwiceInTheTwoColumnsAndRowsAtEachBorder) {
     picture.fill([&](double x, double y) { return texture.at(x - moved_px, y); });
     field.update(padded(picture));
   }
-  const std::vector<float> persistence;
-  const std::vector<uint8_t> burned_in;
   BackgroundVotes votes;
-  collect_votes(field, {persistence, burned_in}, votes);
+  collect_votes(field, nothing_before(), votes);
   const BlockGrid& grid = field.grid();
   const int inner = (grid.columns - 4) * (grid.rows - 4);
   const int border = grid.columns * grid.rows - inner;
@@ -60,10 +58,8 @@ bool are_lost(double reach_px) {
     });
     field.update(padded(picture));
   }
-  const std::vector<float> persistence;
-  const std::vector<uint8_t> burned_in;
   BackgroundVotes votes;
-  collect_edges(field, {persistence, burned_in}, votes);
+  collect_edges(field, nothing_before(), votes);
   return votes.are_lost;
 }
 

@@ -104,5 +104,36 @@ TEST(SparseScenes, NothingIsFeltWhereNothingAgreesHowTheCameraMoves) {
   }
 }
 
+TEST(SparseScenes, TheCameraRestsBehindASquareInACorner) {
+  // It covers a seventh of a small picture, but more of its border.
+  constexpr int kSide_px = 64;
+  constexpr int kCell_px = 6;
+  constexpr int kCells = kSide_px / kCell_px + 1;
+  constexpr double kRadius_px = 17;
+  constexpr double kTurn_rad = 4 / kRadius_px;  // 4 px a frame
+  constexpr int kRests = 8;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> level(32, 224);
+  std::normal_distribution<double> noise(0, 2);
+  Eigen::Matrix<double, kCells, kCells> cells;
+  for (double& cell : cells.reshaped()) cell = level(random);
+  Picture picture(192, 144);
+  MotionAnalyzer analyzer;
+  for (int n = 0; n < 40; ++n) {
+    const double angle_rad = kTurn_rad * std::max(0, n - kRests);
+    const Eigen::Vector2d way(1 - std::cos(angle_rad), 1 + std::sin(angle_rad));
+    const Eigen::Vector2i corner_px = (2 + (kRadius_px * way).array()).round().cast<int>();
+    picture.fill([&](double x, double y) {
+      const Eigen::Array2i on_px = Eigen::Vector2d(x, y).cast<int>() - corner_px;
+      const bool is_its = on_px.minCoeff() >= 0 && on_px.maxCoeff() < kSide_px;
+      const double grey = is_its ? cells(on_px.x() / kCell_px, on_px.y() / kCell_px) : 112;
+      return std::clamp(grey + noise(random), 0.0, 255.0);
+    });
+    const Frame frame = analyzer.analyze(picture.view(), n * kFrame_ns);
+    if (n == 0) continue;
+    EXPECT_STREQ(to_string(frame.background->model.kind), "still") << n;
+  }
+}
+
 }  // namespace
 }  // namespace spidar::test::sparse_scenes_test

@@ -40,6 +40,10 @@ double wall_grey(CodedFilm::Wall wall, double x, double y) {
       return 120 + soft(1, 12, 20, x, y);
     case CodedFilm::Wall::kDark:
       return 24 + soft(1, 25, 5, x, y) + soft(2, 5, 2.5, x, y);
+    case CodedFilm::Wall::kMeadow: {  // out of focus, below a plain sky
+      const double depth = std::clamp(y / CodedFilm::kHeight * 4 - 2.5, 0.0, 1.0);
+      return 180 + depth * (soft(1, 12, 20, x, y) - 60);
+    }
   }
   return 0;
 }

@@ -23,7 +23,7 @@ struct CodedFilm {
   static constexpr int kPictures = 48;
   static constexpr int kRests = 8;  ///< pictures in which nothing has moved yet
 
-  enum class Wall { kPlain, kSlope, kShade, kFaint, kIce, kBlur, kDark };
+  enum class Wall { kPlain, kSlope, kShade, kFaint, kIce, kBlur, kDark, kMeadow };
   Wall wall = Wall::kPlain;
   std::string coding;              ///< options of ffmpeg
   Eigen::Vector2i pan_px{0, 0};    ///< motion of the wall from picture to picture

@@ -17,11 +17,13 @@ struct Past {
   /// How likely the block was not part of the background, 0 … 1.
   const std::vector<float>& persistence;
   const std::vector<uint8_t>& burned_in;  ///< 1: it showed graphics
+  const std::vector<uint32_t>& objects;   ///< number of the object that it was part of; 0: of none
   /// Blocks of bars and frames around the film, on each side.
   int margin_columns = 0;
   int margin_rows = 0;
 
   float persistence_of(size_t block) const { return persistence.empty() ? 0 : persistence[block]; }
+  uint32_t object_of(size_t block) const { return objects.empty() ? 0 : objects[block]; }
   bool is_burned_in(size_t block) const { return !burned_in.empty() && burned_in[block] != 0; }
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/field/areas.h"
+#include "core/motion/camera/border_ring.h"
 
 namespace spidar {
 namespace {
@@ -44,7 +45,8 @@ const Background& CameraChoice::find(const BlockField& field, const Past& past) 
   collect_areas(field, areas_, past, area_votes_);
   const Background of_areas =
       area_votes_.are_few() ? Background() : estimator_.propose(area_votes_);
-  if (moves(of_areas) && plain_.have_moved(field, past, of_areas.model)) {
+  if (moves(of_areas) && (plain_.have_moved(field, past, of_areas.model) ||
+                          border_has_moved(field, past, of_areas.model))) {
     std::swap(votes_, area_votes_);
     return keep(field, of_areas, of_areas.model);
   }

@@ -12,8 +12,8 @@
 namespace spidar {
 
 /// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Those move
-/// with a large object before them, too: the plain parts must show the same. Last of all, edges
-/// vote beside few blocks.
+/// with a large object before them, too: the plain parts or the border must show the same. Last of
+/// all, edges vote beside few blocks.
 class CameraChoice {
  public:
   CameraChoice();
