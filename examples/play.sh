@@ -92,6 +92,10 @@ while (($#)); do
     (($#)) && shift
 done
 
+play=$top/build/examples/play/play
+# Who asks for help waits for no build, unless there was none.
+[[ " ${options[*]-} " != *" --help "* || ! -x $play ]] || exec "$play" --help
+
 install_packages build play
 if [[ -n ${DISPLAY-}${WAYLAND_DISPLAY-} ]]; then
     install_packages display || echo "continuing without them; there may be no window"
@@ -112,4 +116,4 @@ fi
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 export GST_PRESET_PATH=$top/plugin/filter${GST_PRESET_PATH:+:$GST_PRESET_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
-exec "$top/build/examples/play/play" "${options[@]}" "${video[@]}" "${properties[@]}"
+exec "$play" "${options[@]}" "${video[@]}" "${properties[@]}"

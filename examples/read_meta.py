@@ -44,13 +44,14 @@ parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("FILE", nargs="?")
 file = parser.parse_args().FILE
 Gst.init(None)
-source = f'filesrc location="{file}" ! decodebin' if file else \
-    "videotestsrc pattern=ball num-buffers=30"
+source = "filesrc name=file ! decodebin" if file else "videotestsrc pattern=ball num-buffers=30"
 pipeline = Gst.parse_launch(f"{source} ! videoconvert ! spidarmotion device=none attach-meta=true "
                             "! videoconvert ! fakesink name=sink")
+if file:
+    pipeline.get_by_name("file").set_property("location", file)
 pipeline.get_by_name("sink").get_static_pad("sink").add_probe(Gst.PadProbeType.BUFFER, read)
 pipeline.set_state(Gst.State.PLAYING)
 message = pipeline.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE,
                                           Gst.MessageType.EOS | Gst.MessageType.ERROR)
 pipeline.set_state(Gst.State.NULL)
-sys.exit(message.parse_error().gerror.message if message.type == Gst.MessageType.ERROR else 0)
+sys.exit(f"{file}: {message.parse_error().gerror.message}" if message.type == Gst.MessageType.ERROR else 0)

@@ -137,10 +137,11 @@ Options parse(int argc, char** argv) {
   const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
   const int follow = separated ? at + 1 : at;
   if (follow < argc && std::strcmp(argv[follow], "--follow") == 0) {
-    if (follow + 2 < argc)
-      fail(kUsage, std::string("--follow takes one NAME, and properties come before it: ") +
-                       argv[follow + 2]);
     if (follow + 1 < argc) options.followed = argv[follow + 1];
+    const int wrong = is_property(options.followed) ? follow + 1 : follow + 2;
+    if (wrong < argc)
+      fail(kUsage,
+           std::string("--follow takes one NAME, and properties come before it: ") + argv[wrong]);
     return options;
   }
   if (!options.properties.empty() && !separated)
@@ -251,6 +252,11 @@ bool is_film(const std::string& word) {
 
 /// Plays films with the player of GStreamer itself.
 void run_films(char** films) {
+  for (char** film = films; *film; ++film) {
+    if (is_property(*film))
+      fail(kUsage, std::string("properties come before the film: spidar-feel ") + *film + " -- " +
+                       films[0]);
+  }
   constexpr const char* kPlayer = "gst-play-1.0";
   std::vector<char*> words{const_cast<char*>(kPlayer)};
   for (char** film = films; *film; ++film) words.push_back(*film);
@@ -309,6 +315,9 @@ int main(int argc, char** argv) {
   warn_of_nothing_felt(options);
   execvp(options.program[0], options.program);
   const int error = errno;
+  std::error_code none;
+  if (fs::is_directory(options.program[0], none))
+    fail(kCannotRun, std::string(options.program[0]) + " is a folder; name a film in it");
   fail(error == ENOENT ? kNoProgram : kCannotRun,
        std::string(options.program[0]) + ": " + std::strerror(error));
 }

@@ -150,7 +150,8 @@ void FollowedFilm::build_track(const std::string& path, int64_t later_ns) {
 
 void FollowedFilm::build_film(const std::string& uri) {
   pipeline_.reset(parse(
-      "uridecodebin name=source caps=video/x-raw expose-all-streams=false ! videoconvert ! "
+      // With any feature of its memory: decoders of FFmpeg name interlaced pictures beside others.
+      "uridecodebin name=source caps=video/x-raw(ANY) expose-all-streams=false ! videoconvert ! "
       "spidarmotion name=felt ! queue max-size-buffers=3 ! fakesink name=sink sync=true qos=true"));
   GstBin* const bin = GST_BIN(pipeline_.get());
   const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));

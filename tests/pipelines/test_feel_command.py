@@ -36,7 +36,8 @@ class Command(track_case.TrackCase):
                 ("ts-offset=late -- true", 2, "in nanoseconds"),
                 ("controller=wild -- true", 2, 'controller: "wild" is not one of linear, nonlinear, adaptive\n'),
                 ("mute=perhaps -- true", 2, 'mute: "perhaps" is not true or false'),
-                ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/: Permission denied"),
+                ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/ is a folder; name a film in it"),
+                ("--follow max-force=2", 2, "--follow takes one NAME, and properties come before it: max-force=2"),
                 ("controller=linear max-force=2 -- true", 0, ""), ("--help", 0, "usage: spidar-feel"),
                 ("--version", 0, "spidar-feel ")):
             self.assertIn(said, self.feel(arguments, status))
@@ -98,6 +99,8 @@ class Command(track_case.TrackCase):
         for program in ("film.mp4", "bin/film.mp4", "./without_line.sh"):
             self.assertEqual(self.feel(program, env="PATH=$PWD/bin:$PATH"), "runs\n")
         self.assertIn("film.avi: No such file or directory", self.feel("sub/film.avi", 127))
+        for words in ("film.avi max-force=2", "film.avi -- max-force=2"):
+            self.assertIn("properties come before the film: spidar-feel max-force=2 -- film.avi", self.feel(words, 2))
 
     def test_the_package_of_a_player_that_is_missing_is_named(self):
         self.path("film.avi").write_bytes(b"RIFF")

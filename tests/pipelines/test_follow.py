@@ -175,6 +175,14 @@ class Follow(FollowCase):
         player, _ = self.play_analysed()
         self.expect_paused(player)
 
+    @track_case.needs("ffmpeg")
+    def test_a_film_is_analysed_that_a_decoder_of_ffmpeg_decodes(self):
+        """Decoders for one kind of pictures are found more easily than those that also name interlaced ones."""
+        self.path("film.avi.haptic.wav").unlink()
+        self.run_in_folder("ffmpeg -nostdin -v error -y -f lavfi -i testsrc2=size=160x120:rate=25:duration=20 -c:v mpeg4 film.avi")
+        player, _ = self.play_analysed()
+        self.expect_paused(player)
+
     def test_a_track_of_another_film_is_named_and_not_felt(self):
         samples, _ = track_case.read_wav(self.path("film.avi.haptic.wav"))
         track_case.write_wav(self.path("film.avi.haptic.wav"), samples[:5000])
