@@ -15,9 +15,9 @@ gi.require_version("GstVideo", "1.0")
 from gi.repository import GLib, Gst, GstVideo  # noqa: E402
 
 
-def objects(buffer, tracks):
-    """The regions of the frame's objects, whose ids are those of the tracks."""
-    for number in sorted({track[5] for track in tracks} - {0}):
+def objects(buffer, points):
+    """The regions of the frame's objects, whose ids are those of the points."""
+    for number in sorted({point[5] for point in points} - {0}):
         region = GstVideo.buffer_get_video_region_of_interest_meta_id(buffer, number)
         if region is not None and GLib.quark_to_string(region.roi_type) == "spidar-object":
             yield region
@@ -28,11 +28,11 @@ def read(_pad, info):
     meta = buffer.get_custom_meta("GstSpidarMotionMeta")
     if meta is not None:
         get = meta.get_structure().get_value
-        tracks = get("tracks").unpack()  # [(id, from x, from y, to x, to y, object), ...]
+        points = get("points").unpack()  # [(id, from x, from y, to x, to y, object), ...]
         print(f"{get('running-time') / Gst.SECOND:7.3f} s  "
               f"velocity {get('velocity-x'):7.1f} {get('velocity-y'):7.1f} px/s  "
-              f"force {get('force-x'):6.2f} {get('force-y'):6.2f} N  {len(tracks)} tracks")
-        for region in objects(buffer, tracks):
+              f"force {get('force-x'):6.2f} {get('force-y'):6.2f} N  {len(points)} points")
+        for region in objects(buffer, points):
             motion = region.get_param("spidar-motion").get_value
             print(f"    object {region.id} at {region.x},{region.y}, {region.w} x {region.h} px: "
                   f"{motion('velocity-x'):.1f} {motion('velocity-y'):.1f} px/s"

@@ -41,7 +41,7 @@ Json json_of(const MovingObject& object) {
           {"growth_1_s", object.growth_1_s},
           {"roll_rad_s", object.roll_rad_s},
           {"model", to_string(object.model)},
-          {"tracks", object.tracks},
+          {"points", object.points},
           {"prominence", object.prominence}};
 }
 

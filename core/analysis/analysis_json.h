@@ -18,7 +18,7 @@ namespace spidar {
 ///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
 ///                  coverage} or null,
 ///     objects: [{id, position_px, size_px, velocity_px_s, error_px_s, on_screen_px_s, growth_1_s,
-///                roll_rad_s, model, tracks, prominence}, …]
+///                roll_rad_s, model, points, prominence}, …]
 ///
 /// (see ImageMotion, MotionModel and MovingObject; an object's velocity is against the background).
 /// `repeated`: the frame shows the previous picture again, and all other values are those of that

@@ -18,7 +18,7 @@ uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) 
   const MovingObject* object = choice.object;
   if (choice.is_free() && kind == MotionKind::kObject) object = frame.dominant_object();
   if (!object) return 0;
-  const bool is_lost = object->tracks == 0 && object->relative_px_s.isZero(0);
+  const bool is_lost = object->points == 0 && object->relative_px_s.isZero(0);
   return is_lost ? 0 : object->id;
 }
 

@@ -29,10 +29,10 @@ struct Frame : MeasuredFrame {
   bool goes_on() const { return picture == PictureKind::kWaiting && !wrench.stacked().isZero(0); }
   /// Nothing is known. The memory stays.
   void clear() {
-    std::vector<Track> kept_tracks = std::move(tracks);
+    std::vector<FollowedPoint> kept_points = std::move(points);
     std::vector<MovingObject> kept_objects = std::move(objects);
     *this = Frame();
-    tracks = std::move(kept_tracks);
+    points = std::move(kept_points);
     objects = std::move(kept_objects);
     forget_motion();
   }

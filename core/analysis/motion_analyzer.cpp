@@ -18,8 +18,8 @@ void MotionAnalyzer::take(const Cadence::Step& step) {
 bool MotionAnalyzer::find_mean(const TrackedFrame& tracked) {
   frame_.features = tracked.features;
   if (tracked.picture == PictureKind::kFirst) return false;
-  frame_.tracks = tracked.tracks;
-  frame_.mean = mean_motion(tracked.tracks, frame_.interval_ns);
+  frame_.points = tracked.points;
+  frame_.mean = mean_motion(tracked.points, frame_.interval_ns);
   return true;
 }
 

@@ -31,13 +31,13 @@ class MotionAnalyzer {
       : settings_(settings), tracker_(settings.tracker), renderer_(settings) {}
 
   /// Takes effect with the next frame; what the controller has learnt stays unless its kind
-  /// changes, and so do the tracks. Throws std::invalid_argument when a setting is out of range,
+  /// changes, and so do the points. Throws std::invalid_argument when a setting is out of range,
   /// and then changes nothing.
   void configure(const AnalyzerSettings& settings);
 
   /// Frames must come in the order in which they are shown. A running time that does not rise
   /// causes a restart, because the interval would not be positive. A cut in the picture or a new
-  /// size restarts tracks and filter only: the largest speed of eq. 13 and what the adaptive
+  /// size restarts points and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
   /// Throws std::invalid_argument for a frame that require_usable() refuses.
   /// The position in the film, and how the frame is turned before it is shown, are for

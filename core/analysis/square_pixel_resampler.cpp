@@ -31,10 +31,10 @@ void to_stored_pixels(Frame& frame, int width) {
   frame.width = width;
   const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= fraction; };
   narrow(frame.motion.velocity_px_s);
-  for (Track& track : frame.tracks) {
-    for (ImagePoint* point : {&track.from, &track.to}) {
+  for (FollowedPoint& point : frame.points) {
+    for (ImagePoint* end : {&point.from, &point.to}) {
       // The corner of the picture, at (−½, −½), stays in place.
-      point->x_px = (point->x_px + 0.5f) * static_cast<float>(fraction) - 0.5f;
+      end->x_px = (end->x_px + 0.5f) * static_cast<float>(fraction) - 0.5f;
     }
   }
   if (frame.background) {

@@ -26,7 +26,7 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame
   const MovingObject* best = nullptr;
   double best_fraction = 0;
   for (const MovingObject& object : frame.objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     const double common_px2 = area_px2(box_px.intersection(object.box_px()));
     const double object_px2 = object.size_px.prod();
     if (common_px2 <= 0 || common_px2 < kOverlap * std::min(box_px2, object_px2)) continue;
@@ -96,7 +96,7 @@ void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
 
 /// Whether an object at the position may be the one that is looked for.
 bool FollowedObject::may_be(const MovingObject& object) const {
-  if (object.tracks == 0) return false;
+  if (object.points == 0) return false;
   if (state_ == State::kLooking) return true;
   const uint32_t* const end = before_.data() + before_count_;
   if (std::find(before_.data(), end, object.id) != end) return false;
@@ -133,7 +133,7 @@ void FollowedObject::follow(const MovingObject& object) {
   missing_s_ = 0;
   position_px_ = object.position_px;
   velocity_px_s_ = object.relative_px_s;
-  hidden_ = object.tracks == 0;
+  hidden_ = object.points == 0;
   rested_ = !hidden_ && object.relative_px_s.isZero(0);
 }
 
@@ -194,10 +194,10 @@ const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceFrame& 
   const MovingObject* other = nullptr;
   for (const MovingObject& object : frame.objects) {
     if (object.id == best_) now = &object;
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     if (!other || score(rule, object, frame) > score(rule, *other, frame)) other = &object;
   }
-  best_missing_s_ = now && now->tracks > 0 ? 0 : best_missing_s_ + frame.interval_s;
+  best_missing_s_ = now && now->points > 0 ? 0 : best_missing_s_ + frame.interval_s;
   const bool holds = best_ != 0 && best_missing_s_ <= kHold_s &&
                      (!now || !other || score(rule, *other, frame) < score(rule, *now, frame) + 1);
   if (holds) return now;

@@ -29,13 +29,13 @@ ImageMotion weighted_motion(const std::vector<MovingObject>& objects, Weight&& w
   double weights = 0;
   double squares = 0;  // errors of different objects are independent
   for (const MovingObject& object : objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     const double weight = weight_of(object);
     weights += weight;
     sum.velocity_px_s += weight * object.relative_px_s;
     sum.growth_1_s += weight * object.growth_1_s;
     sum.roll_rad_s += weight * object.roll_rad_s;
-    sum.tracked += object.tracks;
+    sum.tracked += object.points;
     squares += std::pow(weight * DeadZone::kOfBound * object.error_px_s, 2);
   }
   if (weights == 0) return sum;
@@ -52,21 +52,21 @@ double bounded(double value, double bound) {
 
 }  // namespace
 
-ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns) {
+ImageMotion mean_motion(const std::vector<FollowedPoint>& points, int64_t interval_ns) {
   if (interval_ns <= 0) {
     throw std::invalid_argument("mean_motion: the interval must be positive, got " +
                                 std::to_string(interval_ns) + " ns");
   }
   ImageMotion motion;
-  if (tracks.empty()) return motion;
+  if (points.empty()) return motion;
   Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
-  for (const Track& track : tracks) {
-    sum_px.x() += static_cast<double>(track.to.x_px) - static_cast<double>(track.from.x_px);
-    sum_px.y() += static_cast<double>(track.to.y_px) - static_cast<double>(track.from.y_px);
+  for (const FollowedPoint& point : points) {
+    sum_px.x() += static_cast<double>(point.to.x_px) - static_cast<double>(point.from.x_px);
+    sum_px.y() += static_cast<double>(point.to.y_px) - static_cast<double>(point.from.y_px);
   }
   const double interval_s = static_cast<double>(interval_ns) * 1e-9;
-  motion.tracked = static_cast<int>(tracks.size());
-  motion.velocity_px_s = sum_px / static_cast<double>(tracks.size()) / interval_s;
+  motion.tracked = static_cast<int>(points.size());
+  motion.velocity_px_s = sum_px / static_cast<double>(points.size()) / interval_s;
   return motion;
 }
 
@@ -88,7 +88,7 @@ ImageMotion relative_motion(const MovingObject& object) {
   motion.velocity_px_s = object.relative_px_s;
   motion.growth_1_s = object.growth_1_s;
   motion.roll_rad_s = object.roll_rad_s;
-  motion.tracked = object.tracks;
+  motion.tracked = object.points;
   motion.dead_zone_px_s = DeadZone::kOfBound * object.error_px_s;
   return motion;
 }

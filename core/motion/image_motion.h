@@ -53,10 +53,10 @@ struct ImageMotion {
   double dead_zone_px_s = 0;  ///< see DeadZone; 0: no error is known
 };
 
-/// The paper's frame velocity (eq. 9–10): mean over all tracks of displacement / Δt. `interval_ns`
-/// is the difference of the frames' running times and must be positive. Without tracks the velocity
+/// The paper's frame velocity (eq. 9–10): mean over all points of displacement / Δt. `interval_ns`
+/// is the difference of the frames' running times and must be positive. Without points the velocity
 /// is 0 and `tracked` is 0.
-ImageMotion mean_motion(const std::vector<Track>& tracks, int64_t interval_ns);
+ImageMotion mean_motion(const std::vector<FollowedPoint>& points, int64_t interval_ns);
 
 /// How far from the pointer an object is felt: σ of the Gaussian weight, as a fraction of the
 /// frame's height.

@@ -25,7 +25,7 @@ struct MeasuredFrame {
   int64_t shown_for_ns = 0;  ///< see Cadence::Step
   int features = 0;          ///< points looked for in the next frame
   /// Blocks that show how they move, or with motion=mean the points; empty with kFirst.
-  std::vector<Track> tracks;
+  std::vector<FollowedPoint> points;
   /// With motion=mean the rest is empty, and this one is zero with all others.
   ImageMotion mean;
   std::optional<Background> background;  ///< how the camera moves; nothing with kFirst
@@ -40,7 +40,7 @@ struct MeasuredFrame {
   void forget_motion() {
     picture = PictureKind::kFirst;
     interval_ns = shown_for_ns = 0;
-    tracks.clear();
+    points.clear();
     mean = {};
     background.reset();
     votes = 0;

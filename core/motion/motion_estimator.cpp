@@ -30,10 +30,10 @@ void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& 
   windows_.keep(frame, field_, position, of_objects_);
 }
 
-/// Lists the blocks that show how they move as tracks; their number is the id.
-void MotionEstimator::report_tracks(const FieldPosition& position,
-                                    std::vector<Track>& tracks) const {
-  tracks.clear();
+/// Lists the blocks that show how they move as points; their number is the id.
+void MotionEstimator::report_points(const FieldPosition& position,
+                                    std::vector<FollowedPoint>& points) const {
+  points.clear();
   const auto scale = static_cast<float>(position.scale);
   const Eigen::Vector2f centre_px = position.centre_px.cast<float>();
   for (size_t i = 0; i < field_.blocks().size(); ++i) {
@@ -41,7 +41,7 @@ void MotionEstimator::report_tracks(const FieldPosition& position,
     if (!objects_.is_measured(i) && !block.has_corners()) continue;
     const Eigen::Vector2f to = centre_px + scale * block.centre_px;
     const Eigen::Vector2f from = to - scale * block.moved_px;
-    tracks.push_back({static_cast<uint32_t>(i), {from.x(), from.y()}, {to.x(), to.y()}});
+    points.push_back({static_cast<uint32_t>(i), {from.x(), from.y()}, {to.x(), to.y()}});
   }
 }
 
@@ -73,9 +73,9 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   frame.objects = objects;
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);
   frame.dominant = dominant ? dominant->id : 0;
-  report_tracks(position, frame.tracks);
+  report_points(position, frame.points);
   keep_windows(image, position);
-  frame.features = static_cast<int>(frame.tracks.size());
+  frame.features = static_cast<int>(frame.points.size());
   return true;
 }
 

@@ -31,7 +31,7 @@ class MotionEstimator {
 
  private:
   void keep_windows(const ImageView& frame, const FieldPosition& position);
-  void report_tracks(const FieldPosition& position, std::vector<Track>& tracks) const;
+  void report_points(const FieldPosition& position, std::vector<FollowedPoint>& points) const;
 
   BlockField field_;
   CameraChoice camera_;

@@ -184,7 +184,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   cv::buildOpticalFlowPyramid(const_mat(reduced.base().view()), now,
                               cv::Size(kWindow_px, kWindow_px), kMaxLevel, kWithDerivatives,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
-  result.tracks.clear();
+  result.points.clear();
   if (result.picture == PictureKind::kFirst) {
     features.clear();
   } else if (!follow()) {
@@ -204,7 +204,7 @@ bool OpenCvTracker::Impl::follow() {
   for (size_t i = 0; i < features.size(); ++i) {
     if (!found[i]) continue;
     const Feature& feature = features[i];
-    result.tracks.push_back({feature.id, in_frame(feature.at - feature.moved, reduced.factor()),
+    result.points.push_back({feature.id, in_frame(feature.at - feature.moved, reduced.factor()),
                              in_frame(feature.at, reduced.factor())});
     features[kept++] = feature;
   }
@@ -213,17 +213,17 @@ bool OpenCvTracker::Impl::follow() {
   const bool is_cut = looked_for >= kMinForCut &&
                       static_cast<double>(kept) < kFoundAfterCut * static_cast<double>(looked_for);
   if (is_cut) {
-    result.tracks.clear();
+    result.points.clear();
     features.clear();
   }
   return !is_cut;
 }
 
 void OpenCvTracker::Impl::stand_still() {
-  result.tracks.clear();
+  result.points.clear();
   for (const Feature& feature : features) {
     const ImagePoint at = in_frame(feature.at, reduced.factor());
-    result.tracks.push_back({feature.id, at, at});
+    result.points.push_back({feature.id, at, at});
   }
 }
 

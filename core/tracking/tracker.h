@@ -35,15 +35,15 @@ struct ImagePoint {
 };
 
 /// A point found in the previous frame and in this one.
-struct Track {
+struct FollowedPoint {
   uint32_t id = 0;  ///< the same for as long as the point is followed
   ImagePoint from;
   ImagePoint to;
 };
 
 struct TrackedFrame {
-  std::vector<Track> tracks;  ///< points found in both frames; empty with kFirst
-  int features = 0;           ///< points to search in the next frame
+  std::vector<FollowedPoint> points;  ///< points found in both frames; empty with kFirst
+  int features = 0;                   ///< points to search in the next frame
   /// With kSame the next frame will be compared with the same picture as this one. Never kWaiting.
   PictureKind picture = PictureKind::kFirst;
 };
@@ -58,10 +58,10 @@ class OpenCvTracker {
   explicit OpenCvTracker(const TrackerSettings& settings = {});
   ~OpenCvTracker();
 
-  /// Compares `frame` with the previous one. A frame of another size restarts the tracks, as does a
+  /// Compares `frame` with the previous one. A frame of another size restarts the points, as does a
   /// cut (a frame in which hardly any point is found again). Of a frame that repeats the picture,
-  /// tracks are at rest. With `may_wait`, one that is equal within the noise of coding counts as
-  /// kSame, too, and tracks stay those of the frame before. The result is valid until the next
+  /// points are at rest. With `may_wait`, one that is equal within the noise of coding counts as
+  /// kSame, too, and points stay those of the frame before. The result is valid until the next
   /// call. Throws as require_usable() does.
   const TrackedFrame& track(const ImageView& frame, bool may_wait = false);
 

@@ -41,17 +41,17 @@ struct FilmScene {
   std::string name() const { return path ? *path : ""; }
 };
 
-enum class TrackOwner {
+enum class PointOwner {
   kUnknown,     ///< no model was applied, or none explains it
   kBackground,  ///< moves with the background
   kObject,
 };
 
-/// A track of the frame, in pixels of the whole of it, with (0, 0) at the centre of the first one.
-struct OwnedTrack {
+/// A point of the frame, in pixels of the whole of it, with (0, 0) at the centre of the first one.
+struct OwnedPoint {
   uint32_t id = 0;
   ImagePoint from, to;
-  TrackOwner owner = TrackOwner::kUnknown;
+  PointOwner owner = PointOwner::kUnknown;
   uint32_t object = 0;  ///< id of the object it belongs to; 0 if none
   bool is_new = false;  ///< not in the previous frame
 };
@@ -82,7 +82,7 @@ struct FrameReport {
   // Where it is drawn, or a meta is attached:
   FilmScene film;
   double speed_px_s = 0;  ///< that the controller was given, of the reference frame
-  std::vector<OwnedTrack> tracks;
+  std::vector<OwnedPoint> points;
   std::vector<ImagePoint> lost;  ///< last positions of the lost points
   std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
 
@@ -94,8 +94,8 @@ struct FrameReport {
     FrameReport next;
     frame.clear();
     std::swap(next.frame, frame);
-    tracks.clear();
-    next.tracks.swap(tracks);
+    points.clear();
+    next.points.swap(points);
     lost.clear();
     next.lost.swap(lost);
     felt.clear();

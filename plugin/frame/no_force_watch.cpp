@@ -33,7 +33,7 @@ bool is_withheld(const Frame& frame) {
 /// Whether an object in sight moves by more than its error. motion=mean knows no objects.
 bool objects_move(const Frame& frame) {
   return std::any_of(frame.objects.begin(), frame.objects.end(), [](const MovingObject& object) {
-    return object.tracks > 0 && object.relative_px_s.norm() > object.error_px_s;
+    return object.points > 0 && object.relative_px_s.norm() > object.error_px_s;
   });
 }
 

@@ -79,7 +79,7 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
 void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height) {
   remove_ours(buffer);
   for (const MovingObject& object : report.frame.objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     const ObjectBox box = box_of(object, report.visible, width, height);
     if (box.width <= 0 || box.height <= 0) continue;
     GstVideoRegionOfInterestMeta* const region = gst_buffer_add_video_region_of_interest_meta(

@@ -51,17 +51,17 @@ Rgb direction_color(const Eigen::Vector2d& direction, double saturation) {
   return {channel(0), channel(1.0 / 3), channel(2.0 / 3)};
 }
 
-std::vector<Arrow> track_arrows(const std::vector<OwnedTrack>& tracks, const ArrowStyle& style,
+std::vector<Arrow> point_arrows(const std::vector<OwnedPoint>& points, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px) {
   std::vector<Arrow> arrows;
-  arrows.reserve(tracks.size());
-  for (const OwnedTrack& track : tracks) {
+  arrows.reserve(points.size());
+  for (const OwnedPoint& point : points) {
     Arrow arrow;
-    arrow.tail_px = at_px(track.from);
-    const Eigen::Vector2d moved_px = at_px(track.to) - arrow.tail_px;
+    arrow.tail_px = at_px(point.from);
+    const Eigen::Vector2d moved_px = at_px(point.to) - arrow.tail_px;
     arrow.tip_px = arrow.tail_px + style.scale * moved_px;
-    arrow.width_px = width_px(track.owner == TrackOwner::kObject ? kBold_px : kThin_px, style);
-    arrow.color = direction_color(moved_px, track.owner == TrackOwner::kBackground ? kPale : 1);
+    arrow.width_px = width_px(point.owner == PointOwner::kObject ? kBold_px : kThin_px, style);
+    arrow.color = direction_color(moved_px, point.owner == PointOwner::kBackground ? kPale : 1);
     arrows.push_back(arrow);
   }
   return arrows;

@@ -56,9 +56,9 @@ struct ArrowStyle {
 /// Shaft width of the arrow of the force.
 double felt_width_px(const ArrowStyle& style);
 
-/// One arrow per track with its tail at `from`: bold for objects, pale for the background. `at_px`
+/// One arrow per point with its tail at `from`: bold for objects, pale for the background. `at_px`
 /// says where a point of the frame is drawn.
-std::vector<Arrow> track_arrows(const std::vector<OwnedTrack>& tracks, const ArrowStyle& style,
+std::vector<Arrow> point_arrows(const std::vector<OwnedPoint>& points, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 
 /// The force as a white arrow from the centre, in the direction in which it pushes the hand.

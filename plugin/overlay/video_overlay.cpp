@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/frame/track_owners.h"
+#include "plugin/frame/point_owners.h"
 #include "plugin/overlay/arrow.h"
 
 namespace spidar {
@@ -281,7 +281,7 @@ void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) 
 
 }  // namespace
 
-void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstVideoFrame& frame,
+void draw_overlay(const FrameReport& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve) {
   const VisiblePart& visible = report.visible;
   const std::vector<uint32_t>& felt = report.felt;
@@ -293,9 +293,9 @@ void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstV
   style.height_px = visible.height;
   style.centre_px = sheet.at_px(force_origin_px(report));
   if (curve) draw_curve(*curve, report.turn, sheet);
-  if (has_tracks) {
+  if (has_points) {
     const auto at_px = [&](const ImagePoint& at) { return sheet.at_px({at.x_px, at.y_px}); };
-    for (const Arrow& arrow : track_arrows(report.tracks, style, at_px)) {
+    for (const Arrow& arrow : point_arrows(report.points, style, at_px)) {
       draw_arrow(arrow, 0, arrow.color, sheet);
     }
     const double half_px = felt_width_px(style) / 3;
@@ -307,7 +307,7 @@ void draw_overlay(const FrameReport& report, bool has_tracks, double scale, GstV
   }
   for (const MovingObject& object : report.frame.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();
-    if (object.tracks > 0) draw_outline(object, is_felt, visible, sheet);
+    if (object.points > 0) draw_outline(object, is_felt, visible, sheet);
   }
   draw_felt(report.frame.wrench, style, sheet);
   if (report.touch_mark) draw_touch(*report.touch_mark, visible, style, sheet);

@@ -162,23 +162,22 @@ std::vector<MotionRow> display_rows() {
           "GstSpidarOverlay",
           {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
            {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
-           {OverlayKind::kTracks, "Small arrows of the motion, too", "tracks"},
+           {OverlayKind::kPoints, "Small arrows of the motion, too", "points"},
            {OverlayKind::kCurve, "Outlines, the force, and its curve over the last five seconds",
             "curve"}},
           kPlaying, KEPT_IN(display.overlay)),
-      MotionRow::number(
-          {"arrow-scale", "Arrow scale",
-           "Length of a track's arrow, as a multiple of the point's displacement since the "
-           "previous frame"},
-          0.1, 100, kControllable, KEPT_IN(display.arrow_scale)),
+      MotionRow::number({"arrow-scale", "Arrow scale",
+                         "Length of a point's arrow, as a multiple of its displacement since the "
+                         "previous frame"},
+                        0.1, 100, kControllable, KEPT_IN(display.arrow_scale)),
       MotionRow::on_off(
           {"debug-window", "Debug window",
-           "Show picture, tracks, grip, tensions and settings in a window. Becomes false "
+           "Show picture, points, grip, tensions and settings in a window. Becomes false "
            "when the window is closed or cannot be opened"},
           kPlaying, KEPT_IN(display.debug_window)),
       MotionRow::on_off(
           {"attach-meta", "Attach meta",
-           "Attach motion, tracks, wrench and the boxes of objects to each frame as metas. The "
+           "Attach motion, points, wrench and the boxes of objects to each frame as metas. The "
            "picture is neither copied nor changed"},
           kPlaying, KEPT_IN(display.attach_meta)),
   };

@@ -39,7 +39,7 @@ struct TouchProperties {
 enum class OverlayKind {
   kNone,
   kForce,   ///< outlines of objects, the force, finger and contact
-  kTracks,  ///< arrows of the motion, too
+  kPoints,  ///< arrows of the motion, too
   kCurve,   ///< as kForce, and the force of the last seconds
 };
 

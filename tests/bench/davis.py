@@ -50,25 +50,25 @@ def region_similarity(found, mask):
     return np.count_nonzero(found & mask) / union if union else 1.0
 
 
-def block_step(tracks):
+def block_step(points):
     """Distance of neighbouring blocks, px; 0 where there are too few."""
-    steps = [np.diff(np.unique(np.round(tracks[:, axis], 3))) for axis in (3, 4)]
+    steps = [np.diff(np.unique(np.round(points[:, axis], 3))) for axis in (3, 4)]
     return min((step.min() for step in steps if len(step)), default=0)
 
 
-def paint(tracks, step, shape):
+def paint(points, step, shape):
     """The union of the blocks: squares around where they are in this frame."""
     mask = np.zeros(shape, bool)
-    for x, y in tracks[:, 3:5]:
+    for x, y in points[:, 3:5]:
         low = np.maximum(np.round(np.array([y, x]) + 0.5 - step / 2).astype(int), 0)
         high = np.round(np.array([y, x]) + 0.5 + step / 2).astype(int)
         mask[low[0]:high[0], low[1]:high[1]] = True
     return mask
 
 
-def ceiling(mask, tracks, step):
+def ceiling(mask, points, step):
     """The union of the blocks that the mask covers by half, of all places where the frame has blocks."""
-    x0, y0 = tracks[0, 3:5] - step / 2
+    x0, y0 = points[0, 3:5] - step / 2
     found = np.zeros_like(mask)
     for x in np.arange((x0 + 0.5) % step - step, mask.shape[1], step):
         for y in np.arange((y0 + 0.5) % step - step, mask.shape[0], step):
@@ -81,7 +81,7 @@ def ceiling(mask, tracks, step):
 
 
 def play(build, film):
-    """For each frame that is analysed: its number, its tracks (from x, y, to x, y, object), and the felt object."""
+    """For each frame that is analysed: its number, its points (from x, y, to x, y, object), and the felt object."""
     os.environ["GST_PLUGIN_PATH"] = str(build / "plugin")
     os.environ.setdefault("GST_REGISTRY", str(build / "davis.registry"))
     import gi
@@ -101,8 +101,8 @@ def play(build, film):
         frames = []
         while sample := sink.emit("pull-sample"):
             meta = sample.get_buffer().get_custom_meta("GstSpidarMotionMeta")
-            tracks = meta.get_structure().get_value("tracks").unpack() if meta else []
-            frames.append(np.array(tracks, float).reshape(-1, 6))
+            points = meta.get_structure().get_value("points").unpack() if meta else []
+            frames.append(np.array(points, float).reshape(-1, 6))
         pipeline.set_state(Gst.State.NULL)
         felt = [json.loads(line).get("object", 0) or NOTHING for line in trace.read_text().splitlines()]
     return list(zip(frames, felt))
@@ -111,12 +111,12 @@ def play(build, film):
 def judge(frames, masks):
     """J of the felt object and of the best one listed, and the ceiling, in each frame but the first and the last."""
     rows = []
-    step = next((step for tracks, _ in frames if (step := block_step(tracks)) > 0), 0)
-    for (tracks, felt), mask in list(zip(frames, masks))[1:-1]:
-        by_object = {each: region_similarity(paint(tracks[tracks[:, 5] == each], step, mask.shape), mask)
-                     for each in np.unique(tracks[:, 5]) if each > 0}
+    step = next((step for points, _ in frames if (step := block_step(points)) > 0), 0)
+    for (points, felt), mask in list(zip(frames, masks))[1:-1]:
+        by_object = {each: region_similarity(paint(points[points[:, 5] == each], step, mask.shape), mask)
+                     for each in np.unique(points[:, 5]) if each > 0}
         empty = 0.0 if mask.any() else 1.0
-        most = region_similarity(ceiling(mask, tracks, step), mask) if len(tracks) else np.nan
+        most = region_similarity(ceiling(mask, points, step), mask) if len(points) else np.nan
         rows.append((by_object.get(felt, empty), max(by_object.values(), default=empty), most, not by_object))
     return np.array(rows, float)
 

@@ -26,7 +26,7 @@ inline double reduction(int width, int height) {
 /// root of the window's 225 px: 0.003 px; the rest is the bilinear interpolation of a texture with
 /// structures of some 8 px, whose error between the pixels is up to h²/8 · f'' ≈ 1/8 · 10 · 2π/16 ≈
 /// 0.5 levels, that is 0.05 px if all of the window erred the same way.
-constexpr double kTrackTolerance_px = 0.1;
+constexpr double kPointTolerance_px = 0.1;
 /// The mean over a hundred of them, whose interpolation errors differ in sign.
 constexpr double kMeanTolerance_px = 0.03;
 
@@ -50,10 +50,10 @@ class MovingTexture {
   double dy_px_;
 };
 
-inline double dx(const Track& t) {
+inline double dx(const FollowedPoint& t) {
   return static_cast<double>(t.to.x_px) - static_cast<double>(t.from.x_px);
 }
-inline double dy(const Track& t) {
+inline double dy(const FollowedPoint& t) {
   return static_cast<double>(t.to.y_px) - static_cast<double>(t.from.y_px);
 }
 }  // namespace spidar::test

@@ -76,7 +76,7 @@ TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
   EXPECT_EQ(j["objects"][0]["error_px_s"].get<double>(), object.error_px_s);
   EXPECT_GT(object.error_px_s, 0);
   expect_vector(j["objects"][0]["on_screen_px_s"], object.on_screen_px_s);
-  EXPECT_EQ(j["objects"][0]["tracks"], object.tracks);
+  EXPECT_EQ(j["objects"][0]["points"], object.points);
 }
 
 TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {

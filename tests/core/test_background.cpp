@@ -10,7 +10,7 @@
 
 #include "core/field/block_kernels.h"
 #include "core/motion/camera/background.h"
-#include "track_samples.h"
+#include "point_samples.h"
 
 namespace spidar::test::background_test {
 namespace {
@@ -21,7 +21,7 @@ constexpr int kHeight = 360;
 constexpr double kSigma_px = 0.13;
 
 /// Points of something 100 px wide at `at_px`, as far from the centre, that moves by `moved_px`.
-void add_object(TrackSource& source, std::vector<Displacement>& points, int count,
+void add_object(PointSource& source, std::vector<Displacement>& points, int count,
                 const Eigen::Vector2d& at_px, const Eigen::Vector2d& moved_px, double sigma_px) {
   MotionModel model;
   model.kind = ModelKind::kTranslation;
@@ -53,7 +53,7 @@ const Background& estimate(BackgroundEstimator& estimator, const BackgroundVotes
   return estimator.keep(estimator.propose(votes));
 }
 
-Background settle(BackgroundEstimator& estimator, TrackSource& source, const MotionModel& truth,
+Background settle(BackgroundEstimator& estimator, PointSource& source, const MotionModel& truth,
                   int frames, double sigma_px, int strays = 0) {
   Background background;
   for (int n = 0; n < frames; ++n) {
@@ -68,11 +68,11 @@ Background settle(BackgroundEstimator& estimator, TrackSource& source, const Mot
 
 class EachModelKind : public testing::TestWithParam<ModelKind> {};
 
-TEST_P(EachModelKind, IsTheOneThatTheTracksNeed) {
+TEST_P(EachModelKind, IsTheOneThatThePointsNeed) {
   const MotionModel truth = sample_model(GetParam());
   for (const int strays : {0, 40}) {
     for (uint32_t seed = 1; seed <= 10; ++seed) {
-      TrackSource source(seed);
+      PointSource source(seed);
       BackgroundEstimator estimator;
       for (int n = 0; n < 20; ++n) {
         const Background found = settle(estimator, source, truth, 1, kSigma_px, strays);
@@ -93,7 +93,7 @@ TEST_P(EachModelKind, IsTheOneThatTheTracksNeed) {
 }
 
 TEST_P(EachModelKind, FallsToStillWhenTheCameraStops) {
-  TrackSource source(3);
+  PointSource source(3);
   BackgroundEstimator estimator;
   settle(estimator, source, sample_model(GetParam()), 5, kSigma_px);
   // At most four models, five frames each.
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Hierarchy, EachModelKind,
 TEST(Background, DoesNotFlickerWhereTwoRungsAreEquallyGood) {
   // A pan so slow that the gain of GRIC is about the price of its parameters: n |t|² / 2σ² ≈ 2 λ₂.
   // Without hysteresis every other frame would change the model.
-  TrackSource source(7);
+  PointSource source(7);
   BackgroundEstimator estimator;
   MotionModel slow;
   slow.kind = ModelKind::kTranslation;
@@ -135,7 +135,7 @@ TEST(Background, FollowsThePanBehindAnObjectThatHasTwoFifthsOfTheVotes) {
   pan.kind = ModelKind::kTranslation;
   pan.shift_px << -4, 1;
   for (uint32_t seed = 1; seed <= 10; ++seed) {
-    TrackSource source(seed);
+    PointSource source(seed);
     BackgroundEstimator estimator;
     for (int n = 0; n < 10; ++n) {
       auto points = source.moved(pan, 80, kSigma_px);
@@ -155,7 +155,7 @@ TEST(Background, IsFoundInTheFirstFrameInWhichItIsVisibleAgain) {
   pan.kind = ModelKind::kTranslation;
   pan.shift_px << -9, 2;
   for (int lost = 1; lost <= 8; ++lost) {
-    TrackSource source(static_cast<uint32_t>(lost));
+    PointSource source(static_cast<uint32_t>(lost));
     BackgroundEstimator estimator;
     settle(estimator, source, pan, 5, kSigma_px);
     settle(estimator, source, pan, lost, kSigma_px, 200);
@@ -171,7 +171,7 @@ TEST(Background, PureNoiseIsStillHoweverStrong) {
   // Up to 5 px of a frame of 360 lines, in px of a field of 240, and beyond what is learnt.
   for (const double sigma_px : {0.05, 0.2, 0.4, 1.0, 2.0, 5.0 * 240 / 360}) {
     for (uint32_t seed = 1; seed <= 10; ++seed) {
-      TrackSource source(seed);
+      PointSource source(seed);
       BackgroundEstimator estimator;
       for (int n = 0; n < 30; ++n) {
         const Background found = settle(estimator, source, MotionModel(), 1, sigma_px);
@@ -185,7 +185,7 @@ TEST(Background, PureNoiseIsStillHoweverStrong) {
 }
 
 TEST(Background, LearnsTheNoiseOfBadVideo) {
-  TrackSource source(9);
+  PointSource source(9);
   BackgroundEstimator estimator;
   const double sigma_px = 0.3 * 640 / 480;
   const Background still = settle(estimator, source, MotionModel(), 40, sigma_px);
@@ -197,7 +197,7 @@ TEST(Background, LearnsTheNoiseOfBadVideo) {
 }
 
 TEST(Background, StillScenesWithOneObjectCauseNoFit) {
-  TrackSource source(4);
+  PointSource source(4);
   BackgroundEstimator estimator;
   for (int n = 0; n < 20; ++n) {
     auto points = source.moved(MotionModel(), 180, 0.04);
@@ -215,7 +215,7 @@ TEST(Background, AFastCameraIsFoundBesideAnObjectThatMovesAsOne) {
   truth.linear *= 1.5;
   truth.perspective_1_px *= 1.5;
   for (uint32_t seed = 1; seed <= 40; ++seed) {
-    TrackSource source(seed);
+    PointSource source(seed);
     auto points = source.moved(truth, 240, kSigma_px);
     for (int i = 0; i < 60; ++i) {
       const double x_px = source.uniform(-60, 60);
@@ -236,7 +236,7 @@ TEST(Background, AFastCameraIsFoundBesideAnObjectThatMovesAsOne) {
 
 TEST(Background, FewOrNoPointsAreStill) {
   BackgroundEstimator estimator;
-  TrackSource source(5);
+  PointSource source(5);
   for (int count = 0; count < 5; ++count) {
     const auto points = source.moved(sample_model(ModelKind::kHomography), count, 0);
     EXPECT_EQ(estimate(estimator, votes(points)).model.kind, ModelKind::kStill) << count;
@@ -249,7 +249,7 @@ TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
   const std::vector<Eigen::Vector2d> moved_px{{-3, 0}, {3, 0}};
   for (const int count : {50, 100})
     for (size_t objects = 1; objects <= positions_px.size(); ++objects) {
-      TrackSource source(8);
+      PointSource source(8);
       BackgroundEstimator estimator;
       for (int n = 0; n < 10; ++n) {
         std::vector<Displacement> points;
@@ -265,7 +265,7 @@ TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
 }
 
 TEST(SparseVotes, ThatAgreeOnNothingAllOverThePictureMakeItUnknown) {
-  TrackSource source(11);
+  PointSource source(11);
   BackgroundEstimator estimator;
   settle(estimator, source, sample_model(ModelKind::kSimilarity), 5, kSigma_px);
   for (int n = 0; n < 10; ++n) {
@@ -279,7 +279,7 @@ TEST(SparseVotes, ThatAgreeOnNothingAllOverThePictureMakeItUnknown) {
 
 TEST(SparseVotes, OfEdgesDoNotMakeItUnknown) {
   // Coding errors around an object in front of a plain wall have edges.
-  TrackSource source(11);
+  PointSource source(11);
   BackgroundEstimator estimator;
   std::vector<Displacement> points;
   for (int i = 0; i < 200; ++i) points.push_back(source.stray());
@@ -291,7 +291,7 @@ TEST(SparseVotes, OfEdgesDoNotMakeItUnknown) {
 
 TEST(SparseVotes, OfAPictureThatIsLostDoNotSayThatTheCameraRests) {
   for (const int count : {4, 50}) {
-    TrackSource source(12);
+    PointSource source(12);
     BackgroundEstimator estimator;
     std::vector<Displacement> points;
     for (int i = 0; i < count; ++i) points.push_back(source.stray());
@@ -347,7 +347,7 @@ TEST(SparseVotes, OfALargeThingDoNotMakeItUnknown) {
   // with nothing.
   std::vector<Displacement> points =
       connected({4, 1}, [](double x, double y) { return std::abs(x) < 200 && y > -120; });
-  TrackSource source(3);
+  PointSource source(3);
   for (int i = 0; i < 10; ++i) points.push_back(source.stray());
   BackgroundEstimator estimator;
   const Background& found = estimate(estimator, votes(points, kPlainBlocks));
@@ -360,7 +360,7 @@ TEST(SparseVotes, InManyPlacesAreEnough) {
   for (const ModelKind kind : {ModelKind::kTranslation, ModelKind::kSimilarity}) {
     const MotionModel truth = sample_model(kind);
     for (uint32_t seed = 1; seed <= 10; ++seed) {
-      TrackSource source(seed);
+      PointSource source(seed);
       BackgroundEstimator estimator;
       for (int n = 0; n < 5; ++n) {
         std::vector<Displacement> points;

@@ -24,7 +24,7 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
   made.position_px = middle_px;
   made.size_px = size_px;
   made.area_px2 = size_px.prod();
-  made.tracks = 10;
+  made.points = 10;
   return made;
 }
 

@@ -20,13 +20,13 @@ MovingObject object(uint32_t id, double prominence) {
   MovingObject made;
   made.id = id;
   made.prominence = prominence;
-  made.tracks = 4;
+  made.points = 4;
   return made;
 }
 
 MovingObject out_of_sight(uint32_t id) {
   MovingObject made = object(id, 0);
-  made.tracks = 0;
+  made.points = 0;
   return made;
 }
 

@@ -47,7 +47,7 @@ Jumps jumps_in(int width, int height) {
       return std::clamp(grey + noise(random), 0.0, 255.0);
     });
     const Frame& frame = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
-    if (frame.objects.size() != 1 || frame.objects[0].tracks == 0) {
+    if (frame.objects.size() != 1 || frame.objects[0].points == 0) {
       before = nullptr;
       continue;
     }

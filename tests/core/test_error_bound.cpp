@@ -42,7 +42,7 @@ std::vector<Frame> frames_of(Film film) {
     const spidar::Frame found = analyzer.analyze(film.draw(n), n * kFrame_ns);
     for (const MovingObject& object : found.objects) {
       const Vector2d on_object = truth.pose(n).inverse() * object.position_px;
-      if (object.tracks == 0 || on_object.norm() > truth.radii_px.x()) continue;
+      if (object.points == 0 || on_object.norm() > truth.radii_px.x()) continue;
       const Vector2d from_px = truth.pose(n - 1) * on_object + film.middle_px();
       const Vector2d true_px = film.object_displacement_px(n, truth, from_px);
       frames.push_back(

@@ -31,7 +31,7 @@ Scene disc(double radius_px, std::function<Vector2d(int n)> centre_px) {
 
 /// The only object of a frame, by what it moves in it, px; no motion where there is none in sight.
 Vector2d moved_px(const std::vector<MovingObject>& objects) {
-  if (objects.size() != 1 || objects[0].tracks == 0) return Vector2d::Zero();
+  if (objects.size() != 1 || objects[0].points == 0) return Vector2d::Zero();
   return objects[0].relative_px_s * kSceneFrame_s;
 }
 
@@ -67,7 +67,7 @@ TEST(FaintObjects, OneOfASingleBlockIsFoundWhenItHasLasted) {
 /// Whether the only object of a film has left when it is out of sight for the first time.
 bool has_left(const Scene& scene, int frames) {
   for (const auto& objects : objects_in(scene, frames, kAtRest)) {
-    if (!objects.empty() && objects[0].tracks == 0) return objects[0].has_left;
+    if (!objects.empty() && objects[0].points == 0) return objects[0].has_left;
   }
   ADD_FAILURE() << "it is never out of sight";
   return false;

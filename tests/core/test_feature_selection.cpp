@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Which points the tracker chooses. When a picture is shown twice, each point gives a track that
+// Which points the tracker chooses. When a picture is shown twice, each one gives a point that
 // starts at the point.
 #include <algorithm>
 #include <cmath>
@@ -20,10 +20,10 @@ namespace {
 using test::Picture;
 using test::Texture;
 
-std::vector<Track> selected(const Picture& picture, const TrackerSettings& settings = {}) {
+std::vector<FollowedPoint> selected(const Picture& picture, const TrackerSettings& settings = {}) {
   OpenCvTracker tracker(settings);
   tracker.track(picture.view());
-  return tracker.track(picture.view()).tracks;
+  return tracker.track(picture.view()).points;
 }
 
 double distance(const ImagePoint& a, const ImagePoint& b) {
@@ -51,7 +51,7 @@ TEST(FeatureSelection, AFlatPictureHasNone) {
     EXPECT_EQ(tracker.track(picture.view()).features, 0);
     const TrackedFrame& again = tracker.track(picture.view());
     EXPECT_EQ(again.features, 0);
-    EXPECT_TRUE(again.tracks.empty());
+    EXPECT_TRUE(again.points.empty());
     EXPECT_NE(again.picture, PictureKind::kFirst);
   }
 }
@@ -74,7 +74,7 @@ TEST(FeatureSelection, KeepsTheMinimumDistanceOfTheReferenceFrame) {
     for (const double min_distance_px : {5.0, 10.0, 40.0}) {
       TrackerSettings settings;
       settings.min_distance_px = min_distance_px;
-      const std::vector<Track> found =
+      const std::vector<FollowedPoint> found =
           selected(textured(size.width, size.height, size.height / 45.0), settings);
       ASSERT_GE(found.size(), 20u);
       double nearest = 1e9;
@@ -119,10 +119,11 @@ TEST(FeatureSelection, AMirroredPictureHasMirroredPoints) {
     picture.fill(grey);
     mirrored.fill([&](double x, double y) { return grey(size.width - 1 - x, y); });
     std::set<std::pair<float, float>> points;
-    for (const Track& track : selected(picture)) points.insert({track.from.x_px, track.from.y_px});
+    for (const FollowedPoint& point : selected(picture))
+      points.insert({point.from.x_px, point.from.y_px});
     std::set<std::pair<float, float>> back;
-    for (const Track& track : selected(mirrored)) {
-      back.insert({static_cast<float>(size.width - 1) - track.from.x_px, track.from.y_px});
+    for (const FollowedPoint& point : selected(mirrored)) {
+      back.insert({static_cast<float>(size.width - 1) - point.from.x_px, point.from.y_px});
     }
     EXPECT_EQ(points.size(), 16u) << size.width;
     EXPECT_EQ(points, back) << size.width;

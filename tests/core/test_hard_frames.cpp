@@ -35,9 +35,9 @@ TEST_P(HardFrames, ShowNoMotion) {
       scene.interval_ns = kFrame_ns;
       const bool is_compared = estimator.estimate(frame, reduced, scene);
       if (tracked.picture == PictureKind::kFirst) {
-        EXPECT_TRUE(tracked.tracks.empty()) << "frame " << n;
+        EXPECT_TRUE(tracked.points.empty()) << "frame " << n;
       }
-      const ImageMotion mean = mean_motion(tracked.tracks, kFrame_ns);
+      const ImageMotion mean = mean_motion(tracked.points, kFrame_ns);
       EXPECT_EQ(mean.velocity_px_s, Eigen::Vector2d(0, 0)) << "frame " << n;
       if (!is_compared) continue;
       EXPECT_EQ(scene.background->model.shift_px, Eigen::Vector2d(0, 0)) << "frame " << n;

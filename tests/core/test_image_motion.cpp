@@ -11,14 +11,14 @@
 namespace spidar::test::image_motion_test {
 namespace {
 
-Track moved(float dx, float dy, float x = 100, float y = 50) {
+FollowedPoint moved(float dx, float dy, float x = 100, float y = 50) {
   return {0, {x, y}, {x + dx, y + dy}};
 }
 
 TEST(MeanMotion, IsTheMeanOverAllTracks) {
   // Whole pixels in a quarter of a second: all is exact in binary but the 1e-9 of a nanosecond.
-  const std::vector<Track> tracks{moved(8, 0), moved(0, 2), moved(-2, 4), moved(2, -2)};
-  const ImageMotion motion = mean_motion(tracks, 250'000'000);
+  const std::vector<FollowedPoint> points{moved(8, 0), moved(0, 2), moved(-2, 4), moved(2, -2)};
+  const ImageMotion motion = mean_motion(points, 250'000'000);
   EXPECT_NEAR(motion.velocity_px_s.x(), 8.0 / 4 / 0.25, 1e-12);
   EXPECT_NEAR(motion.velocity_px_s.y(), 4.0 / 4 / 0.25, 1e-12);
   EXPECT_EQ(motion.tracked, 4);

@@ -8,13 +8,13 @@
 
 #include "core/motion/camera/motion_models.h"
 #include "core/motion/camera/robust_fit.h"
-#include "track_samples.h"
+#include "point_samples.h"
 
 namespace spidar::test::motion_models_test {
 namespace {
 
+using test::PointSource;
 using test::sample_model;
-using test::TrackSource;
 
 std::vector<double> ones(size_t n) {
   return std::vector<double>(n, 1.0);
@@ -36,7 +36,7 @@ class EachModel : public testing::TestWithParam<ModelKind> {};
 
 TEST_P(EachModel, IsFoundExactlyWithoutNoise) {
   const MotionModel truth = sample_model(GetParam());
-  TrackSource source(1);
+  PointSource source(1);
   const auto points = source.moved(truth, 40, 0);
   const auto found = fit_model(GetParam(), points, ones(points.size()));
   ASSERT_TRUE(found);
@@ -52,11 +52,11 @@ TEST_P(EachModel, IsEfficient) {
   const int k = parameters(truth.kind);
   constexpr int kRuns = 400;
   constexpr double kSigma_px = 0.1;
-  TrackSource positions(2);
+  PointSource positions(2);
   const auto exact = positions.moved(truth, 60, 0);
   double mean = 0;
   for (int run = 0; run < kRuns; ++run) {
-    TrackSource noise(100 + static_cast<uint32_t>(run));
+    PointSource noise(100 + static_cast<uint32_t>(run));
     auto points = exact;
     for (auto& p : points) p.moved_px += noise.noise_px(kSigma_px);
     const auto found = fit_model(truth.kind, points, ones(points.size()));
@@ -71,7 +71,7 @@ class EachMovingModel : public testing::TestWithParam<ModelKind> {};
 
 TEST_P(EachMovingModel, TakesWeights) {
   const ModelKind kind = GetParam();
-  TrackSource source(3);
+  PointSource source(3);
   const MotionModel truth = sample_model(kind);
   auto points = source.moved(truth, 30, 0);
   auto weights = ones(points.size());
@@ -94,7 +94,7 @@ TEST_P(EachModel, IsFoundAmongEquallyManyOutliers) {
   const MotionModel truth = sample_model(kind);
   constexpr double kSigma_px = 0.1;
   for (uint32_t seed = 1; seed <= 20; ++seed) {
-    TrackSource source(seed);
+    PointSource source(seed);
     WeightedDisplacements evidence;
     evidence.points = source.moved(truth, 100, kSigma_px);
     const auto inliers = evidence.points;
@@ -122,7 +122,7 @@ TEST_P(EachModel, IsFoundAmongEquallyManyOutliers) {
 
 TEST_P(EachModel, NeedsItsPoints) {
   const ModelKind kind = GetParam();
-  TrackSource source(4);
+  PointSource source(4);
   const auto enough = static_cast<size_t>(parameters(kind) / 2);  // each gives two equations
   const auto points = source.moved(sample_model(kind), static_cast<int>(enough), 0);
   EXPECT_TRUE(fit_model(kind, points, ones(enough)));
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Hierarchy, EachMovingModel,
                          name_of);
 
 TEST(MotionModels, PointsOnALineDoNotDetermineAnAffineModel) {
-  TrackSource source(5);
+  PointSource source(5);
   std::vector<Displacement> line;
   const MotionModel still;
   for (int i = 0; i < 20; ++i) line.push_back(source.moved(still, {10.0 * i, 5.0 * i}, 0.1));

@@ -197,7 +197,7 @@ std::vector<MovingObject> objects_at(const std::vector<Disc>& discs, int n) {
     object.size_px.setConstant(2 * disc.radius_px);
     object.area_px2 = object.size_px.prod();
     object.relative_px_s = (disc.centre_px(n) - disc.centre_px(n - 1)) / kFrame_s;
-    object.tracks = 10;
+    object.points = 10;
     objects.push_back(object);
   }
   return objects;

@@ -88,7 +88,7 @@ std::vector<std::vector<Seen>> watch(const Film& film, int frames) {
     const auto picture = test::draw([&](int k, const Vector2d& at) { return film.grey(k, at); }, n);
     const Frame found = analyzer.analyze(picture.view(), n * kSceneFrame_ns);
     for (const MovingObject& object : found.objects) {
-      if (object.tracks == 0) continue;
+      if (object.points == 0) continue;
       const Vector2d middle_px((test::kSceneWidth - 1) / 2.0, (test::kSceneHeight - 1) / 2.0);
       seen[static_cast<size_t>(n)].push_back(
           {object.id, object.position_px + middle_px, object.on_screen_px_s * kSceneFrame_s});

@@ -26,7 +26,7 @@ MovingObject object(double x_px, double y_px, double size_px, double speed_px_s)
   made.growth_1_s = speed_px_s / 100;
   made.roll_rad_s = -speed_px_s / 100;
   made.error_px_s = 1 / DeadZone::kOfBound;
-  made.tracks = 10;
+  made.points = 10;
   return made;
 }
 
@@ -61,7 +61,7 @@ TEST(Pointer, ALoneObjectIsFeltAsItIsHoweverFar) {
 
 TEST(Pointer, NothingInSightIsNothing) {
   std::vector<MovingObject> objects = {object(0, 0, 60, 80)};
-  objects[0].tracks = 0;
+  objects[0].points = 0;
   const ImageMotion motion = motion_at_pointer(objects, {0, 0}, kHeight);
   EXPECT_EQ(motion.velocity_px_s, Eigen::Vector2d(0, 0));
   EXPECT_EQ(motion.tracked, 0);

@@ -39,16 +39,16 @@ TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
       ASSERT_NE(frame.picture, PictureKind::kFirst);
       // All but those that leave: the fraction that leaves a frame is at most the displaced margin.
       const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
-      EXPECT_GE(static_cast<double>(frame.tracks.size()), looked_for * (0.9 - 2 * margin)) << n;
+      EXPECT_GE(static_cast<double>(frame.points.size()), looked_for * (0.9 - 2 * margin)) << n;
       double sum_x = 0;
       double sum_y = 0;
-      for (const Track& track : frame.tracks) {
-        EXPECT_NEAR(dx(track), p.dx_px, kTrackTolerance_px * unit) << track.from.x_px;
-        EXPECT_NEAR(dy(track), p.dy_px, kTrackTolerance_px * unit) << track.from.y_px;
-        sum_x += dx(track);
-        sum_y += dy(track);
+      for (const FollowedPoint& point : frame.points) {
+        EXPECT_NEAR(dx(point), p.dx_px, kPointTolerance_px * unit) << point.from.x_px;
+        EXPECT_NEAR(dy(point), p.dy_px, kPointTolerance_px * unit) << point.from.y_px;
+        sum_x += dx(point);
+        sum_y += dy(point);
       }
-      const auto count = static_cast<double>(frame.tracks.size());
+      const auto count = static_cast<double>(frame.points.size());
       EXPECT_NEAR(sum_x / count, p.dx_px, kMeanTolerance_px * unit);
       EXPECT_NEAR(sum_y / count, p.dy_px, kMeanTolerance_px * unit);
       looked_for = frame.features;
@@ -68,10 +68,10 @@ TEST(OpenCvTracker, APeriodicTextureDoesNotJumpAPeriod) {
     });
     const TrackedFrame& frame = tracker.track(picture.view());
     if (n == 0) continue;
-    ASSERT_GE(frame.tracks.size(), 50u);
-    for (const Track& track : frame.tracks) {
-      EXPECT_NEAR(dx(track), 2, kTrackTolerance_px) << n;
-      EXPECT_NEAR(dy(track), -1, kTrackTolerance_px) << n;
+    ASSERT_GE(frame.points.size(), 50u);
+    for (const FollowedPoint& point : frame.points) {
+      EXPECT_NEAR(dx(point), 2, kPointTolerance_px) << n;
+      EXPECT_NEAR(dy(point), -1, kPointTolerance_px) << n;
     }
   }
 }
@@ -85,16 +85,16 @@ TEST(OpenCvTracker, APointKeepsItsIdAndStartsWhereItEnded) {
     const TrackedFrame& frame = tracker.track(scene.frame(n));
     std::map<uint32_t, ImagePoint> now;
     size_t known = 0;
-    for (const Track& track : frame.tracks) {
-      EXPECT_TRUE(now.insert({track.id, track.to}).second) << "id twice: " << track.id;
-      const auto before = last.find(track.id);
+    for (const FollowedPoint& point : frame.points) {
+      EXPECT_TRUE(now.insert({point.id, point.to}).second) << "id twice: " << point.id;
+      const auto before = last.find(point.id);
       if (before == last.end()) continue;
       ++known;
-      EXPECT_EQ(before->second.x_px, track.from.x_px);
-      EXPECT_EQ(before->second.y_px, track.from.y_px);
+      EXPECT_EQ(before->second.x_px, point.from.x_px);
+      EXPECT_EQ(before->second.y_px, point.from.y_px);
     }
     if (n > 1) {
-      EXPECT_GE(known * 2, frame.tracks.size()) << n;
+      EXPECT_GE(known * 2, frame.points.size()) << n;
     }
     last = now;
   }
@@ -115,12 +115,12 @@ TEST(OpenCvTracker, APointStartsWhereItEndedAlsoAfterARepeatedFrame) {
   OpenCvTracker tracker;
   tracker.track(frame(0));
   std::map<uint32_t, ImagePoint> ended;
-  for (const Track& track : tracker.track(frame(0)).tracks) ended[track.id] = track.to;
+  for (const FollowedPoint& point : tracker.track(frame(0)).points) ended[point.id] = point.to;
   ASSERT_GE(ended.size(), 50u);
-  for (const Track& track : tracker.track(frame(4)).tracks) {
-    ASSERT_EQ(ended.count(track.id), 1u);
-    EXPECT_EQ(track.from.x_px, ended[track.id].x_px);
-    EXPECT_EQ(track.from.y_px, ended[track.id].y_px);
+  for (const FollowedPoint& point : tracker.track(frame(4)).points) {
+    ASSERT_EQ(ended.count(point.id), 1u);
+    EXPECT_EQ(point.from.x_px, ended[point.id].x_px);
+    EXPECT_EQ(point.from.y_px, ended[point.id].y_px);
   }
 }
 
@@ -132,10 +132,10 @@ TEST(OpenCvTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   int dropped = 0;
   for (int n = 1; n <= 8; ++n) {
     const TrackedFrame& frame = tracker.track(scene.frame(n));
-    dropped += looked_for - static_cast<int>(frame.tracks.size());
-    for (const Track& track : frame.tracks) {
-      EXPECT_NEAR(dx(track), kSpeed_px, kTrackTolerance_px) << n << " from " << track.from.x_px;
-      EXPECT_LE(track.to.x_px, 639);
+    dropped += looked_for - static_cast<int>(frame.points.size());
+    for (const FollowedPoint& point : frame.points) {
+      EXPECT_NEAR(dx(point), kSpeed_px, kPointTolerance_px) << n << " from " << point.from.x_px;
+      EXPECT_LE(point.to.x_px, 639);
     }
     looked_for = frame.features;
   }
@@ -151,12 +151,12 @@ TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   EXPECT_NE(tracker.track(scene.frame(1)).picture, PictureKind::kFirst);
   const TrackedFrame& cut = tracker.track(other.frame(2));
   EXPECT_EQ(cut.picture, PictureKind::kFirst);
-  EXPECT_TRUE(cut.tracks.empty());
+  EXPECT_TRUE(cut.points.empty());
   EXPECT_GT(cut.features, 100);
   const TrackedFrame& after = tracker.track(other.frame(3));
   EXPECT_NE(after.picture, PictureKind::kFirst);
-  ASSERT_GE(after.tracks.size(), 50u);
-  for (const Track& track : after.tracks) EXPECT_NEAR(dx(track), -3, kTrackTolerance_px);
+  ASSERT_GE(after.points.size(), 50u);
+  for (const FollowedPoint& point : after.points) EXPECT_NEAR(dx(point), -3, kPointTolerance_px);
 }
 
 TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
@@ -171,7 +171,7 @@ TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
   tracker.configure(settings);
   const TrackedFrame& more = tracker.track(scene.frame(2));
   EXPECT_GT(more.features, 100);
-  EXPECT_LE(more.tracks.size(), 1u);
+  EXPECT_LE(more.points.size(), 1u);
 }
 
 TEST(OpenCvTracker, RefusesSettingsOutOfRange) {
@@ -205,28 +205,28 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
     EXPECT_EQ(tracker.track(picture.view()).picture, PictureKind::kFirst);
     const TrackedFrame& frame = tracker.track(picture.view());
     EXPECT_NE(frame.picture, PictureKind::kFirst) << size.width << "x" << size.height;
-    EXPECT_GE(frame.tracks.size(), 1u) << size.width << "x" << size.height;
-    for (const Track& track : frame.tracks) {
-      EXPECT_NEAR(dx(track), 0, 1e-3);
-      EXPECT_NEAR(dy(track), 0, 1e-3);
+    EXPECT_GE(frame.points.size(), 1u) << size.width << "x" << size.height;
+    for (const FollowedPoint& point : frame.points) {
+      EXPECT_NEAR(dx(point), 0, 1e-3);
+      EXPECT_NEAR(dy(point), 0, 1e-3);
     }
   }
 }
 
-/// Tracks that begin on the ball and follow it.
+/// Points that begin on the ball and follow it.
 int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, double t1_s) {
   const Eigen::Vector2d centre = scene.position_px(t0_s);
   const Eigen::Vector2d moved = scene.position_px(t1_s) - centre;
   return static_cast<int>(
-      std::count_if(frame.tracks.begin(), frame.tracks.end(), [&](const Track& t) {
+      std::count_if(frame.points.begin(), frame.points.end(), [&](const FollowedPoint& t) {
         const Eigen::Vector2d from(static_cast<double>(t.from.x_px),
                                    static_cast<double>(t.from.y_px));
         return (from - centre).norm() < scene.settings().radius_px &&
-               (Eigen::Vector2d(dx(t), dy(t)) - moved).norm() < 2 * kTrackTolerance_px;
+               (Eigen::Vector2d(dx(t), dy(t)) - moved).norm() < 2 * kPointTolerance_px;
       }));
 }
 
-/// The most tracks on a ball that has just come in from the left.
+/// The most points on a ball that has just come in from the left.
 int found_on_entering_ball(uint32_t seed) {
   BallSettings settings;
   settings.seed = seed;

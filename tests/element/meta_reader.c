@@ -17,7 +17,7 @@ read_motion_in_c (GstBuffer * buffer, GstSpidarFrameMotion * motion)
 GArray *
 read_tracks_in_c (GstBuffer * buffer)
 {
-  return gst_buffer_get_spidar_tracks (buffer);
+  return gst_buffer_get_spidar_points (buffer);
 }
 
 GArray *

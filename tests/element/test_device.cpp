@@ -203,7 +203,7 @@ TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
     // 50 px/s. The pointer is at least 0.9 · 80 px from the middle, the edge of the other disc 80 +
     // 10 − 36 px on the other side of it: together 126 px or 2.1 σ, which leaves that one exp(−2.1²
     // / 2) = 0.11 of the weight, and (1 − 0.11) / (1 + 0.11) = 0.80 of the speed if both boxes are
-    // of one size. They are those around the tracks, which are 12 px apart: one may have half the
+    // of one size. They are those around the points, which are 12 px apart: one may have half the
     // area of the other, and (1 − 0.22) / (1 + 0.22) = 0.64 is left.
     EXPECT_GT(side * h->motions().back().velocity_x, 0.64 * 50) << side;
   }

@@ -219,7 +219,7 @@ TEST(FrameFuzz, AFrameThatHasLessThanItSaysIsPassedOnWithAWarning) {
     const int height = static_cast<int>(random.between(16, 60));
     SCOPED_TRACE("SPIDAR_SEED=" + std::to_string(seed) + ", frame " + std::to_string(n) + ": " +
                  format + " " + std::to_string(width) + "x" + std::to_string(height));
-    ElementHarness h(random.chance(0.5) ? "device=none" : "device=none overlay=tracks");
+    ElementHarness h(random.chance(0.5) ? "device=none" : "device=none overlay=points");
     h.set_caps(make_caps(format.c_str(), width, height));
     FrameLayout layout = random_layout(h.info(), random);
     // With nothing between lines and planes, whatever is changed is wrong.

@@ -26,15 +26,15 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 
-std::vector<GstSpidarMotionTrack> tracks_of(GstBuffer* buffer) {
-  std::vector<GstSpidarMotionTrack> tracks;
+std::vector<GstSpidarMotionPoint> points_of(GstBuffer* buffer) {
+  std::vector<GstSpidarMotionPoint> points;
   GArray* array = read_tracks_in_c(buffer);
-  if (!array) return tracks;
+  if (!array) return points;
   for (guint i = 0; i < array->len; ++i) {
-    tracks.push_back(g_array_index(array, GstSpidarMotionTrack, i));
+    points.push_back(g_array_index(array, GstSpidarMotionPoint, i));
   }
   g_array_unref(array);
-  return tracks;
+  return points;
 }
 
 class Meta : public testing::Test {
@@ -73,12 +73,12 @@ TEST_F(Meta, HasTheValuesOfTheMessageAndTheTracks) {
   EXPECT_EQ(motion.force_x, message.wrench.force_N.x());
   EXPECT_EQ(motion.force_y, message.wrench.force_N.y());
   EXPECT_EQ(motion.torque_z, message.wrench.torque_Nm.z());
-  const auto tracks = tracks_of(out);
-  EXPECT_EQ(tracks.size(), message.tracked);
-  EXPECT_GT(tracks.size(), 20u);
-  for (const GstSpidarMotionTrack& track : tracks) {
-    EXPECT_NEAR(track.to_x - track.from_x, 3, 0.5) << track.id;
-    EXPECT_NEAR(track.to_y - track.from_y, -1, 0.5) << track.id;
+  const auto points = points_of(out);
+  EXPECT_EQ(points.size(), message.tracked);
+  EXPECT_GT(points.size(), 20u);
+  for (const GstSpidarMotionPoint& point : points) {
+    EXPECT_NEAR(point.to_x - point.from_x, 3, 0.5) << point.id;
+    EXPECT_NEAR(point.to_y - point.from_y, -1, 0.5) << point.id;
   }
   gst_buffer_unref(out);
 }
@@ -103,7 +103,7 @@ TEST_F(Meta, TheFirstFrameHasNothingToCompareWith) {
   GstSpidarFrameMotion motion;
   ASSERT_TRUE(read_motion_in_c(out, &motion));
   EXPECT_EQ(motion.interval, 0u);
-  EXPECT_TRUE(tracks_of(out).empty());
+  EXPECT_TRUE(points_of(out).empty());
   gst_buffer_unref(out);
 }
 
@@ -170,7 +170,7 @@ TEST_F(Meta, IsCopiedWithAFrameButNotWithAPartOfIt) {
   ASSERT_TRUE(read_motion_in_c(out, &a));
   ASSERT_TRUE(read_motion_in_c(copy, &b));
   EXPECT_EQ(a.velocity_x, b.velocity_x);
-  EXPECT_EQ(tracks_of(out).size(), tracks_of(copy).size());
+  EXPECT_EQ(points_of(out).size(), points_of(copy).size());
   EXPECT_FALSE(read_motion_in_c(part, &b));
   gst_buffer_unref(part);
   gst_buffer_unref(copy);
@@ -215,14 +215,14 @@ class MappedMeta : public Meta {
     EXPECT_TRUE(read_motion_in_c(to, &motion));
     EXPECT_EQ(motion.width, static_cast<guint>(width));
     EXPECT_EQ(motion.height, static_cast<guint>(height));
-    tracks_ = tracks_of(to);
+    points_ = points_of(to);
     gst_buffer_unref(to);
     return motion;
   }
 
   GstBuffer* frame_ = nullptr;
   GstSpidarFrameMotion before_{};
-  std::vector<GstSpidarMotionTrack> tracks_;
+  std::vector<GstSpidarMotionPoint> points_;
 };
 
 TEST_F(MappedMeta, CroppingMovesPlacesAndNothingElse) {
@@ -232,12 +232,12 @@ TEST_F(MappedMeta, CroppingMovesPlacesAndNothingElse) {
   EXPECT_NEAR(after.force_x, before_.force_x, 1e-9);
   EXPECT_NEAR(after.force_y, before_.force_y, 1e-9);
   EXPECT_NEAR(after.torque_z, before_.torque_z, 1e-9);
-  const auto before = tracks_of(frame_);
-  ASSERT_EQ(tracks_.size(), before.size());
-  EXPECT_GT(tracks_.size(), 20u);
+  const auto before = points_of(frame_);
+  ASSERT_EQ(points_.size(), before.size());
+  EXPECT_GT(points_.size(), 20u);
   for (size_t i = 0; i < before.size(); ++i) {
-    EXPECT_NEAR(tracks_[i].to_x, before[i].to_x - 30, 1e-9);
-    EXPECT_NEAR(tracks_[i].from_y, before[i].from_y - 20, 1e-9);
+    EXPECT_NEAR(points_[i].to_x, before[i].to_x - 30, 1e-9);
+    EXPECT_NEAR(points_[i].from_y, before[i].from_y - 20, 1e-9);
   }
 }
 
@@ -252,8 +252,8 @@ TEST_F(MappedMeta, MirroringMirrorsDirectionsAndTurnsRotationsRound) {
   EXPECT_NEAR(after.torque_z, -before_.torque_z, 1e-9);
   EXPECT_NEAR(after.roll, -before_.roll, 1e-9);
   // The centre of the first pixel is that of the last one then.
-  for (const auto& track : tracks_of(frame_)) EXPECT_GE(track.to_x, -0.5);
-  EXPECT_NEAR(tracks_[0].to_x, 319 - tracks_of(frame_)[0].to_x, 1e-9);
+  for (const auto& point : points_of(frame_)) EXPECT_GE(point.to_x, -0.5);
+  EXPECT_NEAR(points_[0].to_x, 319 - points_of(frame_)[0].to_x, 1e-9);
 }
 
 TEST_F(MappedMeta, TurningClockwiseTurnsTheForceAsMuch) {

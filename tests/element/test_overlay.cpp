@@ -25,9 +25,9 @@ bool is_dark(const Pixel& pixel) {
   return pixel[0] < 128 && pixel[1] < 128 && pixel[2] < 128;
 }
 
-FrameReport one_track(ImagePoint from, ImagePoint to, TrackOwner owner = TrackOwner::kUnknown) {
+FrameReport one_point(ImagePoint from, ImagePoint to, PointOwner owner = PointOwner::kUnknown) {
   FrameReport report;
-  report.tracks.push_back({1, from, to, owner, 0, false});
+  report.points.push_back({1, from, to, owner, 0, false});
   return report;
 }
 
@@ -37,7 +37,7 @@ TEST(Overlay, IsDrawnIntoEveryFormat) {
     for (const auto& [width, height] : {std::pair{64, 48}, {65, 49}, {67, 33}}) {
       SCOPED_TRACE(format + ", " + std::to_string(width) + "x" + std::to_string(height));
       Canvas canvas(format.c_str(), width, height);
-      canvas.draw(one_track({10, 20}, {16, 20}), 4);
+      canvas.draw(one_point({10, 20}, {16, 20}), 4);
       EXPECT_TRUE(canvas.is_drawn(10, 20)) << "tail";
       EXPECT_TRUE(canvas.is_drawn(22, 20)) << "shaft";
       EXPECT_TRUE(canvas.is_drawn(32, 20)) << "four times the displacement, less a soft tip";
@@ -66,7 +66,7 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
                                    {{8, far}, {8, far}},
                                    {{none, 1}, {2, 2}},
                                    {{32, 16}, {32, 16}}}) {
-      canvas.draw(one_track(from, to));
+      canvas.draw(one_point(from, to));
     }
     EXPECT_TRUE(canvas.is_drawn(2, 3));
     EXPECT_TRUE(canvas.is_drawn(3, 12));
@@ -85,17 +85,17 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
 }
 
 TEST(Overlay, TracksAreDrawnOnlyWhenAskedFor) {
-  FrameReport report = one_track({10, 20}, {34, 20});
+  FrameReport report = one_point({10, 20}, {34, 20});
   report.lost.push_back({50, 10});
   MovingObject object;
-  object.tracks = 5;
+  object.points = 5;
   object.size_px = {20, 10};
   report.frame.objects.push_back(object);
-  for (const bool has_tracks : {false, true}) {
+  for (const bool has_points : {false, true}) {
     Canvas canvas("RGB", 64, 48);
-    canvas.draw(report, 1, has_tracks);
-    EXPECT_EQ(canvas.is_drawn(16, 20), has_tracks);
-    EXPECT_EQ(canvas.is_drawn(50, 10), has_tracks);
+    canvas.draw(report, 1, has_points);
+    EXPECT_EQ(canvas.is_drawn(16, 20), has_points);
+    EXPECT_EQ(canvas.is_drawn(50, 10), has_points);
     EXPECT_TRUE(canvas.is_drawn(32, 19)) << "the upper side of the object's box";
   }
 }
@@ -112,8 +112,8 @@ TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
   EXPECT_EQ(color(1, 0, 0), kWhitePixel);
 
   Canvas background("RGB", 640, 480), object("RGB", 640, 480);
-  background.draw(one_track({100, 99}, {200, 99}, TrackOwner::kBackground));
-  object.draw(one_track({100, 99}, {200, 99}, TrackOwner::kObject));
+  background.draw(one_point({100, 99}, {200, 99}, PointOwner::kBackground));
+  object.draw(one_point({100, 99}, {200, 99}, PointOwner::kObject));
   EXPECT_EQ(object.at(150, 99), (Pixel{255, 0, 0}));
   // 255 (1 − 0.45), less where the edges of a line are soft that is a pixel wide.
   EXPECT_NEAR(background.at(150, 99)[1], 140, 20);
@@ -152,7 +152,7 @@ TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
   for (uint32_t i = 0; i < 3; ++i) {
     MovingObject& object = report.frame.objects[i];
     object.id = i + 1;
-    object.tracks = i == 2 ? 0 : 5;  // the last one is out of sight
+    object.points = i == 2 ? 0 : 5;  // the last one is out of sight
     object.position_px = {-200 + 200.0 * i, 60};
     object.size_px = {80, 40};
   }

@@ -25,7 +25,7 @@ size_t differences(GstBuffer* a, GstBuffer* b) {
 }
 
 TEST(OverlayElement, WritesToNoFrameThatSomebodyElseHolds) {
-  ElementHarness h("device=none overlay=tracks");
+  ElementHarness h("device=none overlay=points");
   h.set_caps(make_caps("I420", 323, 241));
   for (int n = 0; n < 3; ++n) {
     GstBuffer* frame = make_frame(h.info(), 3.0 * n, 0, 13);
@@ -50,7 +50,7 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
   for (int n = 0; n < 9; ++n) {
     const bool on = n / 3 == 1;
     if (n % 3 == 0)
-      g_object_set(h.element(), "overlay", on ? OverlayKind::kTracks : OverlayKind::kNone, nullptr);
+      g_object_set(h.element(), "overlay", on ? OverlayKind::kPoints : OverlayKind::kNone, nullptr);
     GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
     GstBuffer* before = gst_buffer_copy_deep(frame);
     ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
@@ -62,7 +62,7 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
 }
 
 TEST(OverlayElement, DrawsWithinTheVisiblePart) {
-  ElementHarness h("device=none overlay=tracks");
+  ElementHarness h("device=none overlay=points");
   h.set_caps(make_caps("GRAY8", 640, 480));
   for (int n = 0; n < 2; ++n) {
     GstBuffer* frame = make_frame(h.info(), 0, 0);
@@ -101,7 +101,7 @@ TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
   for (const bool touching : {false, true}) {
     int64_t time_ns = 1'000'000'000;
     ElementHarness h(
-        touching ? "device=sim overlay=tracks touch=luma" : "device=sim overlay=tracks touch=off",
+        touching ? "device=sim overlay=points touch=luma" : "device=sim overlay=points touch=off",
         read_time, &time_ns);
     h.set_caps(make_caps("GRAY8", 320, 240));
     for (int tick = 0; tick < 300; ++tick) h.tick(time_ns += kTick_ns);  // until the device runs

@@ -25,7 +25,7 @@ constexpr double kTolerance_px = 0.1;
 struct Played {
   double velocity_x = 0;
   GstSpidarFrameMotion motion{};
-  std::vector<GstSpidarMotionTrack> tracks;
+  std::vector<GstSpidarMotionPoint> points;
 };
 
 /// Frames whose first half moves by kPicture_px and whose second one, to the right or below, by
@@ -49,11 +49,11 @@ Played play(const std::string& properties, bool right) {
     GstBuffer* out = gst_harness_pull(h.harness());
     if (n == 2) {
       EXPECT_TRUE(gst_buffer_get_spidar_motion(out, &played.motion));
-      GArray* tracks = gst_buffer_get_spidar_tracks(out);
-      for (guint i = 0; tracks != nullptr && i < tracks->len; ++i) {
-        played.tracks.push_back(g_array_index(tracks, GstSpidarMotionTrack, i));
+      GArray* points = gst_buffer_get_spidar_points(out);
+      for (guint i = 0; points != nullptr && i < points->len; ++i) {
+        played.points.push_back(g_array_index(points, GstSpidarMotionPoint, i));
       }
-      g_clear_pointer(&tracks, g_array_unref);
+      g_clear_pointer(&points, g_array_unref);
     }
     gst_buffer_unref(out);
   }
@@ -68,14 +68,14 @@ TEST(PackedFilm, MotionIsThatOfThePictureAndPlacesAreThoseOfTheFrame) {
     EXPECT_NEAR(played.velocity_x, 25 * kPicture_px, 25 * kTolerance_px);
     EXPECT_EQ(played.motion.width, static_cast<guint>(kWidth));
     EXPECT_EQ(played.motion.height, static_cast<guint>(kHeight));
-    EXPECT_GT(played.tracks.size(), 20u);
+    EXPECT_GT(played.points.size(), 20u);
     double least_x = kWidth, most_x = 0;
-    for (const GstSpidarMotionTrack& track : played.tracks) {
-      EXPECT_NEAR(track.to_x - track.from_x, kPicture_px, 0.5);
-      EXPECT_LT(track.to_x, right ? kWidth / 2 : kWidth);
-      EXPECT_LT(track.to_y, right ? kHeight : kHeight / 2);
-      least_x = std::min(least_x, track.to_x);
-      most_x = std::max(most_x, track.to_x);
+    for (const GstSpidarMotionPoint& point : played.points) {
+      EXPECT_NEAR(point.to_x - point.from_x, kPicture_px, 0.5);
+      EXPECT_LT(point.to_x, right ? kWidth / 2 : kWidth);
+      EXPECT_LT(point.to_y, right ? kHeight : kHeight / 2);
+      least_x = std::min(least_x, point.to_x);
+      most_x = std::max(most_x, point.to_x);
     }
     // Points are found all over the half, in pixels of the frame.
     const double width = right ? kWidth / 2 : kWidth;
@@ -88,7 +88,7 @@ TEST(PackedFilm, WithoutTouchingDepthTheWholeFrameIsThePicture) {
   for (const char* properties : {"touch=off", "touch=luma"}) {
     const Played played = play(properties, true);
     int in_depth = 0;
-    for (const GstSpidarMotionTrack& track : played.tracks) in_depth += track.to_x > kWidth / 2;
+    for (const GstSpidarMotionPoint& point : played.points) in_depth += point.to_x > kWidth / 2;
     EXPECT_GT(in_depth, 10) << properties;
   }
 }

@@ -108,10 +108,10 @@ INSTANTIATE_TEST_SUITE_P(Modes, Passthrough,
                                          "device=none post-messages=true",
                                          "device=none motion=mean", "device=none mute=true",
                                          "device=none motion=objects",
-                                         "device=none overlay=tracks overlay=none"));
+                                         "device=none overlay=points overlay=none"));
 
 TEST(Gap, RepeatsThePreviousPictureWithoutAnalysis) {
-  for (const char* properties : {"device=none", "device=none overlay=tracks"}) {
+  for (const char* properties : {"device=none", "device=none overlay=points"}) {
     SCOPED_TRACE(properties);
     ElementHarness h(properties);
     h.set_caps(make_caps("GRAY8", 320, 240));
@@ -248,7 +248,7 @@ TEST_F(Allocation, IsAnsweredByTheSinkAsWithIdentity) {
             "aligned to 64\n");
   for (const char* element : {"spidarmotion device=none", "spidarmotion device=sim",
                               "spidarmotion device=none attach-meta=true",
-                              "spidarmotion device=none overlay=tracks overlay=none"}) {
+                              "spidarmotion device=none overlay=points overlay=none"}) {
     SCOPED_TRACE(element);
     EXPECT_EQ(ask(element), offered);
     EXPECT_EQ(ask(element, true, false), ask("identity", true, false));

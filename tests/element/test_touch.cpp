@@ -47,7 +47,7 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   large.position_px = {40, 0};
   large.size_px = {80, 80};
   large.area_px2 = 6400;
-  large.tracks = 9;
+  large.points = 9;
   large.on_screen_px_s = {-50, 25};
   MovingObject small = large;
   small.size_px = {20, 20};
@@ -55,7 +55,7 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   small.on_screen_px_s = {0, 100};
   MovingObject hidden = large;
   hidden.position_px = {-100, 0};
-  hidden.tracks = 0;
+  hidden.points = 0;
   analysis.background = background;
   analysis.objects = {large, small, hidden};
   const auto at = [&](double x_px, double y_px) {

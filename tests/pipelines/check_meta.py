@@ -19,7 +19,7 @@ def check_example():
     lines = subprocess.run([sys.executable, sys.argv[1]], check=True, stdout=subprocess.PIPE,
                            text=True).stdout.splitlines()
     row = re.compile(
-        r" *([0-9.]+) s  velocity +(\S+) +(\S+) px/s  force +(\S+) +(\S+) N  ([0-9]+) tracks")
+        r" *([0-9.]+) s  velocity +(\S+) +(\S+) px/s  force +(\S+) +(\S+) N  ([0-9]+) points")
     thing = re.compile(r"    object 1 at (\d+),(\d+), (\d+) x (\d+) px: \S+ \S+ px/s, felt")
     boxes = [[int(value) for value in thing.fullmatch(line).groups()]
              for line in lines if line.startswith("    object")]
@@ -29,11 +29,11 @@ def check_example():
     rows = [[float(value) for value in row.fullmatch(line).groups()]
             for line in lines if not line.startswith("    object")]
     assert len(rows) == 30, f"{len(rows)} frames, not 30"
-    # The ball flies: after the first frame there are tracks. It is an object from the second pair of
+    # The ball flies: after the first frame there are points. It is an object from the second pair of
     # frames on, and the force goes the way of the motion, whose y axis points down, apart from the
     # few frames that the filter is late by when it turns.
-    for seconds, _, _, _, _, tracks in rows[1:]:
-        assert tracks > 0, f"no tracks at {seconds} s"
+    for seconds, _, _, _, _, points in rows[1:]:
+        assert points > 0, f"no points at {seconds} s"
     along = [velocity_x * force_x - velocity_y * force_y > 0
              for _, velocity_x, velocity_y, force_x, force_y, _ in rows[5:]]
     assert sum(along) > len(along) / 2, f"force along the motion in {sum(along)} of {len(along)}"
@@ -51,7 +51,7 @@ def metas_after(elements):
         frame = meta and meta.get_structure()
         found.append(frame and (frame.get_value("width"), frame.get_value("height"),
                                 frame.get_value("velocity-x"), frame.get_value("force-x"),
-                                frame.get_value("tracks").unpack()))
+                                frame.get_value("points").unpack()))
         return Gst.PadProbeReturn.OK
 
     pipeline.get_by_name("sink").get_static_pad("sink").add_probe(Gst.PadProbeType.BUFFER, read)
@@ -69,9 +69,9 @@ plain = metas_after("identity")
 assert len(plain) == 5 and all(plain) and plain[-1][4]
 assert metas_after("queue ! videoconvert ! video/x-raw,format=BGRx") == plain
 scaled = metas_after("videoconvert ! videoscale ! video/x-raw,width=640,height=120")
-for (_, _, velocity, force, tracks), after in zip(plain, scaled, strict=True):
+for (_, _, velocity, force, points), after in zip(plain, scaled, strict=True):
     assert after[:4] == (640, 120, 2 * velocity, force), after[:4]
-    for (number, x, _, _, y, _), (same, scaled_x, _, _, scaled_y, _) in zip(tracks, after[4],
+    for (number, x, _, _, y, _), (same, scaled_x, _, _, scaled_y, _) in zip(points, after[4],
                                                                            strict=True):
         assert number == same
         # In units of pixels whose first centre is (0, 0): (x + 1/2) 2 - 1/2.
@@ -80,9 +80,9 @@ cropped = metas_after("videocrop left=10")
 if Gst.version()[:2] < (1, 28):
     assert cropped == [None] * 5, "coordinates of another picture"
 else:
-    for (_, _, velocity, force, tracks), after in zip(plain, cropped, strict=True):
+    for (_, _, velocity, force, points), after in zip(plain, cropped, strict=True):
         assert after[:4] == (310, 240, velocity, force), after[:4]
         assert all(abs(x - 10 - moved) < 1e-9
-                   for (_, x, *_), (_, moved, *_) in zip(tracks, after[4], strict=True))
+                   for (_, x, *_), (_, moved, *_) in zip(points, after[4], strict=True))
     for (_, _, velocity, force, _), after in zip(plain, metas_after("videoflip method=horizontal-flip"), strict=True):
         assert abs(after[2] + velocity) < 1e-9 and abs(after[3] + force) < 1e-9, after[:4]

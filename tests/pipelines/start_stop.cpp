@@ -12,7 +12,7 @@ bool play() {
   GError* error = nullptr;
   GstElement* pipeline = gst_parse_launch(
       "videotestsrc num-buffers=5 pattern=ball ! video/x-raw,format=I420,width=160,height=120 ! "
-      "spidarmotion overlay=tracks attach-meta=true ! queue ! fakesink sync=true",
+      "spidarmotion overlay=points attach-meta=true ! queue ! fakesink sync=true",
       &error);
   if (error) {
     std::fprintf(stderr, "error: %s\n", error->message);

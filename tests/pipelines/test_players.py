@@ -290,7 +290,7 @@ class Process(gst_case.GstCase):
 def run_cycles():
     """Pipelines that start, stop, start again and play to the end of the stream, three times each. Python keeps what is on
     its stack; GStreamer reports what is alive when it is deinitialised."""
-    for motion in ("spidarmotion", "spidarmotion overlay=tracks attach-meta=true", "spidarmotion device=none mute=true"):
+    for motion in ("spidarmotion", "spidarmotion overlay=points attach-meta=true", "spidarmotion device=none mute=true"):
         for _ in range(3):
             pipeline = Gst.parse_launch(f"videotestsrc num-buffers=8 pattern=ball ! video/x-raw,width=320,height=240 ! "
                                         f"videoconvert ! {motion} ! queue ! fakesink sync=false")

@@ -39,12 +39,12 @@ class Canvas {
     GST_VIDEO_INFO_PAR_D(&info_) = height;
   }
 
-  void draw(FrameReport report, double scale = 1, bool has_tracks = true,
+  void draw(FrameReport report, double scale = 1, bool has_points = true,
             const ForceCurve* curve = nullptr) {
     GstVideoFrame frame;
     ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
     report.visible = visible_part(frame);
-    draw_overlay(report, has_tracks, scale, frame, curve);
+    draw_overlay(report, has_points, scale, frame, curve);
     gst_video_frame_unmap(&frame);
     after_ = rgb();
   }

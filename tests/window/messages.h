@@ -20,13 +20,13 @@ inline FrameShown some_frame() {
   report.frame.interval_ns = 40 * 1'000'000;
   report.took_ns = 600'000;
   report.visible = {1, 2, 320, 240};
-  report.tracks.push_back({1, {60, 80}, {68, 81}, TrackOwner::kObject, 4, true});
+  report.points.push_back({1, {60, 80}, {68, 81}, PointOwner::kObject, 4, true});
   report.lost.push_back({3.5, 4.5});
   MovingObject object;
   object.id = 4;
   object.position_px = {40, -20};
   object.size_px = {60, 61};
-  object.tracks = 12;
+  object.points = 12;
   report.frame.objects.push_back(object);
   report.frame.wrench.force_N = {1, 2, 3};
   report.frame.felt_object = 4;

@@ -71,8 +71,8 @@ TEST(Messages, HaveWhatIsDrawn) {
   const auto frame = std::get<FrameShown>(*to_window(to_bytes(ToWindow(some_frame()))));
   EXPECT_EQ(frame.slot, 7u);
   EXPECT_EQ(frame.report.film.name(), "/film.avi");
-  EXPECT_EQ(frame.report.tracks.at(0).to.x_px, 68);
-  EXPECT_EQ(frame.report.frame.objects.at(0).tracks, 12);
+  EXPECT_EQ(frame.report.points.at(0).to.x_px, 68);
+  EXPECT_EQ(frame.report.frame.objects.at(0).points, 12);
   EXPECT_EQ(frame.report.turn.to_displayed(Eigen::Vector2d(1, 0)),
             Orientation(3, true).to_displayed(Eigen::Vector2d(1, 0)));
   EXPECT_EQ(frame.report.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));

@@ -18,7 +18,7 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
   made.id = id;
   made.position_px = middle_px;
   made.size_px = size_px;
-  made.tracks = 10;
+  made.points = 10;
   return made;
 }
 
@@ -81,7 +81,7 @@ TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {
   EXPECT_EQ(object_at(report(), {0.25, 0.7})->id, 1u);
   EXPECT_EQ(object_at(report(), {0.5, 0.5}), nullptr);
   FrameReport hidden = report();
-  hidden.frame.objects[1].tracks = 0;
+  hidden.frame.objects[1].points = 0;
   EXPECT_EQ(object_at(hidden, {0.25, 0.5})->id, 1u);
 }
 

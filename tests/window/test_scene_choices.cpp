@@ -41,7 +41,7 @@ class Film {
       for (const uint32_t id : objects) {
         MovingObject object;
         object.id = id;
-        object.tracks = 10;
+        object.points = 10;
         report.frame.objects.push_back(object);
       }
       report.click = click;
@@ -233,7 +233,7 @@ FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objec
   for (const uint32_t id : objects) {
     MovingObject object;
     object.id = id;
-    object.tracks = 10;
+    object.points = 10;
     object.position_px = {50 * at_s, -25};  // to the right, in the upper half
     object.size_px = {10, 10};
     report.frame.objects.push_back(object);

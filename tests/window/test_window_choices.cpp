@@ -29,7 +29,7 @@ class WindowChoices : public WindowTest {
     for (const uint32_t id : {1u, 2u}) {
       MovingObject object;
       object.id = id;
-      object.tracks = 10;
+      object.points = 10;
       object.position_px = {id == 1 ? -80 : 80, 0};
       object.size_px = {60, 60};
       report.frame.objects.push_back(object);

@@ -27,7 +27,7 @@ TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
   for (const uint32_t id : {3u, 5u, 8u}) {
     MovingObject object;
     object.id = id;
-    object.tracks = id == 8 ? 0 : 10;  // the last one is out of sight
+    object.points = id == 8 ? 0 : 10;  // the last one is out of sight
     object.relative_px_s = {10.0 * id, 1};
     report.frame.objects.push_back(object);
   }

@@ -18,7 +18,7 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
   Window window(std::make_shared<FakeSource>(state));
   FrameReport report;
   // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
-  report.tracks.push_back({1, {60, 80}, {68, 80}, TrackOwner::kObject, 1, false});
+  report.points.push_back({1, {60, 80}, {68, 80}, PointOwner::kObject, 1, false});
   report.frame.wrench.force_N = {0, -3, 0};  // down, the most there is
   give(window, report);
   Screenshot shot = look(window);
@@ -28,7 +28,7 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
     return at(shot, p.x(), p.y());
   };
   const Color faint = color(80, 80);
-  EXPECT_TRUE(is_grey(faint)) << "a track of an object that is not felt: " << shown(faint);
+  EXPECT_TRUE(is_grey(faint)) << "a point of an object that is not felt: " << shown(faint);
   EXPECT_GT(faint.r, 128 + 10) << shown(faint);
   press(window, GLFW_KEY_D);  // with all detail
   shot = look(window);
@@ -168,7 +168,7 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   FrameReport report;
   MovingObject object;
   object.id = 3;
-  object.tracks = 10;
+  object.points = 10;
   object.position_px = {40, -20};
   object.size_px = {60, 60};
   report.frame.objects.push_back(object);

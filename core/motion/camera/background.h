@@ -64,7 +64,7 @@ Background in_pixels_of(const Background& background, double scale);
 ///
 /// Models compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil.
 /// Trans. R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r =
-/// 4 coordinates of a track, d = 2 for all models, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2.
+/// 4 coordinates of a pair, d = 2 for all models, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2.
 /// The smallest wins. More general models are only fitted in frames in which the one in use does
 /// not explain the votes.
 class BackgroundEstimator {

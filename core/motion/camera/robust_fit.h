@@ -30,8 +30,8 @@ constexpr double kUsualNoise_px = 0.1;
 /// noise it is between 0.01 and 0.03. No noise is assumed to be less.
 constexpr double kSharedError_px = 0.025;
 
-/// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a track, and d = 2,
-/// the dimension of the set of tracks that a model allows. Every point that deviates by more than 2
+/// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a pair, and d = 2,
+/// the dimension of the set of pairs that a model allows. Every point that deviates by more than 2
 /// σ is an outlier and costs the same.
 constexpr double kMostCost = 4;
 

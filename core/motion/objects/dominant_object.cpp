@@ -58,7 +58,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   const MovingObject* const followed = find_object(objects, id_);
   // Objects that leave the picture are dropped.
   const bool is_free = id_ == 0 || (followed && followed->has_left);
-  const bool in_sight = followed && followed->tracks > 0 && !is_free;
+  const bool in_sight = followed && followed->points > 0 && !is_free;
   if (in_sight) {
     lost_s_ = 0;
     last_box_px_ = followed->box_px();
@@ -80,7 +80,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
     const bool continues =
-        followed && followed->tracks == 0 && (takes_place(object, *followed) || may_be_it(object));
+        followed && followed->points == 0 && (takes_place(object, *followed) || may_be_it(object));
     const bool may_take_over = is_free || continues || reason_s > enough_s;
     if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;

@@ -37,7 +37,7 @@ struct MovingObject {
   double growth_1_s = 0;                                     ///< as in ImageMotion, relative to …
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int tracks = 0;  ///< points or blocks from which it was measured; 0: out of sight
+  int points = 0;  ///< points or blocks from which it was measured; 0: out of sight
   /// The true velocity against the background is less than this away from relative_px_s in 95 % of
   /// the frames in which the object is in sight; 0: not known.
   double error_px_s = 0;

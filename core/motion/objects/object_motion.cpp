@@ -72,12 +72,12 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   found.relative_px = region.relative_px;
   collect_blocks(key, evidence);
   climb(found.model);
-  found.tracks = static_cast<int>(collected_.points.size());
+  found.points = static_cast<int>(collected_.points.size());
   if (collect_windows(key, found.model, evidence)) {
     const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);
-    found.tracks = static_cast<int>(collected_.points.size());
+    found.points = static_cast<int>(collected_.points.size());
     found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
   }
   return found;

@@ -31,7 +31,7 @@ struct ObjectEvidence {
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
-  int tracks = 0;               ///< number of windows or blocks that were used
+  int points = 0;               ///< number of windows or blocks that were used
 };
 
 /// Blocks give the motion of an object; the windows on it, where there are enough, give it to a

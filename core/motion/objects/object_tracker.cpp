@@ -152,7 +152,7 @@ ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const ObjectMotion found = meter_.measure(life.key, life.region, evidence_in(frame));
   life.region.relative_px = found.relative_px;
-  object.tracks = found.tracks;
+  object.points = found.points;
   object.model = found.model.kind;
   turn(life, found, frame);
   return found;
@@ -259,13 +259,13 @@ void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
   const Remains remains = remains_of(life, frame.field);
-  object.tracks = background_->is_known ? remains.found : 0;
-  if (object.tracks > 0 && remains_there(life, remains)) {
+  object.points = background_->is_known ? remains.found : 0;
+  if (object.points > 0 && remains_there(life, remains)) {
     life.turn(State::kRests);
     stay(life, frame);
   } else {
     life.turn(State::kHidden);
-    object.tracks = 0;
+    object.points = 0;
   }
   life.since_s += frame.interval_s;
   life.go_on_unseen(frame.interval_s);

@@ -44,7 +44,7 @@ void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, Gst
   }
   const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
-    draw_overlay(report, properties.overlay == OverlayKind::kTracks, properties.arrow_scale, frame,
+    draw_overlay(report, properties.overlay == OverlayKind::kPoints, properties.arrow_scale, frame,
                  draws_curve ? &curve_ : nullptr);
   }
 }

@@ -13,7 +13,7 @@
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/frame/no_force_watch.h"
-#include "plugin/frame/track_owners.h"
+#include "plugin/frame/point_owners.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/overlay/force_curve.h"
 #include "plugin/properties/motion_properties.h"
@@ -64,7 +64,7 @@ class MotionDisplay {
   MotionChoice& choice_;
   SinkHand hand_;
   // Streaming thread.
-  TrackOwners owners_;
+  PointOwners owners_;
   ForceCurve curve_;  // for the overlay
   FilmScene film_;    // for the window
   uint32_t epoch_ = 0;

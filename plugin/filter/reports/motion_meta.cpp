@@ -21,21 +21,21 @@ GstStructure* add_meta(GstBuffer* buffer) {
   return gst_custom_meta_get_structure(meta);
 }
 
-/// A track as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros where
+/// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros where
 /// nothing is.
-struct SerialisedTrack {
+struct SerialisedPoint {
   guint32 id, zero_after_id;
   gdouble from_x, from_y, to_x, to_y;
   guint32 object, zero_after_object;
 };
-static_assert(sizeof(SerialisedTrack) == 48);
+static_assert(sizeof(SerialisedPoint) == 48);
 
-void set_tracks(GstStructure* structure, const std::vector<SerialisedTrack>& tracks) {
+void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& points) {
   // In one piece: a GVariant of each number takes longer than finding the motion does.
   GVariant* array = g_variant_new_fixed_array(
-      g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_TRACKS_TYPE)), tracks.data(),
-      tracks.size(), sizeof(SerialisedTrack));
-  gst_structure_set(structure, "tracks", G_TYPE_VARIANT, array, nullptr);
+      g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_POINTS_TYPE)), points.data(),
+      points.size(), sizeof(SerialisedPoint));
+  gst_structure_set(structure, "points", G_TYPE_VARIANT, array, nullptr);
 }
 
 void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, gboolean repeated) {
@@ -99,29 +99,29 @@ bool map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
 /// Copies the meta of `from` to `to`, whose picture has been made from that of `from` by `map`.
 bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const GstVideoInfo& out) {
   GstSpidarFrameMotion motion;
-  GArray* tracks = gst_buffer_get_spidar_tracks(from);
-  if (!tracks || !gst_buffer_get_spidar_motion(from, &motion)) {
-    g_clear_pointer(&tracks, g_array_unref);
+  GArray* points = gst_buffer_get_spidar_points(from);
+  if (!points || !gst_buffer_get_spidar_motion(from, &motion)) {
+    g_clear_pointer(&points, g_array_unref);
     return false;
   }
   if (!map_motion(map, motion)) {
-    g_array_unref(tracks);
+    g_array_unref(points);
     return false;
   }
   motion.width = static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out));
   motion.height = static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out));
-  std::vector<SerialisedTrack> moved;
-  for (guint i = 0; i < tracks->len; ++i) {
-    const GstSpidarMotionTrack& track = g_array_index(tracks, GstSpidarMotionTrack, i);
-    const Eigen::Vector2d before = mapped(map, {track.from_x, track.from_y});
-    const Eigen::Vector2d now = mapped(map, {track.to_x, track.to_y});
+  std::vector<SerialisedPoint> moved;
+  for (guint i = 0; i < points->len; ++i) {
+    const GstSpidarMotionPoint& point = g_array_index(points, GstSpidarMotionPoint, i);
+    const Eigen::Vector2d before = mapped(map, {point.from_x, point.from_y});
+    const Eigen::Vector2d now = mapped(map, {point.to_x, point.to_y});
     if (!before.allFinite() || !now.allFinite()) continue;  // at the horizon
-    moved.push_back({track.id, 0, before.x(), before.y(), now.x(), now.y(), track.object, 0});
+    moved.push_back({point.id, 0, before.x(), before.y(), now.x(), now.y(), point.object, 0});
   }
-  g_array_unref(tracks);
+  g_array_unref(points);
   GstStructure* structure = add_meta(to);
   set_values(structure, motion, gst_buffer_repeats_spidar_motion(from));
-  set_tracks(structure, moved);
+  set_points(structure, moved);
   return true;
 }
 
@@ -209,13 +209,13 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width,
   };
   GstStructure* structure = add_meta(buffer);
   set_values(structure, motion, frame.goes_on() ? TRUE : FALSE);
-  std::vector<SerialisedTrack> tracks;
-  tracks.reserve(report.tracks.size());
-  for (const OwnedTrack& track : report.tracks) {
-    tracks.push_back({track.id, 0, track.from.x_px, track.from.y_px, track.to.x_px, track.to.y_px,
-                      track.object, 0});
+  std::vector<SerialisedPoint> points;
+  points.reserve(report.points.size());
+  for (const OwnedPoint& point : report.points) {
+    points.push_back({point.id, 0, point.from.x_px, point.from.y_px, point.to.x_px, point.to.y_px,
+                      point.object, 0});
   }
-  set_tracks(structure, tracks);
+  set_points(structure, points);
 }
 
 }  // namespace spidar

@@ -17,7 +17,7 @@ const MovingObject* object_at(const std::vector<MovingObject>& objects,
   for (const MovingObject& object : objects) {
     const Eigen::Array2d away_px = (at_px - object.position_px).array().abs();
     const bool inside = (away_px <= 0.5 * object.size_px.array()).all();
-    if (!inside || object.tracks == 0) continue;
+    if (!inside || object.points == 0) continue;
     if (found == nullptr || object.area_px2 < found->area_px2) found = &object;
   }
   return found;

@@ -218,7 +218,7 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& 
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PushStyleColor(ImGuiCol_Border, kTextColor);
   ImGui::Checkbox("Detail", &detail);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("All tracks, new and lost points, all objects (D)");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("All points, new and lost points, all objects (D)");
   ImGui::SameLine();
   ImGui::Checkbox("Keys", &keys);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the keys do (H)");
@@ -256,7 +256,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
     std::snprintf(text, sizeof text, "analysis %.1f ms",
                   1e-6 * static_cast<double>(report.took_ns));
     parts.emplace_back(text);
-    parts.push_back(count_of(report.tracks.size(), "track"));
+    parts.push_back(count_of(report.points.size(), "point"));
     parts.push_back(count_of(report.frame.objects.size(), "object"));
   }
   if (state.device) {

@@ -30,7 +30,7 @@ struct ShownPicture {
   ImTextureID relief{};  ///< light and shadow of what is touched, as the picture is shown; or none
   /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
   std::optional<uint32_t> requested;
-  bool detail = false;  ///< every track, new and lost points, all boxes; else they are faint
+  bool detail = false;  ///< every point, new and lost points, all boxes; else they are faint
   /// What the hand gets, unless that is another force than the frame asks for.
   std::optional<double> delivered_N;
 };

@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/frame/track_owners.h"
+#include "plugin/frame/point_owners.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 
 namespace spidar {
 namespace {
 
-constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of tracks without detail
-constexpr double kThinTrack_px = 1;           // their width
+constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of points without detail
+constexpr double kThinArrow_px = 1;           // their width
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 
@@ -52,14 +52,14 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margi
   if (margin > 0) brush.list.AddTriangle(corners[0], corners[1], corners[2], color, 2 * margin);
 }
 
-void draw_tracks(const Overlay& over, const ArrowStyle& style) {
-  const std::vector<OwnedTrack>& tracks = over.report.tracks;
+void draw_points(const Overlay& over, const ArrowStyle& style) {
+  const std::vector<OwnedPoint>& points = over.report.points;
   const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
-  std::vector<Arrow> arrows = track_arrows(tracks, style, at_px);  // one for each
+  std::vector<Arrow> arrows = point_arrows(points, style, at_px);  // one for each
   for (size_t i = 0; i < arrows.size(); ++i) {
-    const bool is_felt = tracks[i].owner == TrackOwner::kObject && over.is_felt(tracks[i].object);
+    const bool is_felt = points[i].owner == PointOwner::kObject && over.is_felt(points[i].object);
     if (!over.picture.detail) {
-      arrows[i].width_px = kThinTrack_px * over.brush.scale;
+      arrows[i].width_px = kThinArrow_px * over.brush.scale;
       arrows[i].color = kWhite;
     }
     const unsigned opacity = over.picture.detail ? 255 : is_felt ? kFelt : kFaint;
@@ -70,9 +70,9 @@ void draw_tracks(const Overlay& over, const ArrowStyle& style) {
 void draw_points(const Overlay& over) {
   const Brush& brush = over.brush;
   const float radius = brush.px(3), width = brush.px(1);
-  for (const OwnedTrack& track : over.report.tracks) {
-    if (!track.is_new) continue;
-    brush.list.AddCircle(im(over.map({track.to.x_px, track.to.y_px})), radius, kNewColor, 0, width);
+  for (const OwnedPoint& point : over.report.points) {
+    if (!point.is_new) continue;
+    brush.list.AddCircle(im(over.map({point.to.x_px, point.to.y_px})), radius, kNewColor, 0, width);
   }
   for (const ImagePoint& lost : over.report.lost) {
     const ImVec2 at = im(over.map({lost.x_px, lost.y_px}));
@@ -86,7 +86,7 @@ void draw_points(const Overlay& over) {
 void draw_objects(const Overlay& over) {
   const Brush& brush = over.brush;
   for (const MovingObject& object : over.report.frame.objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     const auto [low, high] = over.box(object);
     // A click is answered before the next frame has come, and while the film is paused.
     const std::optional<uint32_t>& requested = over.picture.requested;
@@ -212,7 +212,7 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   style.max_force_N = picture.max_force_N;
   style.turn = report.turn;
   const Overlay over{brush, map, report, picture};
-  draw_tracks(over, style);
+  draw_points(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);
   const Eigen::Vector2d from_px = map(force_origin_px(report));

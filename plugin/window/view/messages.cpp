@@ -56,16 +56,16 @@ void pass(Wire& wire, FilmScene& film) {
 }
 
 template <typename Wire>
-void pass(Wire& wire, OwnedTrack& track) {
-  wire(track.id, track.from, track.to, track.object, track.is_new);
-  wire.choice(track.owner, TrackOwner::kObject);
+void pass(Wire& wire, OwnedPoint& point) {
+  wire(point.id, point.from, point.to, point.object, point.is_new);
+  wire.choice(point.owner, PointOwner::kObject);
 }
 
 template <typename Wire>
 void pass(Wire& wire, MovingObject& object) {
   wire(object.id, object.position_px, object.size_px, object.low_off_px, object.high_off_px,
        object.relative_px_s, object.on_screen_px_s, object.growth_1_s, object.roll_rad_s,
-       object.tracks, object.error_px_s, object.area_px2, object.prominence);
+       object.points, object.error_px_s, object.area_px2, object.prominence);
 }
 
 template <typename Wire>
@@ -88,7 +88,7 @@ template <typename Wire>
 void pass(Wire& wire, FrameReport& report) {
   Frame& frame = report.frame;
   wire(frame.stamp, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
-  wire(report.film, report.took_ns, report.visible, report.turn, report.tracks, report.lost,
+  wire(report.film, report.took_ns, report.visible, report.turn, report.points, report.lost,
        report.felt);
   wire.choice(report.motion, MotionKind::kCamera);
   wire(report.controller, report.speed_px_s, report.click, report.touch);

@@ -22,7 +22,7 @@ inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vec
   const MovingObject* found = nullptr;
   for (const MovingObject& object : report.frame.objects) {
     const Eigen::Vector2d off_px = (at_px - object.position_px).cwiseAbs();
-    if (object.tracks == 0 || (off_px.array() > object.size_px.array() / 2).any()) continue;
+    if (object.points == 0 || (off_px.array() > object.size_px.array() / 2).any()) continue;
     if (!found || object.size_px.prod() < found->size_px.prod()) found = &object;
   }
   return found;

@@ -31,7 +31,7 @@ void Sightings::see(const FrameReport& report) {
   if (!place_.goes_on(report)) seen_.clear();
   place_ = {report.film, report.frame.stamp};
   for (const MovingObject& object : report.frame.objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     auto known = std::find_if(seen_.begin(), seen_.end(),
                               [&](const Sighting& one) { return one.id == object.id; });
     if (known == seen_.end()) {
@@ -71,7 +71,7 @@ void SceneChoices::follow(Choice& choice, const FrameReport& report) {
   const std::vector<MovingObject>& objects = report.frame.objects;
   const bool is_seen = (is_kept && report.frame.felt_object != 0) ||
                        std::any_of(objects.begin(), objects.end(), [&](const MovingObject& object) {
-                         return object.id == choice.object && object.tracks > 0;
+                         return object.id == choice.object && object.points > 0;
                        });
   if (is_seen) choice.seen_ns = end_ns_;
   const bool is_lost = choice.is_kept && !is_kept;

@@ -17,9 +17,9 @@ G_BEGIN_DECLS
 
 /*! Name of the custom meta (gst_buffer_get_custom_meta()) and of its structure. */
 #define GST_SPIDAR_MOTION_META_NAME "GstSpidarMotionMeta"
-/*! Type of the field "tracks": array of (id, from x, from y, to x, to y, object), the members of
- * GstSpidarMotionTrack. */
-#define GST_SPIDAR_MOTION_TRACKS_TYPE "a(uddddu)"
+/*! Type of the field "points": array of (id, from x, from y, to x, to y, object), the members of
+ * GstSpidarMotionPoint. */
+#define GST_SPIDAR_MOTION_POINTS_TYPE "a(uddddu)"
 
 /*! One point in the previous frame and in this one. Positions are in pixels of this frame, x right,
  * y down; (0, 0) is the centre of the first pixel. */
@@ -30,7 +30,7 @@ typedef struct {
   gdouble to_x;   /*!< Position in this frame, x, px. */
   gdouble to_y;   /*!< Position in this frame, y, px. */
   guint object;   /*!< Id of the object that the point belongs to; 0: none. */
-} GstSpidarMotionTrack;
+} GstSpidarMotionPoint;
 
 /*! Motion of one frame, and the wrench that the controller computed from it, before any safety
  * limit. Directions of the wrench are those of the device: x right, y up, z towards the viewer. */
@@ -81,23 +81,23 @@ static inline gboolean gst_buffer_repeats_spidar_motion(GstBuffer* buffer) {
          repeated;
 }
 
-/*! Returns the tracks of a frame, an array of GstSpidarMotionTrack, which the caller frees with
+/*! Returns the points of a frame, an array of GstSpidarMotionPoint, which the caller frees with
  * g_array_unref(). NULL if the buffer has no such meta; an empty array if nothing was tracked. */
-static inline GArray* gst_buffer_get_spidar_tracks(GstBuffer* buffer) {
+static inline GArray* gst_buffer_get_spidar_points(GstBuffer* buffer) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
-  GVariant* tracks = NULL;
+  GVariant* points = NULL;
   GVariantIter iter;
-  GstSpidarMotionTrack track;
+  GstSpidarMotionPoint point;
   GArray* result;
-  if (meta == NULL || !gst_structure_get(gst_custom_meta_get_structure(meta), "tracks",
-                                         G_TYPE_VARIANT, &tracks, NULL))
+  if (meta == NULL || !gst_structure_get(gst_custom_meta_get_structure(meta), "points",
+                                         G_TYPE_VARIANT, &points, NULL))
     return NULL;
-  result = g_array_new(FALSE, FALSE, sizeof(GstSpidarMotionTrack));
-  g_variant_iter_init(&iter, tracks);
-  while (g_variant_iter_next(&iter, "(uddddu)", &track.id, &track.from_x, &track.from_y,
-                             &track.to_x, &track.to_y, &track.object))
-    g_array_append_val(result, track);
-  g_variant_unref(tracks);
+  result = g_array_new(FALSE, FALSE, sizeof(GstSpidarMotionPoint));
+  g_variant_iter_init(&iter, points);
+  while (g_variant_iter_next(&iter, "(uddddu)", &point.id, &point.from_x, &point.from_y,
+                             &point.to_x, &point.to_y, &point.object))
+    g_array_append_val(result, point);
+  g_variant_unref(points);
   return result;
 }
 

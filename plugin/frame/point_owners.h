@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a frame's tracks belong to, and which objects are felt, for those who show it.
+/// What a frame's points belong to, and which objects are felt, for those who show it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace spidar {
 std::vector<uint32_t> felt_objects(const FrameReport& report);
 
 /// Where the arrow of the force begins, in pixels of the frame: on the one object that is
-/// felt, where its tracks are and not merely its box, else in the middle of the picture.
+/// felt, where its points are and not merely its box, else in the middle of the picture.
 Eigen::Vector2d force_origin_px(const FrameReport& report);
 
 /// Corners of an object's box, in pixels of the frame.
@@ -24,10 +24,10 @@ struct ObjectCorners {
 };
 ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible);
 
-/// Assigns tracks to the background or to objects, and follows them from frame to frame.
-class TrackOwners {
+/// Assigns points to the background or to objects, and follows them from frame to frame.
+class PointOwners {
  public:
-  /// Fills in tracks, lost and felt of a frame that was analysed.
+  /// Fills in points, lost and felt of a frame that was analysed.
   void find(FrameReport& report);
   /// Call before frames that are not analysed.
   void reset() { compares_ = false; }
@@ -35,8 +35,8 @@ class TrackOwners {
  private:
   void compare(FrameReport& report);
 
-  std::vector<OwnedTrack> before_;
-  bool compares_ = false;  ///< the previous frame was analysed for tracks
+  std::vector<OwnedPoint> before_;
+  bool compares_ = false;  ///< the previous frame was analysed for points
 };
 
 }  // namespace spidar

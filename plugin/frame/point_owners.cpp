@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/frame/track_owners.h"
+#include "plugin/frame/point_owners.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,15 +8,15 @@
 namespace spidar {
 namespace {
 
-/// A track that deviates more than this from the background moves independently.
+/// A point that deviates more than this from the background moves independently.
 constexpr double kMovingSigmas = 3;
 
-bool by_id(const OwnedTrack& a, const OwnedTrack& b) {
+bool by_id(const OwnedPoint& a, const OwnedPoint& b) {
   return a.id < b.id;
 }
 
-bool has(const std::vector<OwnedTrack>& sorted, uint32_t id) {
-  OwnedTrack wanted;
+bool has(const std::vector<OwnedPoint>& sorted, uint32_t id) {
+  OwnedPoint wanted;
   wanted.id = id;
   return std::binary_search(sorted.begin(), sorted.end(), wanted, by_id);
 }
@@ -30,28 +30,28 @@ bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
   return (distance_px.array() <= object.size_px.array() / 2).all();
 }
 
-/// Assigns the track to the background if it follows it, otherwise to the object with the most
-/// similar velocity among those whose box contains the track.
-void find_owner(const Frame& frame, const VisiblePart& visible, OwnedTrack& track) {
+/// Assigns the point to the background if it follows it, otherwise to the object with the most
+/// similar velocity among those whose box contains the point.
+void find_owner(const Frame& frame, const VisiblePart& visible, OwnedPoint& point) {
   // Relative to the centre of the picture.
   const Eigen::Vector2d middle_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
-  const Eigen::Vector2d from_px = Eigen::Vector2d(track.from.x_px, track.from.y_px) - middle_px;
-  const Eigen::Vector2d to_px = Eigen::Vector2d(track.to.x_px, track.to.y_px) - middle_px;
+  const Eigen::Vector2d from_px = Eigen::Vector2d(point.from.x_px, point.from.y_px) - middle_px;
+  const Eigen::Vector2d to_px = Eigen::Vector2d(point.to.x_px, point.to.y_px) - middle_px;
   const Background& background = *frame.background;
   const Eigen::Vector2d relative_px = to_px - from_px - background.model.displacement_px(from_px);
   if (relative_px.norm() <= kMovingSigmas * background.sigma_px) {
-    track.owner = TrackOwner::kBackground;
+    point.owner = PointOwner::kBackground;
     return;
   }
   const double interval_s = 1e-9 * static_cast<double>(frame.interval_ns);
   double nearest_px = 0;
   for (const MovingObject& object : frame.objects) {
-    if (object.tracks == 0 || !is_in_box(object, to_px)) continue;
+    if (object.points == 0 || !is_in_box(object, to_px)) continue;
     const double difference_px = (relative_px - object.relative_px_s * interval_s).norm();
-    if (track.owner == TrackOwner::kObject && difference_px >= nearest_px) continue;
+    if (point.owner == PointOwner::kObject && difference_px >= nearest_px) continue;
     nearest_px = difference_px;
-    track.owner = TrackOwner::kObject;
-    track.object = object.id;
+    point.owner = PointOwner::kObject;
+    point.object = object.id;
   }
 }
 
@@ -62,7 +62,7 @@ std::vector<uint32_t> felt_objects(const FrameReport& report) {
   if (report.touch.on && !(report.touch.motion_fraction > 0)) return felt;
   const bool all = report.frame.choice.is_free() && report.motion == MotionKind::kObjects;
   for (const MovingObject& object : report.frame.objects) {
-    if (object.tracks == 0) continue;
+    if (object.points == 0) continue;
     if (all || object.id == report.frame.felt_object) felt.push_back(object.id);
   }
   return felt;
@@ -78,9 +78,9 @@ Eigen::Vector2d force_origin_px(const FrameReport& report) {
   const uint32_t felt = report.felt.front();
   std::vector<Eigen::Vector2d> on_px;
   Eigen::Vector2d mean_px(0, 0);
-  for (const OwnedTrack& track : report.tracks) {
-    if (track.owner != TrackOwner::kObject || track.object != felt) continue;
-    on_px.emplace_back(track.to.x_px, track.to.y_px);
+  for (const OwnedPoint& point : report.points) {
+    if (point.owner != PointOwner::kObject || point.object != felt) continue;
+    on_px.emplace_back(point.to.x_px, point.to.y_px);
     mean_px += on_px.back();
   }
   if (on_px.empty()) {
@@ -96,37 +96,37 @@ Eigen::Vector2d force_origin_px(const FrameReport& report) {
   });
 }
 
-void TrackOwners::find(FrameReport& report) {
+void PointOwners::find(FrameReport& report) {
   report.felt = felt_objects(report);
-  report.tracks.clear();
+  report.points.clear();
   report.lost.clear();
   if (report.frame.picture == PictureKind::kFirst) return reset();
   const auto left_px = static_cast<float>(report.visible.x);
   const auto top_px = static_cast<float>(report.visible.y);
-  for (const Track& given : report.frame.tracks) {
-    OwnedTrack track;
-    track.id = given.id;
-    track.from = given.from;
-    track.to = given.to;
-    if (report.frame.background) find_owner(report.frame, report.visible, track);
-    for (ImagePoint* point : {&track.from, &track.to}) {
-      point->x_px += left_px;
-      point->y_px += top_px;
+  for (const FollowedPoint& given : report.frame.points) {
+    OwnedPoint point;
+    point.id = given.id;
+    point.from = given.from;
+    point.to = given.to;
+    if (report.frame.background) find_owner(report.frame, report.visible, point);
+    for (ImagePoint* end : {&point.from, &point.to}) {
+      end->x_px += left_px;
+      end->y_px += top_px;
     }
-    report.tracks.push_back(track);
+    report.points.push_back(point);
   }
   if (compares_) compare(report);
   compares_ = true;
-  before_ = report.tracks;
+  before_ = report.points;
 }
 
-void TrackOwners::compare(FrameReport& report) {
+void PointOwners::compare(FrameReport& report) {
   std::sort(before_.begin(), before_.end(), by_id);
-  std::vector<OwnedTrack> now = report.tracks;
+  std::vector<OwnedPoint> now = report.points;
   std::sort(now.begin(), now.end(), by_id);
-  for (OwnedTrack& track : report.tracks) track.is_new = !has(before_, track.id);
-  for (const OwnedTrack& track : before_) {
-    if (!has(now, track.id)) report.lost.push_back(track.to);
+  for (OwnedPoint& point : report.points) point.is_new = !has(before_, point.id);
+  for (const OwnedPoint& point : before_) {
+    if (!has(now, point.id)) report.lost.push_back(point.to);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tracks of known motion.
+/// Points of known motion.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace spidar::test {
 
 /// Seeded; prints nothing: the seed is in the test's message.
-class TrackSource {
+class PointSource {
  public:
-  explicit TrackSource(uint32_t seed, int width = 640, int height = 360)
+  explicit PointSource(uint32_t seed, int width = 640, int height = 360)
       : random_(seed), width_(width), height_(height) {}
 
   int width() const { return width_; }

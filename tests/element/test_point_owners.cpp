@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// To which object each track belongs.
+// To which object each point belongs.
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "plugin/frame/track_owners.h"
+#include "plugin/frame/point_owners.h"
 
-namespace spidar::test::track_owners_test {
+namespace spidar::test::point_owners_test {
 namespace {
 
-FrameReport report_of(const std::vector<Track>& tracks, const VisiblePart& visible) {
+FrameReport report_of(const std::vector<FollowedPoint>& points, const VisiblePart& visible) {
   FrameReport report;
   report.frame.picture = PictureKind::kOther;
-  report.frame.tracks = tracks;
+  report.frame.points = points;
   report.frame.interval_ns = 40'000'000;
   report.visible = visible;
   return report;
 }
 
-TEST(TrackOwners, TellsNewAndLostPoints) {
-  TrackOwners owners;
+TEST(PointOwners, TellsNewAndLostPoints) {
+  PointOwners owners;
   const VisiblePart visible{10, 20, 320, 240};
-  const std::vector<Track> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
-  const std::vector<Track> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
+  const std::vector<FollowedPoint> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
+  const std::vector<FollowedPoint> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
   FrameReport report = report_of(first, visible);
   owners.find(report);
-  for (const OwnedTrack& track : report.tracks) {
-    EXPECT_FALSE(track.is_new) << "nothing to compare with";
+  for (const OwnedPoint& point : report.points) {
+    EXPECT_FALSE(point.is_new) << "nothing to compare with";
   }
   report = report_of(second, visible);
   owners.find(report);
-  ASSERT_EQ(report.tracks.size(), 2u);
-  EXPECT_TRUE(report.tracks[0].is_new);
-  EXPECT_FALSE(report.tracks[1].is_new);
-  EXPECT_EQ(report.tracks[1].to.x_px, 12) << "in the frame, not in its visible part";
-  EXPECT_EQ(report.tracks[1].to.y_px, 20);
+  ASSERT_EQ(report.points.size(), 2u);
+  EXPECT_TRUE(report.points[0].is_new);
+  EXPECT_FALSE(report.points[1].is_new);
+  EXPECT_EQ(report.points[1].to.x_px, 12) << "in the frame, not in its visible part";
+  EXPECT_EQ(report.points[1].to.y_px, 20);
   ASSERT_EQ(report.lost.size(), 1u);
   EXPECT_EQ(report.lost[0].x_px, 16);
   report = FrameReport();  // a restart
@@ -45,7 +45,7 @@ TEST(TrackOwners, TellsNewAndLostPoints) {
   EXPECT_TRUE(report.lost.empty());
 }
 
-TEST(TrackOwners, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
+TEST(PointOwners, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
   FrameReport report;
   report.visible = {10, 20, 321, 241};
   report.frame.objects.resize(1);
@@ -62,14 +62,14 @@ TEST(TrackOwners, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
       << "nothing else is known";
   // Three corners of a square, as of a banana: its mean (97, 97) is beside it.
   for (const ImagePoint at : {ImagePoint{80, 80}, {80, 130}, {130, 80}}) {
-    report.tracks.push_back({1, at, at, TrackOwner::kObject, 7, false});
+    report.points.push_back({1, at, at, PointOwner::kObject, 7, false});
   }
-  report.tracks.push_back({2, {97, 97}, {97, 97}, TrackOwner::kBackground, 0, false});
-  report.tracks.push_back({3, {97, 97}, {97, 97}, TrackOwner::kObject, 8, false});
+  report.points.push_back({2, {97, 97}, {97, 97}, PointOwner::kBackground, 0, false});
+  report.points.push_back({3, {97, 97}, {97, 97}, PointOwner::kObject, 8, false});
   EXPECT_EQ(origin_px({7}), Eigen::Vector2d(80, 80));
 }
 
-TEST(TrackOwners, TellsTheBackgroundFromObjects) {
+TEST(PointOwners, TellsTheBackgroundFromObjects) {
   Background background;
   background.model.kind = ModelKind::kTranslation;
   background.model.shift_px = {4, 0};
@@ -77,26 +77,26 @@ TEST(TrackOwners, TellsTheBackgroundFromObjects) {
   MovingObject left, right;  // boxes overlap at the centre of the frame
   left.id = 7;
   right.id = 8;
-  left.tracks = right.tracks = 3;
+  left.points = right.points = 3;
   left.position_px = {-10, 0};
   right.position_px = {10, 0};
   left.size_px = right.size_px = {40, 40};
   left.relative_px_s = {-100, 0};  // 4 px a frame
   right.relative_px_s = {0, 100};
-  const std::vector<Track> tracks{{1, {20, 20}, {24.2F, 20}},   // background within 3 σ
-                                  {2, {160, 120}, {160, 120}},  // with the left object
-                                  {3, {160, 120}, {164, 124}},  // with the right one
-                                  {4, {20, 220}, {20, 220}}};   // alone
-  FrameReport report = report_of(tracks, {0, 0, 321, 241});
+  const std::vector<FollowedPoint> points{{1, {20, 20}, {24.2F, 20}},   // background within 3 σ
+                                          {2, {160, 120}, {160, 120}},  // with the left object
+                                          {3, {160, 120}, {164, 124}},  // with the right one
+                                          {4, {20, 220}, {20, 220}}};   // alone
+  FrameReport report = report_of(points, {0, 0, 321, 241});
   report.frame.background = background;
   report.frame.objects = {left, right};
-  TrackOwners().find(report);
-  EXPECT_EQ(report.tracks[0].owner, TrackOwner::kBackground);
-  EXPECT_EQ(report.tracks[1].owner, TrackOwner::kObject);
-  EXPECT_EQ(report.tracks[1].object, 7u);
-  EXPECT_EQ(report.tracks[2].object, 8u);
-  EXPECT_EQ(report.tracks[3].owner, TrackOwner::kUnknown);
+  PointOwners().find(report);
+  EXPECT_EQ(report.points[0].owner, PointOwner::kBackground);
+  EXPECT_EQ(report.points[1].owner, PointOwner::kObject);
+  EXPECT_EQ(report.points[1].object, 7u);
+  EXPECT_EQ(report.points[2].object, 8u);
+  EXPECT_EQ(report.points[3].owner, PointOwner::kUnknown);
 }
 
 }  // namespace
-}  // namespace spidar::test::track_owners_test
+}  // namespace spidar::test::point_owners_test
