@@ -42,18 +42,6 @@ std::unique_ptr<GainController> make_controller(const ControllerSettings& settin
                               std::to_string(static_cast<int>(settings.kind)));
 }
 
-Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
-                     double interval_s, double dead_zone_px_s) {
-  const double speed_px_s = velocity_px_s.norm();
-  const double force_N = controller.force_N({speed_px_s, interval_s, dead_zone_px_s});
-  Wrench wrench;
-  if (speed_px_s > 0) {
-    const Eigen::Vector2d direction = velocity_px_s / speed_px_s;
-    wrench.force_N << force_N * direction.x(), -force_N * direction.y(), 0;
-  }
-  return wrench;
-}
-
 namespace {
 
 /// How far dx/dt = −clamp(x, −1, 1) / T brings an x ≥ 0 towards zero in a time t: with constant

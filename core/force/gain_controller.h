@@ -5,10 +5,6 @@
 
 #include <memory>
 
-#include <Eigen/Core>
-
-#include "core/wrench.h"
-
 namespace spidar {
 
 enum class ControllerKind { kLinear, kNonlinear, kAdaptive };
@@ -86,11 +82,6 @@ void validate(const ControllerSettings& settings);
 
 /// The controller of `settings.kind`. Throws as validate() does.
 std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
-
-/// Force of an image velocity in the reference frame's px/s (I: y down) on the grip (D: y up);
-/// interval and dead zone as in MeasuredSpeed.
-Wrench render_motion(GainController& controller, const Eigen::Vector2d& velocity_px_s,
-                     double interval_s = 0, double dead_zone_px_s = 0);
 
 /// F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the speeds seen,
 /// and a dead zone V₀ that the force leaves without a step.

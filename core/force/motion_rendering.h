@@ -54,17 +54,13 @@ inline Wrench render_motion(GainController& controller, const ImageMotion& motio
                             const AxisGains& gains, int frame_height, double interval_s = 0) {
   const Eigen::Vector4d u = reference_speeds_px_s(motion, gains, frame_height);
   const double dead_zone_px_s = kReferenceHeight_px / frame_height * motion.dead_zone_px_s;
-  // Without growth and roll this is the plane controller to the last bit.
-  if (u[2] == 0 && u[3] == 0) {
-    return render_motion(controller, u.head<2>(), interval_s, dead_zone_px_s);
-  }
-
   const double speed_px_s = u.norm();
   const double force_N = controller.force_N({speed_px_s, interval_s, dead_zone_px_s});
-  const Eigen::Vector4d direction = u / speed_px_s;
   Wrench wrench;
+  if (!(speed_px_s > 0)) return wrench;
+  const Eigen::Vector4d direction = u / speed_px_s;
   wrench.force_N << force_N * direction[0], -force_N * direction[1], force_N * direction[2];
-  wrench.torque_Nm.z() = -force_N * kTorqueArm_m * direction[3];
+  wrench.torque_Nm.z() = 0 - force_N * kTorqueArm_m * direction[3];  // no −0 without roll
   return wrench;
 }
 

@@ -11,10 +11,8 @@ namespace {
 
 /// Of the one object that is felt; 0 if it is none, or not one alone.
 double felt_error_px_s(const Frame& frame) {
-  for (const MovingObject& object : frame.objects) {
-    if (object.id == frame.felt_object) return object.error_px_s;
-  }
-  return 0;
+  const MovingObject* const felt = find_object(frame.objects, frame.felt_object);
+  return felt ? felt->error_px_s : 0;
 }
 
 }  // namespace

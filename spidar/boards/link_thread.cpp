@@ -22,8 +22,7 @@ bool needs_recovery(LinkFault fault) noexcept {
 }
 
 bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
-  const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
-                       static_cast<long>(monotonic_ns % kSecond_ns)};
+  const timespec until = to_timespec(monotonic_ns);
   while (sem_clockwait(&semaphore, CLOCK_MONOTONIC, &until) != 0) {
     if (errno != EINTR) return false;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The clock of the haptic loop.
+/// The clock of the haptic loop, and times for the operating system.
 #pragma once
 
 #include <cerrno>
@@ -11,17 +11,25 @@ namespace spidar {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
+/// Nanoseconds.
+inline int64_t clock_ns(clockid_t clock) noexcept {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<int64_t>(now.tv_sec) * kSecond_ns + now.tv_nsec;
+}
+
+inline timespec to_timespec(int64_t ns) noexcept {
+  return {static_cast<time_t>(ns / kSecond_ns), static_cast<long>(ns % kSecond_ns)};
+}
+
 /// CLOCK_MONOTONIC, nanoseconds.
 inline int64_t monotonic_now_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<int64_t>(now.tv_sec) * kSecond_ns + now.tv_nsec;
+  return clock_ns(CLOCK_MONOTONIC);
 }
 
 /// Sleeps until this time, also when signals arrive. Returns at once when it is past.
 inline void sleep_until_ns(int64_t monotonic_ns) noexcept {
-  const timespec until{static_cast<time_t>(monotonic_ns / kSecond_ns),
-                       static_cast<long>(monotonic_ns % kSecond_ns)};
+  const timespec until = to_timespec(monotonic_ns);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
 }

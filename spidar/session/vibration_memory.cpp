@@ -38,12 +38,6 @@ constexpr int64_t kMost_ns = 4 * VibrationMemory::kUnknown_ns;
 /// Of the text in the file.
 constexpr size_t kMostText = 200;
 
-int64_t clock_ns(clockid_t clock) noexcept {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return now.tv_sec * kSecond_ns + now.tv_nsec;
-}
-
 /// An open file that nobody else has locked, or errno.
 class LockedFile {
  public:

@@ -157,8 +157,7 @@ LinkFault TtyTransport::wait_for(short events, int64_t deadline_ns) noexcept {
     const int64_t left_ns = deadline_ns - monotonic_now_ns();
     if (left_ns <= 0) return LinkFault::kTimeout;
     pollfd file{file_, events, 0};
-    const timespec wait{static_cast<time_t>(left_ns / kSecond_ns),
-                        static_cast<long>(left_ns % kSecond_ns)};
+    const timespec wait = to_timespec(left_ns);
     const int ready = ppoll(&file, 1, &wait, nullptr);
     if (ready < 0 && errno != EINTR) return fault_of_line(errno);
     if (ready <= 0) continue;
