@@ -139,7 +139,7 @@ ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
   return object ? relative_motion(*object) : ImageMotion();
 }
 
-void ForceRenderer::restart() {
+void ForceRenderer::reset() {
   controller_->reset();
   choice_.reset();
 }

@@ -72,7 +72,7 @@ class ForceRenderer {
   /// are shown, but for those that wait; `turn` is that before they are shown.
   void render(Frame& frame, const Orientation& turn = {});
   /// The next frame follows a seek or a discontinuity.
-  void restart();
+  void reset();
 
  private:
   ChoiceFrame choice_frame(const Frame& frame, const Orientation& turn) const;

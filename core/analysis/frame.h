@@ -34,7 +34,7 @@ struct Frame : MeasuredFrame {
     *this = Frame();
     points = std::move(kept_points);
     objects = std::move(kept_objects);
-    forget_motion();
+    clear_motion();
   }
 };
 

@@ -40,7 +40,7 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
   } else {
     motion_.reset();
   }
-  frame_.forget_motion();
+  frame_.clear_motion();
   frame_.width = image.width;
   frame_.height = image.height;
   take(step);
@@ -50,14 +50,14 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
     frame_.picture = picture;
   } else {
     cadence_.cut(running_ns);
-    frame_.forget_motion();
+    frame_.clear_motion();
   }
   return true;
 }
 
-void MotionAnalyzer::restart_measuring() {
-  tracker_.restart();
-  reduced_.restart();
+void MotionAnalyzer::reset_measuring() {
+  tracker_.reset();
+  reduced_.reset();
   motion_.reset();
 }
 
@@ -67,17 +67,17 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   const bool was_by_points = by_points();
   settings_ = settings;
   // What will be used next has not seen the last picture.
-  if (was_by_points != by_points()) restart_measuring();
+  if (was_by_points != by_points()) reset_measuring();
 }
 
 const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns,
                                      const Orientation& turn) {
-  if (last_running_ns_ && running_ns <= *last_running_ns_) restart();
+  if (last_running_ns_ && running_ns <= *last_running_ns_) reset();
   frame_.stamp.running_ns = running_ns;
   frame_.stamp.stream_ns = stream_ns;
   turn_ = turn;
   const bool is_anew = std::exchange(anew_, false);
-  if (is_anew) renderer_.restart();
+  if (is_anew) renderer_.reset();
   if (measure(image, running_ns)) renderer_.render(frame_, turn);
   return frame_;
 }
@@ -86,7 +86,7 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
   const std::optional<int64_t> last_ns = last_running_ns_;
   if (!last_ns || running_ns <= *last_ns ||
       running_ns - cadence_.picture_ns() > Cadence::kLongest_ns) {
-    restart();
+    reset();
     return nullptr;
   }
   last_running_ns_ = running_ns;
@@ -100,9 +100,9 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
   return &frame_;
 }
 
-void MotionAnalyzer::restart() {
-  restart_measuring();
-  cadence_.restart();
+void MotionAnalyzer::reset() {
+  reset_measuring();
+  cadence_.reset();
   last_running_ns_.reset();
   anew_ = true;
 }

@@ -52,14 +52,14 @@ class MotionAnalyzer {
 
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
   /// starts again.
-  void restart();
+  void reset();
 
  private:
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   void take(const Cadence::Step& step);
   bool measure(const ImageView& image, int64_t running_ns);
   bool find_mean(const TrackedFrame& tracked);
-  void restart_measuring();
+  void reset_measuring();
 
   AnalyzerSettings settings_;
   ReducedFrame reduced_;

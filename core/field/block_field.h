@@ -47,7 +47,7 @@ class BlockField {
   void stand_still();
 
   /// Forgets the picture before.
-  void restart() { has_picture_ = false; }
+  void reset() { has_picture_ = false; }
   bool has_picture() const { return has_picture_; }
 
   const PaddedImage& picture() const { return now_; }

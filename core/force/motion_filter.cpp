@@ -16,7 +16,7 @@ Eigen::Matrix<double, N, 1> steady(OneEuroFilter<N>& filter, const Eigen::Matrix
                                    double interval_s, const FilterSettings& settings) {
   const auto y = filter.filter(x, interval_s, settings.min_cutoff_Hz, settings.beta_s_px);
   if (!x.isZero(0) || y.norm() > MotionFilter::kRest_px_s) return y;
-  filter.restart_at(x);
+  filter.reset(x);
   return x;
 }
 
@@ -55,9 +55,9 @@ ImageMotion MotionFilter::filter(const ImageMotion& motion, int frame_height, do
 }
 
 void MotionFilter::stop() {
-  velocity_.restart_at(OneEuroFilter<2>::Vector::Zero());
-  growth_.restart_at(OneEuroFilter<1>::Vector::Zero());
-  roll_.restart_at(OneEuroFilter<1>::Vector::Zero());
+  velocity_.reset(OneEuroFilter<2>::Vector::Zero());
+  growth_.reset(OneEuroFilter<1>::Vector::Zero());
+  roll_.reset(OneEuroFilter<1>::Vector::Zero());
   dead_zone_px_s_ = 0;
 }
 

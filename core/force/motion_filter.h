@@ -33,7 +33,7 @@ class OneEuroFilter {
   /// `min_cutoff_Hz` > 0, `beta` ≥ 0 in Hz for a unit of x a second.
   Vector filter(const Vector& x, double interval_s, double min_cutoff_Hz, double beta) {
     if (!started_) {
-      restart_at(x);
+      reset(x);
       return x;
     }
     const double rate = (x - value_).norm() / interval_s;
@@ -50,7 +50,7 @@ class OneEuroFilter {
   double fraction() const { return fraction_; }
 
   /// Starts anew with `x` as the first value.
-  void restart_at(const Vector& x) {
+  void reset(const Vector& x) {
     value_ = x;
     rate_ = 0;
     fraction_ = 1;

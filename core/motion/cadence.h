@@ -57,7 +57,7 @@ class Cadence {
   void cut(int64_t time_ns);
 
   /// Forgets everything.
-  void restart() { *this = Cadence(); }
+  void reset() { *this = Cadence(); }
 
  private:
   /// A picture that was followed by another one.

@@ -37,7 +37,7 @@ struct MeasuredFrame {
   const MovingObject* dominant_object() const { return find_object(objects, dominant); }
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
   /// Nothing is known to move. The memory stays.
-  void forget_motion() {
+  void clear_motion() {
     picture = PictureKind::kFirst;
     interval_ns = shown_for_ns = 0;
     points.clear();

@@ -81,7 +81,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
 
 void MotionEstimator::reset() {
   windows_.reset();
-  field_.restart();
+  field_.reset();
   camera_.reset();
   objects_.reset();
   dominant_.reset();

@@ -27,7 +27,7 @@ class ReducedFrame {
     reduce_blocks(frame, factor_, base_);
     base_.repeat_border();
     if (!is_comparable) {
-      repeated_picture_.restart();
+      repeated_picture_.reset();
       return picture_ = PictureKind::kFirst;
     }
     picture_ = repeated_picture_.look(before_.view(), base_.view());
@@ -48,7 +48,7 @@ class ReducedFrame {
   PictureKind picture() const { return picture_; }
 
   /// The next frame will not be compared with this one.
-  void restart() { width_ = 0; }
+  void reset() { width_ = 0; }
 
  private:
   PaddedImage base_;

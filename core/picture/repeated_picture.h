@@ -44,7 +44,7 @@ class RepeatedPicture {
   PictureKind look(const ImageView& before, const ImageView& now);
 
   /// Call when the next pictures are unrelated to the previous ones.
-  void restart() { changes_.clear(); }
+  void reset() { changes_.clear(); }
 
   /// Largest coding noise, as a fraction of the change before and after it.
   static constexpr float kFraction = 0.3f;

@@ -21,7 +21,7 @@ class TrackThinner {
     group_ = static_cast<size_t>((rate_Hz + kTrackRate_Hz - 1) / kTrackRate_Hz);
   }
   /// The next sample does not continue the previous ones.
-  void restart() noexcept { filled_ = 0; }
+  void reset() noexcept { filled_ = 0; }
 
   size_t group() const noexcept { return group_; }
 

@@ -283,8 +283,8 @@ const TrackedFrame& OpenCvTracker::track(const ImageView& frame, bool may_wait) 
   return impl_->result;
 }
 
-void OpenCvTracker::restart() {
-  impl_->reduced.restart();
+void OpenCvTracker::reset() {
+  impl_->reduced.reset();
 }
 
 void OpenCvTracker::configure(const TrackerSettings& settings) {

@@ -66,7 +66,7 @@ class OpenCvTracker {
   const TrackedFrame& track(const ImageView& frame, bool may_wait = false);
 
   /// Discards the previous frame, so that the next one starts anew without motion.
-  void restart();
+  void reset();
 
   /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
   void configure(const TrackerSettings& settings);

@@ -65,9 +65,9 @@ void MotionState::set_muted(bool muted) {
 }
 
 void MotionState::flush() {
-  schedule.forget();
-  track_samples.forget();
-  reliefs.forget();
+  schedule.clear();
+  track_samples.clear();
+  reliefs.clear();
 }
 
 void MotionState::skip(GstClockTime duration) {
@@ -79,19 +79,19 @@ void MotionState::skip(GstClockTime duration) {
 void MotionState::change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
   // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
   // because what the schedule forwards after it must stay.
-  track_samples.forget();
+  track_samples.clear();
   schedule.change_rate(multiplier, running_time, upstream);
 }
 
-void MotionState::restart_timing() {
+void MotionState::reset_timing() {
   begin_epoch();
-  live.restart_timing();
+  live.reset_timing();
   {
     const std::lock_guard<std::mutex> lock(skip_mutex);
-    schedule.restart();
+    schedule.reset();
     output.follower().set_skipped(0);
   }
-  no_force.forget();
+  no_force.reset();
 }
 
 GstStructure* MotionState::describe() const {
@@ -141,13 +141,13 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
 /// A frame that cannot be rendered in time.
 void MotionState::pass_untimed() {
   report.problem = FrameProblem::kNoTimestamp;
-  live.restart();
+  live.reset();
 }
 
 void MotionState::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   const std::optional<FrameStamp> stamp =
       has_time(buffer, segment) ? stamp_of(buffer, 0, segment, epoch) : std::nullopt;
-  if (!stamp || !is_in_time(*stamp)) return live.restart();
+  if (!stamp || !is_in_time(*stamp)) return live.reset();
   if (track.has_track()) {
     track.pass_gap(*stamp);
   } else {

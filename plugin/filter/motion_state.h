@@ -51,7 +51,7 @@ struct MotionState {
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
   void skip(GstClockTime duration);
   /// Running time begins anew: after a flush, and before a stream. Streaming thread.
-  void restart_timing();
+  void reset_timing();
   GstStructure* describe() const;
 
   // --- streaming thread

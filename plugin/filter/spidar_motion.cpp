@@ -180,7 +180,7 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
     {"touch",
      [](auto* self, auto* value) {
        const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
-       if (off) self->state->reliefs.forget();
+       if (off) self->state->reliefs.clear();
      }},
     {"max-force",
      [](auto* self, auto* value) { self->state->output.set_max_force(g_value_get_double(value)); }},

@@ -48,7 +48,7 @@ static void begin_to_load_track(GstSpidarMotion* self) {
   const std::string track = state.settings.track;
   GST_OBJECT_UNLOCK(self);
   state.track.set_track(nullptr);
-  state.felt.forget();
+  state.felt.reset();
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
   state.choice.begin_stream(film);
   state.display.begin_stream(film);
@@ -114,7 +114,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   });
   if (!processed) {
     // The application may leave the pipeline in PLAYING.
-    state.reliefs.forget();
+    state.reliefs.clear();
     return GST_FLOW_ERROR;
   }
   log_frame(self, report, frame->buffer);
@@ -177,7 +177,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       state.loader.resume();
       // Flushes again, because a frame may have been in progress when the flush began.
       state.flush();
-      state.restart_timing();
+      state.reset_timing();
       if (reset_time) state.output.follower().expect_base_time();
       break;
     }
@@ -272,7 +272,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   state.warnings.start();
   state.warnings.check_bins();
   state.stats.reset();
-  state.restart_timing();
+  state.reset_timing();
   const std::string reason = trace.empty() ? "" : state.trace.open(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,

@@ -121,7 +121,7 @@ class Follower {
   void take_position(int64_t now_ns, int64_t position_ns) {
     position_ns_ = position_ns;
     if (!std::exchange(is_beginning_, false)) return;
-    filter_.restart(now_ns, position_ns, state_.rate);
+    filter_.reset(now_ns, position_ns, state_.rate);
   }
 
   void change_film(const std::string& uri) {

@@ -21,7 +21,7 @@ void PositionFilter::keep(int64_t begin_ns) {
   begin_ns_[count_++ % kKept] = begin_ns;
 }
 
-void PositionFilter::restart(int64_t now_ns, int64_t position_ns, double rate) {
+void PositionFilter::reset(int64_t now_ns, int64_t position_ns, double rate) {
   count_ = 0;
   rate_ = rate;
   position_ns_ = position_ns;
@@ -33,13 +33,13 @@ void PositionFilter::restart(int64_t now_ns, int64_t position_ns, double rate) {
 void PositionFilter::change_rate(int64_t now_ns, double rate) {
   // Told again, this is no news, and late.
   const int64_t told_ns = position_ns_;
-  restart(now_ns, position_at(now_ns), rate);
+  reset(now_ns, position_at(now_ns), rate);
   position_ns_ = told_ns;
 }
 
 /// Players tell where they jump to before they are there.
-void PositionFilter::restart_after_jump(int64_t now_ns, int64_t position_ns) {
-  restart(now_ns, position_ns, rate_);
+void PositionFilter::reset_after_jump(int64_t now_ns, int64_t position_ns) {
+  reset(now_ns, position_ns, rate_);
   is_goal_ = true;
 }
 
@@ -51,7 +51,7 @@ void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
   const bool jumped = std::abs(late_ns) > kLatest_ns;
   // One alone may be of a moment in which the player, or this process, was held up.
   if (jumped && (jumped_ || late_ns < 0 || count_ == 1))
-    return restart_after_jump(now_ns, position_ns);
+    return reset_after_jump(now_ns, position_ns);
   jumped_ = jumped;
   if (jumped) return;
   if (std::exchange(is_goal_, false)) count_ = 0;
@@ -61,7 +61,7 @@ void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
 void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
   if (!has_begun()) return;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
-  if (std::abs(late_ns) > kLatest_ns) return restart_after_jump(now_ns, position_ns);
+  if (std::abs(late_ns) > kLatest_ns) return reset_after_jump(now_ns, position_ns);
   is_goal_ = true;  // it may have stopped for a moment
 }
 

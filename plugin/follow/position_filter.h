@@ -20,7 +20,7 @@ class PositionFilter {
   static constexpr int64_t kLatest_ns = 150'000'000;
 
   /// It plays at `rate` from this position on; what it told before counts no more.
-  void restart(int64_t now_ns, int64_t position_ns, double rate);
+  void reset(int64_t now_ns, int64_t position_ns, double rate);
   /// It goes on at another rate.
   void change_rate(int64_t now_ns, double rate);
   /// It tells this position, which is no news if it is the same as before.
@@ -31,7 +31,7 @@ class PositionFilter {
   bool has_begun() const { return count_ > 0; }
   /// When it told the newest position; 0 before.
   int64_t newest_ns() const { return newest_ns_; }
-  /// After restart().
+  /// After reset().
   int64_t position_at(int64_t now_ns) const;
 
  private:
@@ -39,10 +39,10 @@ class PositionFilter {
   int64_t begin_of(int64_t now_ns, int64_t position_ns) const;
   int64_t earliest_ns() const;
   void keep(int64_t begin_ns);
-  void restart_after_jump(int64_t now_ns, int64_t position_ns);
+  void reset_after_jump(int64_t now_ns, int64_t position_ns);
 
   std::array<int64_t, kKept> begin_ns_{};
-  size_t count_ = 0;  ///< since restart(); the last kKept are there
+  size_t count_ = 0;  ///< since reset(); the last kKept are there
   double rate_ = 1;
   int64_t position_ns_ = 0;  ///< the newest that it told
   int64_t newest_ns_ = 0;

@@ -103,7 +103,7 @@ NoForceReason reason_in_contact(const LoopSnapshot& loop, bool can_touch) {
 }
 
 void NoForceHistory::add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept {
-  if (count_ > 0 && shown_ns <= latest(0).shown_ns) forget();
+  if (count_ > 0 && shown_ns <= latest(0).shown_ns) reset();
   frames_[next_] = {shown_ns, force_N, reason};
   next_ = (next_ + 1) % kFrames;
   count_ = std::min(count_ + 1, kFrames);
@@ -145,9 +145,9 @@ void NoForceWatch::end() {
   is_last_ = true;
 }
 
-void NoForceWatch::forget() {
+void NoForceWatch::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  frames_.forget();
+  frames_.reset();
   newest_ns_ = 0;
   is_last_ = false;
 }

@@ -48,7 +48,7 @@ class NoForceHistory {
   /// pictures have.
   NoForceReason reason(int64_t now_ns) const noexcept;
 
-  void forget() noexcept { count_ = 0; }
+  void reset() noexcept { count_ = 0; }
 
  private:
   struct Frame {
@@ -78,7 +78,7 @@ class NoForceWatch {
   /// No frames come after the one that was added last, until another one is.
   void end();
   /// Running time begins anew.
-  void forget();
+  void reset();
   void set_muted(bool muted) { muted_ = muted; }
   /// The picture is touched: from now on what is felt is the contact, and not the film.
   void set_touching(bool touching) { touching_ = touching; }

@@ -87,7 +87,7 @@ void FramePacer::pass(const PacedTime& time) {
   last_paced_ns_ = time.paced_ns;
 }
 
-void FramePacer::restart() {
+void FramePacer::reset() {
   last_running_ns_ = -1;
   frames_in_segment_ = 0;
   last_interval_ns_ = 0;

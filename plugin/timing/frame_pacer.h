@@ -62,7 +62,7 @@ class FramePacer {
   void pass(const PacedTime& time);
   void begin_segment() { frames_in_segment_ = 0; }
   /// Running time begins anew.
-  void restart();
+  void reset();
 
   bool has_frame() const { return last_running_ns_ >= 0; }
   /// When the next frame would be due, one like the last ones.

@@ -32,7 +32,7 @@ class LoopQueue {
   void connect(HapticLoop* loop) {
     const std::lock_guard<std::mutex> lock(mutex_);
     loop_ = loop;
-    clear();
+    clear_entries();
     refused_ = 0;
   }
   /// Times must rise.
@@ -53,14 +53,14 @@ class LoopQueue {
     forward_locked();
   }
   /// Everything added so far.
-  void forget() {
+  void clear() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    forget_locked();
+    clear_locked();
   }
   /// What is added while muted is forgotten.
   void set_muted(bool muted) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (muted && !muted_) forget_locked();
+    if (muted && !muted_) clear_locked();
     muted_ = muted;
   }
   /// Since the connection: wrenches or samples for which there was no room.
@@ -74,7 +74,7 @@ class LoopQueue {
   virtual void enter(Entry&) {}
   /// As the loop gets it.
   virtual Entry shown(const Entry& entry) const { return entry; }
-  void clear() {
+  void clear_entries() {
     entries_.clear();
     handed_ = 0;
   }
@@ -98,8 +98,8 @@ class LoopQueue {
     while (handed_ < entries_.size() && loop_->schedule(shown(entries_[handed_]))) ++handed_;
     for (; handed_ > kept_; --handed_) entries_.pop_front();
   }
-  void forget_locked() {
-    clear();
+  void clear_locked() {
+    clear_entries();
     if (loop_) loop_->cancel_scheduled();
   }
 

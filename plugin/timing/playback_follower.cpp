@@ -63,7 +63,7 @@ void PresentationDelay::follow(GstElement* element) {
   }
 }
 
-void PresentationDelay::forget() {
+void PresentationDelay::reset() {
   path_.clear();
   latency_ns_.clear();
 }
@@ -107,7 +107,7 @@ void PlaybackFollower::end() {
     const std::lock_guard<std::mutex> lock(mutex_);
     publish_ = nullptr;
     playing_ = false;
-    delay_.forget();
+    delay_.reset();
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -119,7 +119,7 @@ void PlaybackFollower::set_playing(bool playing) {
     playing_ = playing;
     sync_.set_playing(playing);
     sink_outdated_ = playing;
-    if (!playing) delay_.forget();
+    if (!playing) delay_.reset();
     refresh_locked();
   }
   changed_.notify_all();

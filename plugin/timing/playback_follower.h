@@ -29,14 +29,14 @@ namespace spidar {
 class PresentationDelay {
  public:
   PresentationDelay() = default;
-  ~PresentationDelay() { forget(); }
+  ~PresentationDelay() { reset(); }
   PresentationDelay(const PresentationDelay&) = delete;
   PresentationDelay& operator=(const PresentationDelay&) = delete;
 
   /// Looks downstream of `element`, through bins, for the first sink that waits for the clock, and
-  /// keeps the way to it until forget(). Again whenever it may be another one.
+  /// keeps the way to it until reset(). Again whenever it may be another one.
   void follow(GstElement* element);
-  void forget();
+  void reset();
 
   /// From the LATENCY event; counts where no sink is found that waits.
   void set_latency(GstClockTime latency);

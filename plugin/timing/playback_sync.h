@@ -34,7 +34,7 @@ class PlaybackSync {
   void set_playing(bool playing) {
     playing_ = playing;
     outdated_base_time_ = GST_CLOCK_TIME_NONE;
-    forget_clock();
+    reset_clock();
   }
 
   /// Running time has begun anew (flushing seek): the element's base time is outdated until the
@@ -101,17 +101,17 @@ class PlaybackSync {
   static int64_t to_ns(GstClockTime t) {
     return GST_CLOCK_TIME_IS_VALID(t) ? static_cast<int64_t>(t) : 0;
   }
-  void forget() {
+  void reset() {
     readings_ = 0;
     strays_ = 0;
   }
-  void forget_clock() {
-    forget();
+  void reset_clock() {
+    reset();
     watched_ = false;
     behind_ns_ = 0;
   }
   void follow(const GstClock* clock) {
-    if (clock != clock_) forget_clock();
+    if (clock != clock_) reset_clock();
     clock_ = clock;
   }
   void add_reading(int64_t monotonic_ns, int64_t clock_ns) {
@@ -123,7 +123,7 @@ class PlaybackSync {
       } else if (readings_ >= kEnough && ++strays_ < kLastingJump) {
         return;
       } else {
-        forget();
+        reset();
       }
     }
     const size_t slot = readings_++ % kWindow;
@@ -179,7 +179,7 @@ class PlaybackSync {
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};
-  size_t readings_ = 0;  ///< since forget(); the last kWindow are kept
+  size_t readings_ = 0;  ///< since reset(); the last kWindow are kept
   int strays_ = 0;       ///< left out since the newest of them
   // clock = clock_ns_ + (t − monotonic_ns_) · rate_
   int64_t monotonic_ns_ = 0;

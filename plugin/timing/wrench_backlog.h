@@ -61,10 +61,10 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     skipped_before_ns_ = skipped_ns_;
   }
   /// Running time begins anew.
-  void restart() {
+  void reset() {
     const std::lock_guard<std::mutex> lock(mutex_);
     instant_rate_.reset();
-    clear();
+    clear_entries();
     skipped_ns_ = skipped_before_ns_ = 0;
   }
 

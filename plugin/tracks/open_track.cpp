@@ -196,7 +196,7 @@ class TrackOfFile : public OpenTrack {
     auto& self = *static_cast<TrackOfFile*>(user);
     switch (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info))) {
       case GST_EVENT_FLUSH_STOP:
-        self.input_.restart();
+        self.input_.reset();
         self.blocks_->begin_pass();
         self.end_ns_ = self.sought_ns_;
         break;

@@ -175,14 +175,14 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   self->state->mark.follow(event);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
-      self->state->queue.forget();
+      self->state->queue.clear();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       // Flushes again, because a buffer may have been in progress when the flush began.
-      self->state->queue.forget();
-      self->state->input.restart();
+      self->state->queue.clear();
+      self->state->input.reset();
       if (reset_time) self->state->output.follower().expect_base_time();
       break;
     }
@@ -191,7 +191,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
       self->state->messages.begin_stream(GST_BASE_SINK_PAD(sink));
       break;
     case GST_EVENT_SEGMENT:
-      self->state->input.restart();
+      self->state->input.reset();
       break;
     default:
       break;
@@ -210,13 +210,13 @@ static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->state->warnings.start();
   self->state->input = spidar::TrackInput();
-  self->state->queue.forget();
+  self->state->queue.clear();
   return TRUE;
 }
 
 static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->state->queue.forget();
+  self->state->queue.clear();
   // Reported here, because messages during the change to NULL are discarded.
   self->state->warnings.end_haptic_trace(self->state->output.session());
   return TRUE;

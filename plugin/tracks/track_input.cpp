@@ -68,12 +68,12 @@ std::string TrackInput::set_caps(const GstCaps* caps) {
   info_ = info;
   thinner_.begin(rate_Hz);
   band_ = TrackBand(rate_Hz / static_cast<double>(thinner_.group()));
-  restart();
+  reset();
   return {};
 }
 
-void TrackInput::restart() {
-  thinner_.restart();
+void TrackInput::reset() {
+  thinner_.reset();
   next_pts_ = end_ = GST_CLOCK_TIME_NONE;
 }
 
@@ -151,7 +151,7 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
   GstClockTime pts = GST_BUFFER_PTS(buffer);
   if (!GST_CLOCK_TIME_IS_VALID(pts)) pts = next_pts_;
   if (segment.format != GST_FORMAT_TIME || !is_time(pts) || count == 0) return GST_FLOW_OK;
-  if (pts != next_pts_) thinner_.restart();
+  if (pts != next_pts_) thinner_.reset();
   const bool backwards = segment.rate < 0;
   next_pts_ = backwards ? GST_CLOCK_TIME_NONE : pts + length(count);
 

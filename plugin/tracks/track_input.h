@@ -36,7 +36,7 @@ class TrackInput {
   /// be.
   std::string set_caps(const GstCaps* caps);
   /// The next buffer has nothing to do with the one before.
-  void restart();
+  void reset();
 
   /// Gives the samples of `buffer` that lie in `segment`, times `gain`, in blocks of rising running
   /// time, until `give` returns something else than GST_FLOW_OK. Played backwards the last sample

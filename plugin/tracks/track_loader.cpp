@@ -231,7 +231,7 @@ bool FeltTrack::check() {
                       ("The haptic track %s is not felt any further: %s.", path_.c_str(),
                        clause(blocks_->problem()).c_str()),
                       ("The video is analysed in its place."));
-  forget();
+  reset();
   return false;
 }
 

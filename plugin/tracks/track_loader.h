@@ -81,7 +81,7 @@ class FeltTrack {
   /// Posts each warning once. False when the track cannot be read further.
   bool check();
   /// Nothing is rendered of a track.
-  void forget() { blocks_ = nullptr; }
+  void reset() { blocks_ = nullptr; }
 
  private:
   GstElement* element_;

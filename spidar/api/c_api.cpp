@@ -279,8 +279,8 @@ bool gst_spidar_motion_analyze(GstSpidarMotion* motion, const GstSpidarPicture* 
   });
 }
 
-void gst_spidar_motion_restart(GstSpidarMotion* motion) {
-  motion->motion.restart();
+void gst_spidar_motion_reset(GstSpidarMotion* motion) {
+  motion->motion.reset();
 }
 
 void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings) {

@@ -88,8 +88,8 @@ MotionResult MotionToWrench::analyze(const GreyPicture& picture, std::chrono::na
   return result;
 }
 
-void MotionToWrench::restart() {
-  if (impl_->analysis.get()) impl_->alone()->analyzer.restart();
+void MotionToWrench::reset() {
+  if (impl_->analysis.get()) impl_->alone()->analyzer.reset();
 }
 
 void MotionToWrench::configure(const MotionSettings& settings) {

@@ -82,7 +82,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
 }
 
 void TouchedSurface::clear() noexcept {
-  if (spidar::TouchMailbox* const mailbox = connected_) mailbox->forget();
+  if (spidar::TouchMailbox* const mailbox = connected_) mailbox->clear();
 }
 
 /// The loop frees those of former surfaces in its next tick, unless the device is lost meanwhile.

@@ -25,7 +25,7 @@ class LookAhead {
     return running_ns + lead_ns;
   }
   /// Nothing is known any more.
-  void restart() noexcept {
+  void reset() noexcept {
     ahead_ns_ = kFarAhead_ns;
     late_ns_ = 0;
   }

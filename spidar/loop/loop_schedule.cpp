@@ -6,11 +6,11 @@
 
 namespace spidar {
 
-void LoopSchedule::forget(uint32_t generation) noexcept {
+void LoopSchedule::clear(uint32_t generation) noexcept {
   timeline_.clear();
   track_.clear();
   timeline_generation_ = generation;
-  look_ahead_.restart();
+  look_ahead_.reset();
   known_ns_ = INT64_MIN;
   newest_ns_ = INT64_MIN;
   reached_ns_ = INT64_MIN;
@@ -72,7 +72,7 @@ int64_t LoopSchedule::time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexce
 
 TimelineResult LoopSchedule::find(bool playing, int64_t running_ns, int64_t lag_ns) noexcept {
   const uint32_t generation = generation_.load(std::memory_order_acquire);
-  if (generation != timeline_generation_) forget(generation);
+  if (generation != timeline_generation_) clear(generation);
   take_wrenches(playing, running_ns + lag_ns);
   const int64_t asked_ns = playing ? time_to_ask_for(running_ns, lag_ns) : running_ns;
   const TimelineResult of_track = read_track(playing, asked_ns);

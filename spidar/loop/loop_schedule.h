@@ -69,7 +69,7 @@ class LoopSchedule {
     Entry entry;
   };
 
-  void forget(uint32_t generation) noexcept;
+  void clear(uint32_t generation) noexcept;
   bool is_of_the_future(uint32_t generation) const noexcept;
   int64_t time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexcept;
   void take_wrenches(bool playing, int64_t running_ns) noexcept;

@@ -45,7 +45,7 @@ StringHold::StringHold(StringDevice& device, const Profile& profile, Pace pace)
 }
 
 void StringHold::open() {
-  start_anew();
+  reset();
   device_.open();
 }
 
@@ -83,7 +83,7 @@ ForceHold::ForceHold(Grip& grip, Pace pace) : Hold(std::move(pace)), grip_(grip)
 }
 
 void ForceHold::open() {
-  start_anew();
+  reset();
   command_.power = 0;
   command_.fresh = false;
   grip_.open();

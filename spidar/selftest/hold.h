@@ -101,7 +101,7 @@ class Hold {
   }
 
   /// Nothing is put out since.
-  void start_anew() {
+  void reset() {
     value_ = Value::Zero();
     errors_in_a_row_ = 0;
     last_ns_ = 0;

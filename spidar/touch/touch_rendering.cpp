@@ -52,7 +52,7 @@ bool is_older(uint32_t generation, uint32_t than) noexcept {
 
 Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
                              const Eigen::Vector3d& grip_m, double dt_s) noexcept {
-  drop_forgotten(mailbox);
+  drop_cleared(mailbox);
   advance(mailbox, running_ns);
   Contact result;
   const TouchFrame* const now = frame(mailbox, 0);
@@ -102,11 +102,11 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
 }
 
 void TouchRendering::rest(TouchMailbox& mailbox) noexcept {
-  drop_forgotten(mailbox);
+  drop_cleared(mailbox);
   contact_.reset();
 }
 
-void TouchRendering::drop_forgotten(TouchMailbox& mailbox) noexcept {
+void TouchRendering::drop_cleared(TouchMailbox& mailbox) noexcept {
   const uint32_t generation = mailbox.generation();
   if (generation != generation_) {
     generation_ = generation;

@@ -55,7 +55,7 @@ class TouchMailbox {
   // --- any thread
 
   /// Makes the reader discard, at its next tick, every frame published or begun before this call.
-  void forget() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
+  void clear() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
   uint32_t generation() const noexcept { return generation_.load(std::memory_order_acquire); }
 
   // --- writer
@@ -184,7 +184,7 @@ class TouchRendering {
   void rest(TouchMailbox& mailbox) noexcept;
 
  private:
-  void drop_forgotten(TouchMailbox& mailbox) noexcept;
+  void drop_cleared(TouchMailbox& mailbox) noexcept;
   const TouchFrame* frame(const TouchMailbox& mailbox, size_t nth) const noexcept;
   void advance(TouchMailbox& mailbox, int64_t running_ns) noexcept;
   double fraction_of_next(int64_t running_ns) const noexcept;

@@ -287,7 +287,7 @@ class Pictures(unittest.TestCase):
         # As in test_motion.cpp; what enters on the left is another part of the texture.
         self.assertAlmostEqual(found.velocity_x_px_s, 100, delta=0.03 / 0.04)
         self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.0025 * 200), delta=0.015)
-        motion.restart()
+        motion.reset()
         self.assertFalse(motion.analyze(SPOTS, 240, 240, 1).has_picture_before)
 
     def test_what_is_wrong_is_named(self):

@@ -215,7 +215,7 @@ static void pictures_become_a_wrench(void) {
   REQUIRE(fabs(found.velocity_y_px_s) < 0.03 / 0.04);
   REQUIRE(fabs(found.growth_1_s) < 0.1 && fabs(found.roll_rad_s) < 0.1);
   REQUIRE(fabs(found.wrench.force_N.x - 2 * 1.5 / acos(-1) * atan(0.0025 * 200)) < 0.015);
-  gst_spidar_motion_restart(motion);
+  gst_spidar_motion_reset(motion);
   REQUIRE(gst_spidar_motion_analyze(motion, &picture, 400000000, &found, NULL));
   REQUIRE(!found.has_picture_before);
   settings.motion = (GstSpidarFeltMotion)9;

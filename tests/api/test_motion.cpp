@@ -75,21 +75,21 @@ TEST(MotionToWrench, SettingsAreThoseOfTheElement) {
   MotionToWrench motion;
   motion.configure(mean());
   const double before_N = after_ten(motion).wrench.force_N.x;
-  motion.restart();
+  motion.reset();
   MotionSettings settings = mean();
   settings.max_force_N = 1.5;  // half the default
   motion.configure(settings);
   EXPECT_NEAR(after_ten(motion).wrench.force_N.x, before_N / 2, 1e-9);
-  motion.restart();
+  motion.reset();
   settings.controller = Controller::kLinear;  // the largest speed is the largest force
   motion.configure(settings);
   EXPECT_GT(after_ten(motion).wrench.force_N.x, 1.4);
-  motion.restart();
+  motion.reset();
   settings = mean();
   settings.alpha_s_px = 0;
   motion.configure(settings);
   EXPECT_EQ(after_ten(motion).wrench.force_N.x, 0);
-  motion.restart();
+  motion.reset();
   settings.alpha_s_px = 0.02;
   motion.configure(settings);
   const double expected_N = 2 * 3 / M_PI * std::atan(0.02 * 200);
@@ -101,7 +101,7 @@ TEST(MotionToWrench, ASettingOutOfRangeChangesNothing) {
   MotionToWrench motion;
   motion.configure(mean());
   const double before_N = after_ten(motion).wrench.force_N.x;
-  motion.restart();
+  motion.reset();
   for (double MotionSettings::*number :
        {&MotionSettings::max_force_N, &MotionSettings::alpha_s_px, &MotionSettings::pointer_x,
         &MotionSettings::pointer_y, &MotionSettings::depth_gain, &MotionSettings::roll_gain}) {
@@ -125,7 +125,7 @@ TEST(MotionToWrench, AfterARestartThereIsNothingToCompareWith) {
   MotionToWrench motion;
   motion.configure(mean());
   after_ten(motion);
-  motion.restart();
+  motion.reset();
   MovingPicture picture;
   const MotionResult found = motion.analyze(picture.at(40), 400ms);
   EXPECT_FALSE(found.has_picture_before);

@@ -102,10 +102,10 @@ TEST(Threads, ShareAMotion) {
   };
   MotionSettings settings;
   settings.max_force_N = 1;
-  beside_each_other({analyze, analyze, [&] { motion.restart(); },
-                     [&] { motion.configure(settings); }, [&] { motion.configure({}); }},
+  beside_each_other({analyze, analyze, [&] { motion.reset(); }, [&] { motion.configure(settings); },
+                     [&] { motion.configure({}); }},
                     50);
-  motion.restart();
+  motion.reset();
   motion.analyze(picture.grey, 0s);
   EXPECT_TRUE(motion.analyze(picture.grey, 40ms).has_picture_before);
 }
@@ -177,7 +177,7 @@ TEST(Threads, ACopyOfTheProcessHasNoMotion) {
   });
   for (int times = 0; times < 20; ++times) {
     EXPECT_TRUE(in_a_copy([&] {
-      motion.restart();
+      motion.reset();
       return throws_of_fork([&] { motion.analyze(picture.grey, 0ms); }) &&
              throws_of_fork([&] { motion.configure({}); });
     }));

@@ -110,8 +110,8 @@ void measure(int width, int height) {
       std::printf("%s is left out: %s\n", each.name.c_str(), error.what());
       continue;
     }
-    object.restart();
-    mean.restart();
+    object.reset();
+    mean.reset();
     naive = make_naive();
     dis = make_dis_ultrafast();
     for (size_t n = 0; n < frames.size(); ++n) {

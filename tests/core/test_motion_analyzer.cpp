@@ -106,7 +106,7 @@ TEST(MotionAnalyzer, RestartForgetsTheFrameAndTheLargestSpeed) {
   analyzer.analyze(fast.frame(0), 0);
   // Rounding only: the first speed is the largest, so the force is the maximum.
   EXPECT_NEAR(analyzer.analyze(fast.frame(1), kFrame_ns).wrench.force_N.norm(), 3.0, 1e-14);
-  analyzer.restart();
+  analyzer.reset();
   expect_restarted(analyzer.analyze(slow.frame(0), 2 * kFrame_ns));
   EXPECT_NEAR(analyzer.analyze(slow.frame(1), 3 * kFrame_ns).wrench.force_N.norm(), 3.0, 1e-14);
 }
@@ -144,7 +144,7 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
   };
   expect_same(8);
   expect_same(77);  // a cut
-  analyzer.restart();
+  analyzer.reset();
   controller->reset();
   expect_same(8);
 }

@@ -36,7 +36,7 @@ TEST(NoAllocation, Motion) {
     if (t == kTurn - 1) estimator.reset();
     const long before = allocations;
     reduced.read(picture);
-    found.forget_motion();
+    found.clear_motion();
     found.interval_ns = 40'000'000;
     const bool is_compared = estimator.estimate(picture, reduced, found);
     if (n >= kTurn) {

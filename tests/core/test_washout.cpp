@@ -110,7 +110,7 @@ std::vector<double> forces_N(double washout_Hz) {
   MotionAnalyzer analyzer(settings);
   std::vector<double> forces;
   for (int run = 0; run < 2; ++run) {
-    analyzer.restart();
+    analyzer.reset();
     MovingScene scene(320, 240);
     scene.add_disc(40);
     for (int n = 0; n < 25; ++n) {

@@ -131,7 +131,7 @@ TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
   for (int n = 0; n < 100; ++n) {
     if (n == 1) before = allocations;
     reliefs.stream.add({grey.data(), 1920, 1080, 1920}, some_analysis(), n, touch, {0.5, 0.5});
-    reliefs.stream.forget();
+    reliefs.stream.clear();
     now_ns += kTick_ns;
     reliefs.loop->tick(now_ns, now_ns);  // which makes room
   }

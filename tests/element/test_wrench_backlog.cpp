@@ -46,7 +46,7 @@ TEST_F(Schedule, KeepsWhatTheLoopHasNoRoomFor) {
 
 TEST_F(Schedule, ForgetsWaitingWrenchesToo) {
   for (int64_t n = 0; n < 5000; ++n) add(n);
-  schedule.forget();
+  schedule.clear();
   for (int64_t n = 0; n < 5; ++n) add(100 * n);
   driver.play(0);
   schedule.forward_waiting();

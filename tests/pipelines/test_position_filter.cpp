@@ -30,7 +30,7 @@ constexpr Habit kVlc{"VLC", 10 * kSecond / 27, -4 * kMs, 114 * kMs};
 class Followed {
  public:
   explicit Followed(const Habit& habit, double rate = 1) : habit_(habit), rate_(rate) {
-    filter_.restart(now_ns_, 0, rate);
+    filter_.reset(now_ns_, 0, rate);
     follows_ns_ = 0;
   }
 
@@ -118,7 +118,7 @@ TEST_P(Players, AreFoundAgainAfterAJump) {
 // It tells of it when it begins to look for it.
 TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
   PositionFilter filter;
-  filter.restart(kBegin, 0, 1);
+  filter.reset(kBegin, 0, 1);
   filter.tell_jump(kBegin, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 50 * kMs), 20 * kSecond + 50 * kMs);
   filter.tell(kBegin + 300 * kMs, 20 * kSecond + 250 * kMs);
@@ -128,7 +128,7 @@ TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
 // A jump to where it is holds VLC up for 80 ms.
 TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
   PositionFilter filter;
-  filter.restart(kBegin, 0, 1);
+  filter.reset(kBegin, 0, 1);
   for (int i = 1; i < 5; ++i) filter.tell(kBegin + i * 300 * kMs, i * 300 * kMs);
   filter.tell_jump(kBegin + 1300 * kMs, 1300 * kMs);
   filter.tell(kBegin + 1600 * kMs, 1520 * kMs);
@@ -138,7 +138,7 @@ TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
 // At the beginning of a film, it first loads.
 TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
   PositionFilter filter;
-  filter.restart(kBegin, 0, 1);
+  filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + kSecond, 40 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 40 * kMs);
 }
@@ -146,7 +146,7 @@ TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
 // What VLC told 0.3 s ago is told until it tells the next one.
 TEST(PositionFilter, GoesOnAtAnotherRateFromWhereItIs) {
   PositionFilter filter;
-  filter.restart(kBegin, 0, 1);
+  filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + kSecond, kSecond);
   filter.change_rate(kBegin + 1300 * kMs, 2);
   filter.tell(kBegin + 1310 * kMs, kSecond);
@@ -167,14 +167,14 @@ TEST(PositionFilter, TheLargestSmallErrorAfterAJumpIsGoneAfterAQuarterOfASecond)
 // VLC says after a pause that it has jumped to the position at which it was paused.
 TEST(PositionFilter, AJumpThatWasNoneChangesNothing) {
   PositionFilter filter;
-  filter.restart(kBegin, 20 * kSecond, 1);
+  filter.reset(kBegin, 20 * kSecond, 1);
   filter.tell_jump(kBegin + 90 * kMs, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 21 * kSecond);
 }
 
 TEST(PositionFilter, OneThatWasHeldUpAloneChangesNothing) {
   PositionFilter filter;
-  filter.restart(kBegin, 0, 1);
+  filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + 500 * kMs, 500 * kMs);
   filter.tell(kBegin + kSecond, 600 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), kSecond);
@@ -184,7 +184,7 @@ TEST(PositionFilter, OneThatWasHeldUpAloneChangesNothing) {
 
 TEST(PositionFilter, TheSamePositionOnceMoreIsNoNews) {
   PositionFilter filter;
-  filter.restart(kBegin, kSecond, 1);
+  filter.reset(kBegin, kSecond, 1);
   for (int i = 1; i < 100; ++i) filter.tell(kBegin + i * 20 * kMs, kSecond);
   EXPECT_EQ(filter.newest_ns(), kBegin);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 2 * kSecond);

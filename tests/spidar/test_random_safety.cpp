@@ -122,7 +122,7 @@ class Round {
                                                  : LinkFault::kWrongReply);
     }
     if (loop_->lost() && fault_ticks_ == 0 && random_.chance(0.05)) {
-      watch_.restart();
+      watch_.reset();
       loop_->reopen();
     }
   }

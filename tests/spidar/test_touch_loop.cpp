@@ -89,7 +89,7 @@ TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
   empty.loop->connect_touch(&nothing);
   released.loop->connect_touch(&taken_back);
   publish_plane(taken_back, 0, 0.02);
-  taken_back.forget();
+  taken_back.clear();
   publish_nothing(taken_back, 0);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -189,7 +189,7 @@ TEST(TouchLoop, HoldsWithoutFramesAndEndsWithPlayback) {
   hand.play(0);
   EXPECT_LE(hand.fastest_m_s(1000), 0.05) << "the surface rises from the grip";
   EXPECT_GT(hand.tick().commanded.force_N.z(), 0.5);
-  hand.mailbox.forget();
+  hand.mailbox.clear();
   EXPECT_EQ(hand.run(50).commanded.stacked().norm(), 0);
   hand.run(1000);
   publish_plane(hand.mailbox, 0, 0.001);

@@ -72,7 +72,7 @@ TEST(TouchMailbox, WhatIsBegunIsNotThereBeforeItIsPublished) {
 TEST(TouchMailbox, AFrameIsOfTheGenerationItWasBegunIn) {
   TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
   const uint32_t before = mailbox.generation();
-  mailbox.forget();
+  mailbox.clear();
   ASSERT_NE(mailbox.begin(before), nullptr);
   mailbox.publish();
   EXPECT_EQ(mailbox.front()->generation, before);
@@ -124,7 +124,7 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   std::atomic<bool> done{false};
   std::thread flusher([&] {
     for (uint32_t n = 0; n < kTimes; ++n) {
-      mailbox.forget();
+      mailbox.clear();
       std::this_thread::yield();
     }
     done = true;

@@ -185,7 +185,7 @@ void expect_fresh_start(Touched& touched, const std::function<void()>& end,
 TEST(TouchRendering, WhatIsForgottenIsGoneAtOnce) {
   Touched touched;
   expect_fresh_start(
-      touched, [&] { touched.mailbox.forget(); },
+      touched, [&] { touched.mailbox.clear(); },
       [&] { publish_plane(touched.mailbox, touched.now_ns, 0); });
 }
 

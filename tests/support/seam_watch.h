@@ -33,7 +33,7 @@ class SeamWatch {
   void see(const Tick& tick, const std::string& where);
 
   /// The device was closed or opened: the motors are at zero.
-  void restart() { told_N_.setZero(); }
+  void reset() { told_N_.setZero(); }
 
   bool failed() const { return failed_; }
 

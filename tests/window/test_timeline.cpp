@@ -46,7 +46,7 @@ TEST(Timeline, PlotsMoreOrFewerSecondsWithinBounds) {
   EXPECT_EQ(timeline.plotted_s(), Timeline::kLeastPlotted_s);
   timeline.zoom(1e9);
   EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s);
-  timeline.forget();
+  timeline.clear();
   EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s) << "the choice stays";
 }
 
@@ -60,7 +60,7 @@ TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {
   const auto at_250_px_s = [&] { return timeline.gain_curve(linear, 250, 2)[1]; };
   // Eq. 12 and 13: in proportion to the largest speed, which is not shown any more.
   EXPECT_NEAR(at_250_px_s(), linear.max_force_N / 2, kRounding);
-  timeline.forget();
+  timeline.clear();
   EXPECT_TRUE(timeline.moments().empty());
   EXPECT_TRUE(timeline.columns(0, 2, 1)[0].is_empty);
   EXPECT_NEAR(at_250_px_s(), linear.max_force_N, kRounding) << "it is the largest now";
@@ -120,7 +120,7 @@ TEST(Timeline, BeginsWithWhatThereIsInFewRoundSteps) {
     timeline.add(moment);
     EXPECT_EQ(timeline.remembered_s(), remembered_s) << at_s;
   }
-  timeline.forget();
+  timeline.clear();
   timeline.zoom(4);
   EXPECT_EQ(timeline.remembered_s(), 20) << "never less than the plots show";
 }

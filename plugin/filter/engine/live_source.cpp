@@ -20,14 +20,14 @@ Wrench scaled(const Wrench& wrench, double fraction) {
 
 }  // namespace
 
-void LiveSource::restart_timing() {
-  restart();
-  pacer_.restart();
+void LiveSource::reset_timing() {
+  reset();
+  pacer_.reset();
   gap_ns_.reset();
 }
 
 void LiveSource::run_out(GstClockTime running_time) {
-  restart();
+  reset();
   if (!is_time(running_time)) return;  // scheduled wrenches expire without help
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
@@ -56,7 +56,7 @@ void LiveSource::end_of_stream() {
 
 /// A frame of another run does not follow the one before.
 void LiveSource::follow(const FrameStamp& stamp) {
-  if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) restart();
+  if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) reset();
 }
 
 /// `shown` in place of the frame's own wrench. Between two pictures, a motion is measured as it is
@@ -97,7 +97,7 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
     return false;
   }
   if (order == FramePacer::Order::kFalling) report.problem = FrameProblem::kFallingTimestamp;
-  if (order != FramePacer::Order::kNext) restart();
+  if (order != FramePacer::Order::kNext) reset();
   return true;
 }
 
@@ -107,7 +107,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   const std::optional<DepthLayout> packed = frame.settings.touch.packed();
   const ImageView picture = packed ? picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
-    restart();
+    reset();
     report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
     return false;
   }
@@ -128,7 +128,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   if (!follows(frame, report)) return;
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
-    restart();
+    reset();
     report.problem = has_size ? FrameProblem::kTooSmall : FrameProblem::kWrongSize;
     return;
   }

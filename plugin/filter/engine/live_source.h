@@ -30,7 +30,7 @@ class LiveSource {
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
   /// The next frame has nothing to do with the one before.
-  void restart() { analyzer_.restart(); }
+  void reset() { analyzer_.reset(); }
   /// Gives what is rendered while the frame is shown, and fills in the report, but for the times of
   /// its frame, or why it cannot be analysed.
   void take(const PassingFrame& frame, FrameReport& report);
@@ -39,7 +39,7 @@ class LiveSource {
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.
-  void restart_timing();
+  void reset_timing();
   /// There are no frames from this running time on, but for those that the decoder holds: the gap
   /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
   void begin_gap(GstClockTime running_time);

@@ -124,7 +124,7 @@ void TrackReplay::cover(int64_t from_ns, int64_t to_ns, bool backwards) {
   append_until(to_ns);
 }
 
-void TrackReplay::forget_beyond(int64_t from_ns, int64_t to_ns) {
+void TrackReplay::clear_beyond(int64_t from_ns, int64_t to_ns) {
   while (window_.size() > 1 && end_of(window_.front()) < from_ns) {
     begin_ns_ = end_of(window_.front());
     window_.pop_front();
@@ -160,7 +160,7 @@ void TrackReplay::play(const FrameStamp& frame,
       give(timed(*block, frame));
       given_ns_ = block->begin_ns;
     }
-    forget_beyond(until_ns - kPiece_ns, at_ns + kKept_ns);
+    clear_beyond(until_ns - kPiece_ns, at_ns + kKept_ns);
   } else {
     cover(at_ns, until_ns, false);
     for (const TrackBlock& block : window_) {
@@ -169,7 +169,7 @@ void TrackReplay::play(const FrameStamp& frame,
       give(timed(block, frame));
       given_ns_ = end_of(block);
     }
-    forget_beyond(at_ns - kKept_ns, INT64_MAX);
+    clear_beyond(at_ns - kKept_ns, INT64_MAX);
   }
 }
 

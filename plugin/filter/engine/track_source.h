@@ -54,7 +54,7 @@ class TrackReplay {
   bool append();
   void append_until(int64_t time_ns);
   void prepend(int64_t from_ns);
-  void forget_beyond(int64_t from_ns, int64_t to_ns);
+  void clear_beyond(int64_t from_ns, int64_t to_ns);
 
   std::shared_ptr<ReadAhead> track_;
   // All blocks that end after begin_ns_ and begin before end_ns_.

@@ -72,14 +72,14 @@ void ReliefStream::disconnect() {
   touched_ = false;
 }
 
-void ReliefStream::forget() {
+void ReliefStream::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (mailbox_) mailbox_->forget();
+  if (mailbox_) mailbox_->clear();
 }
 
 void ReliefStream::set_muted(bool muted) {
   muted_ = muted;
-  if (muted) forget();
+  if (muted) clear();
 }
 
 void ReliefStream::start() {
@@ -220,7 +220,7 @@ void ReliefStream::end(int64_t shown_ns) {
   touched_ = false;
   TouchFrame* const frame = mailbox_->begin(mailbox_->generation());
   if (!frame) {
-    mailbox_->forget();
+    mailbox_->clear();
     return;
   }
   frame->time_ns = shown_ns;

@@ -183,7 +183,7 @@ void DebugWindow::read() {
     sightings_.see(report_);
     follow_choices(film_before);
     // What was learnt is not of it.
-    if (is_anew) timeline_.forget();
+    if (is_anew) timeline_.clear();
   }
   record(frame.has_value());
 }

@@ -61,7 +61,7 @@ std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t co
   return columns;
 }
 
-void Timeline::forget() {
+void Timeline::clear() {
   moments_.clear();
   ticks_.clear();
   largest_speed_px_s_ = 0;

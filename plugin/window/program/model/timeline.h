@@ -46,7 +46,7 @@ class Timeline {
   /// Forces in order of time, of each millisecond where there is a device.
   void add(const ForceTick& tick);
   /// Another stream: nothing of what was recorded concerns it.
-  void forget();
+  void clear();
 
   /// The time of the newest moment. 0 when there is none.
   double newest_s() const { return moments_.empty() ? 0 : moments_.back().time_s; }

@@ -318,7 +318,7 @@ GST_SPIDAR_API bool gst_spidar_motion_analyze(GstSpidarMotion* motion,
                                               GstSpidarMotionResult* result, GstSpidarError* error);
 
 /*! The next picture has nothing to do with the one before: after a seek. */
-GST_SPIDAR_API void gst_spidar_motion_restart(GstSpidarMotion* motion);
+GST_SPIDAR_API void gst_spidar_motion_reset(GstSpidarMotion* motion);
 
 /*! From the next picture on. False, and nothing has changed, when one of the settings is out of
  * range. */

@@ -81,7 +81,7 @@ class GST_SPIDAR_API MotionToWrench {
   MotionResult analyze(const GreyPicture& picture, std::chrono::nanoseconds time);
 
   /// The next picture has nothing to do with the one before: after a seek.
-  void restart();
+  void reset();
 
   /// From the next picture on. Throws std::invalid_argument, and changes nothing, when one of the
   /// settings is out of range.

@@ -172,9 +172,9 @@ class MotionToWrench(_Handle):
         self._checked("motion_analyze", c_bool, byref(grey), time_ns, byref(result))
         return result
 
-    def restart(self):
+    def reset(self):
         """The next picture has nothing to do with the one before."""
-        self._call("motion_restart", None)
+        self._call("motion_reset", None)
 
     def configure(self, **settings):
         """From the next picture on, and the others as before: controller, a Controller; motion, a FeltMotion;
