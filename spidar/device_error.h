@@ -22,8 +22,8 @@ struct SourceLocation {
   }
 };
 
-/// What kind of trouble it is, for programs. The text is for people.
-enum class DeviceTrouble {
+/// Why, for programs. The text is for people.
+enum class DeviceErrorCode {
   kFailed,     ///< it is there, but does not work as it should
   kAbsent,     ///< it is not plugged in, or what it is reached by does not run
   kBusy,       ///< somebody else uses it
@@ -32,36 +32,36 @@ enum class DeviceTrouble {
 };
 
 /// That `error`, an errno, means.
-inline DeviceTrouble trouble_of(int error) noexcept {
+inline DeviceErrorCode error_code_of(int error) noexcept {
   switch (error) {
     case EACCES:
     case EPERM:
-      return DeviceTrouble::kForbidden;
+      return DeviceErrorCode::kForbidden;
     case ENOENT:
     case ENXIO:
     case ENODEV:
-      return DeviceTrouble::kAbsent;
+      return DeviceErrorCode::kAbsent;
     case EBUSY:
     case EWOULDBLOCK:
-      return DeviceTrouble::kBusy;
+      return DeviceErrorCode::kBusy;
     case ENOTTY:  // the file is not of such a device
-      return DeviceTrouble::kSettings;
+      return DeviceErrorCode::kSettings;
     default:
-      return DeviceTrouble::kFailed;
+      return DeviceErrorCode::kFailed;
   }
 }
 
 /// A device that cannot be opened. what() says which, why, and what to do.
 class DeviceError : public std::runtime_error {
  public:
-  explicit DeviceError(const std::string& what, DeviceTrouble trouble = DeviceTrouble::kFailed,
+  explicit DeviceError(const std::string& what, DeviceErrorCode code = DeviceErrorCode::kFailed,
                        SourceLocation location = SourceLocation::here())
-      : std::runtime_error(what), trouble_(trouble), location_(location) {}
-  DeviceTrouble trouble() const noexcept { return trouble_; }
+      : std::runtime_error(what), code_(code), location_(location) {}
+  DeviceErrorCode code() const noexcept { return code_; }
   const SourceLocation& location() const noexcept { return location_; }
 
  private:
-  DeviceTrouble trouble_;
+  DeviceErrorCode code_;
   SourceLocation location_;
 };
 

@@ -116,8 +116,8 @@ std::string device_line(const GstStructure* stats) {
   if (gst_structure_get_int(stats, "faulty-string", &string) && string >= 0) {
     add(text_of("string %d is slack, broken or without encoder", string));
   }
-  const std::string trouble = word_in(stats, "pose-trouble");
-  if (!trouble.empty() && trouble != "none") add("the pose is not known: " + trouble);
+  const std::string fault = word_in(stats, "pose-fault");
+  if (!fault.empty() && fault != "none") add("the pose is not known: " + fault);
   if (const uint64_t n = count_in(stats, "refused-wrenches")) {
     add(text_of("the force of %" PRIu64 " frames was not rendered", n));
   }

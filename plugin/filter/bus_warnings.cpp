@@ -16,7 +16,7 @@
 namespace spidar {
 namespace {
 
-struct ProblemWords {
+struct FaultWords {
   const char* why;      // in the log
   const char* warning;  // null: nothing is reported
   const char* advice;
@@ -24,7 +24,7 @@ struct ProblemWords {
 
 /// In the order of the enumeration. Of the numbers, %1$d is the shortest side of a picture and %2$d
 /// the longest.
-constexpr ProblemWords kProblemWords[] = {
+constexpr FaultWords kFaultWords[] = {
     {"a haptic track is played", nullptr, nullptr},
     {"it has no timestamp",
      "Frames without a timestamp cannot be felt in time; they are only shown.",
@@ -50,16 +50,16 @@ constexpr ProblemWords kProblemWords[] = {
      "Half of the frame is picture and half is depth. Larger frames are felt; with touch=off or "
      "luma, the whole frame is picture."},
 };
-static_assert(std::size(kProblemWords) == static_cast<size_t>(FrameProblem::kSmallHalf) + 1);
+static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameFault::kSmallHalf) + 1);
 
-const ProblemWords& words_for(FrameProblem problem) {
-  return kProblemWords[static_cast<size_t>(problem)];
+const FaultWords& words_for(FrameFault fault) {
+  return kFaultWords[static_cast<size_t>(fault)];
 }
 
 }  // namespace
 
-const char* words_of(FrameProblem problem) {
-  return words_for(problem).why;
+const char* words_of(FrameFault fault) {
+  return words_for(fault).why;
 }
 
 void BusWarnings::start() {
@@ -91,10 +91,10 @@ void BusWarnings::check_trace(int error) {
 
 void BusWarnings::check_frame(const FrameReport& report) {
   check_trace(report.trace_error);
-  const ProblemWords& words = words_for(report.problem);
-  const guint bit = 1u << static_cast<guint>(report.problem);
-  if (!words.warning || (frame_problems_ & bit)) return;
-  frame_problems_ |= bit;
+  const FaultWords& words = words_for(report.fault);
+  const guint bit = 1u << static_cast<guint>(report.fault);
+  if (!words.warning || (frame_faults_ & bit)) return;
+  frame_faults_ |= bit;
   gchar* const warning =
       g_strdup_printf(words.warning, FrameLuma::kSmallestSide, FrameLuma::kLargestSide);
   GST_ELEMENT_WARNING(element_, STREAM, FORMAT, ("%s", warning), ("%s", words.advice));

@@ -21,7 +21,7 @@ class BusWarnings {
   void start();
   /// Another stream: what is wrong with its frames may be.
   void begin_stream() {
-    frame_problems_ = 0;
+    frame_faults_ = 0;
     touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
   }
 
@@ -38,7 +38,7 @@ class BusWarnings {
 
  private:
   GstElement* const element_;
-  guint frame_problems_ = 0;  // bit i: FrameProblem i was reported
+  guint frame_faults_ = 0;  // bit i: FrameFault i was reported
   // Reported:
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
   bool trace_ = false;
@@ -46,6 +46,6 @@ class BusWarnings {
 };
 
 /// Why a frame is not analysed, for the log.
-const char* words_of(FrameProblem problem);
+const char* words_of(FrameFault fault);
 
 }  // namespace spidar

@@ -40,14 +40,14 @@ std::string MotionState::open(const MotionProperties& properties) {
            " is not written: it is of a device, and device=none opens none. trace= writes what "
            "each frame asks for";
   }
-  const std::string trace_problem =
+  const std::string trace_error =
       output.open(properties.device, properties.profile, properties.haptic_trace);
   HapticLoop* const loop = &output.session()->loop();
   schedule.connect(loop);
   track_samples.connect(loop);
   reliefs.connect(loop, output.profile(), GripPointer(output.profile().geometry).half_size_m());
   no_force.set_can_touch(output.session()->grip().abilities().can_touch());
-  return trace_problem;
+  return trace_error;
 }
 
 void MotionState::close() {
@@ -116,7 +116,7 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
   const std::optional<FrameStamp> stamp =
       stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch);
   if (!stamp) {
-    report.problem = FrameProblem::kNotShown;
+    report.fault = FrameFault::kNotShown;
     return;
   }
   if (!is_in_time(*stamp)) return pass_untimed();
@@ -140,7 +140,7 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
 
 /// A frame that cannot be rendered in time.
 void MotionState::pass_untimed() {
-  report.problem = FrameProblem::kNoTimestamp;
+  report.fault = FrameFault::kNoTimestamp;
   live.reset();
 }
 

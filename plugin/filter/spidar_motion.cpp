@@ -107,9 +107,9 @@ static void set_opened(GstSpidarMotion* self, bool opened) {
 }
 
 static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
-  const std::string problem = path ? self->state->display.save_window(path) : "no file is named";
-  if (problem.empty()) return TRUE;
-  GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, problem.c_str());
+  const std::string error = path ? self->state->display.save_window(path) : "no file is named";
+  if (error.empty()) return TRUE;
+  GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, error.c_str());
   return FALSE;
 }
 

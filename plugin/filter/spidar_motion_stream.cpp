@@ -79,7 +79,7 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
 static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.has_wrench()) {
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.problem));
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.fault));
     return;
   }
   const spidar::Frame& found = report.frame;

@@ -42,7 +42,7 @@ FilmTrack track_of(const std::string& path, const Film& film) {
   const std::unique_ptr<OpenTrack> track = open_track(beside);
   const int64_t end_ns = track->duration_ns() ? *track->duration_ns() : find_end(*track);
   const FilmMatch match = match_film(film, end_ns, track->notes());
-  if (!match.problem.empty()) throw std::runtime_error(beside + ": " + match.problem);
+  if (!match.mismatch.empty()) throw std::runtime_error(beside + ": " + match.mismatch);
   return {beside, match.later_ns};
 }
 
@@ -50,10 +50,10 @@ GstElement* parse(const char* line) {
   GError* error = nullptr;
   GstElement* const pipeline = gst_parse_launch(line, &error);
   if (!error) return pipeline;
-  const std::string problem = error->message;
+  const std::string what = error->message;
   g_clear_error(&error);
   gst_clear_object(const_cast<GstElement**>(&pipeline));
-  throw std::runtime_error(problem);
+  throw std::runtime_error(what);
 }
 
 /// The first stream that is a haptic track is felt.

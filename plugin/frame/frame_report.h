@@ -20,7 +20,7 @@
 
 namespace spidar {
 
-enum class FrameProblem {
+enum class FrameFault {
   kNone,
   kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be rendered in time
   kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
@@ -59,7 +59,7 @@ struct OwnedPoint {
 /// The steps of the element fill it in, one after the other; message, metas, trace, overlay and
 /// window read it.
 struct FrameReport {
-  FrameProblem problem = FrameProblem::kNone;
+  FrameFault fault = FrameFault::kNone;
   bool analyzed = false;
   /// The file of the haptic track that is played; null: none. Then nothing of the frame is
   /// measured.

@@ -15,24 +15,24 @@
 
 namespace spidar {
 
-inline GstResourceError resource_error(DeviceTrouble trouble) {
-  switch (trouble) {
-    case DeviceTrouble::kAbsent:
+inline GstResourceError resource_error(DeviceErrorCode code) {
+  switch (code) {
+    case DeviceErrorCode::kAbsent:
       return GST_RESOURCE_ERROR_NOT_FOUND;
-    case DeviceTrouble::kBusy:
+    case DeviceErrorCode::kBusy:
       return GST_RESOURCE_ERROR_BUSY;
-    case DeviceTrouble::kForbidden:
+    case DeviceErrorCode::kForbidden:
       return GST_RESOURCE_ERROR_NOT_AUTHORIZED;
-    case DeviceTrouble::kSettings:
+    case DeviceErrorCode::kSettings:
       return GST_RESOURCE_ERROR_SETTINGS;
-    case DeviceTrouble::kFailed:
+    case DeviceErrorCode::kFailed:
       break;
   }
   return GST_RESOURCE_ERROR_OPEN_READ_WRITE;
 }
 
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
-/// A device that cannot be used is RESOURCE with the code of its trouble, a wrong profile or number
+/// A device that cannot be used is RESOURCE with the code of its code, a wrong profile or number
 /// RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of the
 /// source that found it, or `location` where the exception does not say, and ends with `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
@@ -44,7 +44,7 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
   gint code = GST_LIBRARY_ERROR_FAILED;
   if (is_setting) code = GST_RESOURCE_ERROR_SETTINGS;
   if (device) {
-    code = resource_error(device->trouble());
+    code = resource_error(device->code());
     location = device->location();
   }
   // As the macros of GStreamer that post a message also log it.

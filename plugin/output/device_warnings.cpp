@@ -56,11 +56,11 @@ void DeviceWarnings::post(const char* state, const std::string& device,
 bool DeviceWarnings::open(HapticOutput& output, const std::string& device, OnDeviceError policy,
                           const std::function<std::string()>& opens) const {
   try {
-    const std::string trace_problem = opens();
+    const std::string trace_error = opens();
     GST_INFO_OBJECT(element_, "opened device '%s' with profile '%s'", device.c_str(),
                     output.profile().name.c_str());
-    if (!trace_problem.empty()) {
-      GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", trace_problem.c_str()),
+    if (!trace_error.empty()) {
+      GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", trace_error.c_str()),
                           ("%s and the force continue without it.", what_.c_str()));
     }
     check_opened(output.session(), output.chosen());
@@ -89,9 +89,9 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   if (!session) return;
   const Grip& grip = session->grip();
   post("opened", grip.name(), chosen.empty() ? session->opened() : chosen);
-  const std::string trouble = session->vibration_trouble();
-  if (!trouble.empty())
-    GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_READ_WRITE, ("%s", trouble.c_str()),
+  const std::string error = session->vibration_error();
+  if (!error.empty())
+    GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_READ_WRITE, ("%s", error.c_str()),
                         ("A file that can be read and written there is enough."));
   const GripAbilities can = grip.abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
@@ -160,7 +160,7 @@ void DeviceWarnings::check_pose(const LoopSnapshot& loop, bool has_strings) {
     GST_ELEMENT_WARNING(
         element_, RESOURCE, READ,
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
-         to_string(loop.last.trouble)),
+         to_string(loop.last.pose_fault)),
         ("%s", has_strings
                    ? "The strings have their minimum tension. Possible causes: slack strings, dead "
                      "encoders, or a grip that was not at the centre when the device was opened: "

@@ -44,7 +44,7 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
       "missed-ticks", G_TYPE_UINT64, counters.missed_deadlines, "gap-ticks", G_TYPE_UINT64,
       counters.gap_ticks, "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors",
       G_TYPE_UINT64, counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost,
-      "pose-trouble", G_TYPE_STRING, to_string(snapshot.last.trouble), "motor-heat", G_TYPE_DOUBLE,
+      "pose-fault", G_TYPE_STRING, to_string(snapshot.last.pose_fault), "motor-heat", G_TYPE_DOUBLE,
       snapshot.last.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.last.held_back ? TRUE : FALSE,
       "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
       snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
@@ -145,10 +145,10 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
   if (device != kAutoDevice) return open_named(device, profile_name, haptic_trace);
   std::string refused;
   const auto choose = [&](const AutoDevice& found, const std::string& profile) {
-    const std::string trace_problem = open_named(found.device, profile, haptic_trace);
+    const std::string trace_error = open_named(found.device, profile, haptic_trace);
     const std::lock_guard<std::mutex> lock(mutex_);
     chosen_ = found.why + " (device=auto)" + refused;
-    return trace_problem;
+    return trace_error;
   };
   for (const AutoDevice& found : auto_devices()) {
     if (!found.why_not.empty()) {
@@ -178,13 +178,13 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     return std::make_unique<HapticSession>(grip_for(device, profile, settings.threaded, simulated),
                                            settings);
   };
-  std::string trace_problem;
+  std::string trace_error;
   std::unique_ptr<CardReservation> reservation = reserve(element_, device);
   std::unique_ptr<HapticSession> session;
   try {
     session = make_session();
   } catch (const TraceError& error) {
-    trace_problem = error.what();
+    trace_error = error.what();
     settings.trace_path.clear();
     session = make_session();
   }
@@ -210,7 +210,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     simulated_ = simulated;
   }
   set_max_force(max_force_N);
-  return trace_problem;
+  return trace_error;
 }
 
 void HapticOutput::close() {

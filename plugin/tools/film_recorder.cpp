@@ -104,8 +104,8 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   if (!is_same_file(at_first, at_last)) {
     throw std::runtime_error("it was changed while it was read: wait until it is complete");
   }
-  const std::string problem = watch.problem(error);
-  if (!problem.empty()) throw std::runtime_error(problem);
+  const std::string why = watch.why_ended(error);
+  if (!why.empty()) throw std::runtime_error(why);
   if (film_end(film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   stored.check(track);
   return {watch.felt(), watch.remark()};

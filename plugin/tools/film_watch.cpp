@@ -138,11 +138,11 @@ void FilmWatch::play(const FilePipeline& file) const {
     error = ended.what();
   }
   file.stop();
-  const std::string what = problem(error);
+  const std::string what = why_ended(error);
   if (!what.empty()) throw std::runtime_error(what);
 }
 
-std::string FilmWatch::problem(const std::string& error) const {
+std::string FilmWatch::why_ended(const std::string& error) const {
   const std::lock_guard<std::mutex> lock(lock_);
   if (!has_video_) {
     return missing_.empty() ? "there is no video in it" + why_no_video_

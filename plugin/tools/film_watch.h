@@ -33,7 +33,7 @@ class FilmWatch {
   void play(const FilePipeline& file) const;
   /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
   /// says what is wrong with the film, or nothing. A film of fewer than two frames is wrong, too.
-  std::string problem(const std::string& error) const;
+  std::string why_ended(const std::string& error) const;
   /// What is to be known of the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
   /// What fraction of its frames is felt, and the commonest reason of the others, in whole

@@ -80,36 +80,36 @@ int check_track(const CheckOptions& options) {
   const auto [found, summary] = summarise(options.track);
   const std::string& path = found.track;
   const TrackFaults& faults = found.faults;
-  int problems = 0;
-  const auto problem = [&problems, &path]() -> std::ostream& {
-    ++problems;
+  int count = 0;
+  const auto fault = [&count, &path]() -> std::ostream& {
+    ++count;
     return std::cout << path << ": ";
   };
-  if (!found.other.empty()) problem() << "is that of another film: " << found.other << '\n';
-  if (!found.missing.empty()) problem() << found.missing << '\n';
-  if (faults.not_finite > 0) problem() << faults.not_finite << " samples are not numbers\n";
-  if (faults.beyond_full > 0) problem() << faults.beyond_full << " samples are beyond full scale\n";
+  if (!found.other.empty()) fault() << "is that of another film: " << found.other << '\n';
+  if (!found.missing.empty()) fault() << found.missing << '\n';
+  if (faults.not_finite > 0) fault() << faults.not_finite << " samples are not numbers\n";
+  if (faults.beyond_full > 0) fault() << faults.beyond_full << " samples are beyond full scale\n";
   if (summary.largest_force_N > options.max_force_N) {
-    problem() << "the largest force is " << summary.largest_force_N << " N, more than "
-              << options.max_force_N << " N\n";
+    fault() << "the largest force is " << summary.largest_force_N << " N, more than "
+            << options.max_force_N << " N\n";
   }
   if (summary.largest_torque_Nm > options.max_torque_Nm) {
-    problem() << "the largest torque is " << summary.largest_torque_Nm << " N m, more than "
-              << options.max_torque_Nm << " N m\n";
+    fault() << "the largest torque is " << summary.largest_torque_Nm << " N m, more than "
+            << options.max_torque_Nm << " N m\n";
   }
   if (summary.steepest_N_s > kMaxSlew_N_s) {
-    problem() << "the force changes by " << summary.steepest_N_s << " N/s, more than "
-              << kMaxSlew_N_s << " N/s\n";
+    fault() << "the force changes by " << summary.steepest_N_s << " N/s, more than " << kMaxSlew_N_s
+            << " N/s\n";
   }
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double fraction = summary.channels[i].above_30_Hz;
     if (fraction > kMostFast) {
-      problem() << 100 * fraction << " % of the energy of " << channel_name(i)
-                << " is above 30 Hz: is it sound for ears?\n";
+      fault() << 100 * fraction << " % of the energy of " << channel_name(i)
+              << " is above 30 Hz: is it sound for ears?\n";
     }
   }
   const bool is_silent = summary.felt == 0;
-  if (problems == 0 && !is_silent) std::cout << path << ": ok\n";
+  if (count == 0 && !is_silent) std::cout << path << ": ok\n";
   const std::string least =
       as_text(kFeltForce_N) + " N and " + as_text(kFeltForce_N * kTorqueArm_m) + " N m";
   std::cout << path << ": " << std::lround(100 * summary.felt) << " % of it is felt"
@@ -117,7 +117,7 @@ int check_track(const CheckOptions& options) {
                 : summary.felt < 1 ? "; in the rest force and torque are below " + least
                                    : "")
             << '\n';
-  return problems == 0 && !is_silent ? kDone : kFailed;
+  return count == 0 && !is_silent ? kDone : kFailed;
 }
 
 }  // namespace spidar

@@ -74,7 +74,7 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
   found.notes = track->notes();
   if (found.track != path) {
     const FilmMatch match = match_film(film, end_ns, found.notes);
-    found.other = match.problem;
+    found.other = match.mismatch;
     found.later_ns = match.later_ns;
   }
 }

@@ -51,14 +51,14 @@ std::string why_no_browser(const std::string& film) {
   // Subtitles may come late, and are not looked at.
   constexpr GstClockTime kLongest = 2 * GST_SECOND;
   std::mutex mutex;  // outlive the pipeline
-  std::string problem;
+  std::string error;
   int known = 0;
   FilePipeline file("filesrc name=source ! parsebin name=parse", film);
   GstElement* const parser = file.find("parse");
   file.link_streams([&](GstPad* pad) -> GstElement* {
     const std::string why = why_not_played(pad);
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!why.empty()) problem = why;
+    if (!why.empty()) error = why;
     if (++known == parser->numsrcpads || !why.empty()) {
       gst_element_post_message(parser, gst_message_new_application(
                                            GST_OBJECT(parser), gst_structure_new_empty("known")));
@@ -68,10 +68,10 @@ std::string why_no_browser(const std::string& film) {
   // Streams that are added one by one may be more than those that are known.
   while (file.play_until(GST_MESSAGE_APPLICATION, kLongest) == GST_MESSAGE_APPLICATION) {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (!problem.empty()) break;
+    if (!error.empty()) break;
   }
   file.stop();
-  return problem;
+  return error;
 }
 
 std::string convert_for_browsers(const std::string& film, const PartFile& part) {

@@ -82,8 +82,8 @@ class TrackOfFile : public OpenTrack {
   /// Reads the first part. Throws as open_track().
   void begin() {
     file_.play_until(GST_MESSAGE_APPLICATION);
-    if (const std::string problem = blocks_->problem(); !problem.empty()) {
-      throw std::runtime_error(problem);
+    if (const std::string error = blocks_->error(); !error.empty()) {
+      throw std::runtime_error(error);
     }
     if (is_chosen_ && !only_notes_ && first_ns_ == INT64_MAX)
       throw std::runtime_error("there are no samples in it.");
@@ -129,8 +129,8 @@ class TrackOfFile : public OpenTrack {
       const ReadAhead::Found found = blocks_->take(
           block, ReadAhead::Time::clock::now() + std::chrono::nanoseconds(FilePipeline::kLook));
       if (found == ReadAhead::Found::kBlock) return true;
-      const std::string problem = blocks_->problem();
-      if (!problem.empty()) throw std::runtime_error(problem);
+      const std::string error = blocks_->error();
+      if (!error.empty()) throw std::runtime_error(error);
       if (found == ReadAhead::Found::kEnd) return false;
       file_.check(progress);
     }
@@ -154,8 +154,8 @@ class TrackOfFile : public OpenTrack {
   }
 
   /// Ends reading before the end of the file.
-  void fail(GstElement* element, const std::string& problem) {
-    blocks_->end(problem);
+  void fail(GstElement* element, const std::string& error) {
+    blocks_->end(error);
     give_up(element);
   }
 
@@ -232,7 +232,7 @@ class TrackOfFile : public OpenTrack {
   /// Runs in the streaming thread of the pipeline that reads the file.
   static void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     auto& self = *static_cast<TrackOfFile*>(user);
-    if (!self.blocks_->problem().empty()) return;
+    if (!self.blocks_->error().empty()) return;
     GstEvent* const segment = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
     if (!segment) {  // wavparse then goes on for ever
       return self.fail(GST_PAD_PARENT(pad), "its head is damaged: no chunk of samples is found");
@@ -240,11 +240,10 @@ class TrackOfFile : public OpenTrack {
     gst_event_unref(segment);
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
     if (caps.get() != self.caps_.get()) {  // also in the middle of a stream
-      std::string problem = self.input_.set_caps(caps.get());
-      if (problem.empty() && self.wanted_ == Wanted::kFirstSound)
-        problem = why_unmarked(caps.get());
+      std::string error = self.input_.set_caps(caps.get());
+      if (error.empty() && self.wanted_ == Wanted::kFirstSound) error = why_unmarked(caps.get());
       self.caps_.reset(gst_caps_ref(caps.get()));
-      if (!problem.empty()) return self.fail(GST_PAD_PARENT(pad), problem);
+      if (!error.empty()) return self.fail(GST_PAD_PARENT(pad), error);
       if (self.only_notes_) return give_up(GST_PAD_PARENT(pad));
     }
     if (self.only_notes_) return;

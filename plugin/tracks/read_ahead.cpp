@@ -21,18 +21,18 @@ bool ReadAhead::put(const TrackBlock& block, const TrackFaults& faults) {
   return true;
 }
 
-void ReadAhead::end_pass(const std::string& problem) {
+void ReadAhead::end_pass(const std::string& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_wanted()) set_end(problem);
+  if (is_wanted()) set_end(error);
 }
 
-void ReadAhead::end(const std::string& problem) {
+void ReadAhead::end(const std::string& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  set_end(problem);
+  set_end(error);
 }
 
-void ReadAhead::set_end(const std::string& problem) {
-  if (problem_.empty()) problem_ = problem;
+void ReadAhead::set_end(const std::string& error) {
+  if (error_.empty()) error_ = error;
   ended_ = true;
   changed_.notify_all();
 }
@@ -61,7 +61,7 @@ void ReadAhead::seek(int64_t time_ns) {
   ++wanted_pass_;
   sought_ns_ = time_ns - later_ns_;
   blocks_.clear();
-  ended_ = !problem_.empty();
+  ended_ = !error_.empty();
   changed_.notify_all();
 }
 
@@ -81,14 +81,14 @@ ReadAhead::Found ReadAhead::take(TrackBlock& block, Time limit) {
   return Found::kBlock;
 }
 
-std::string ReadAhead::problem() const {
+std::string ReadAhead::error() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return problem_;
+  return error_;
 }
 
 bool ReadAhead::has_failed() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return !problem_.empty() && blocks_.empty();
+  return !error_.empty() && blocks_.empty();
 }
 
 bool ReadAhead::was_late() const {

@@ -35,11 +35,11 @@ class ReadAhead {
   /// Waits for room. Blocks before the position that was sought, and such as do not rise, are left
   /// out. False when nothing more of this pass is wanted.
   bool put(const TrackBlock& block, const TrackFaults& faults);
-  /// The file ends here; `problem` says so if it should not. Nothing, when nothing more of this
+  /// The file ends here; `error` says so if it should not. Nothing, when nothing more of this
   /// pass was wanted.
-  void end_pass(const std::string& problem);
-  /// It cannot be read further. What has ended with a problem stays so.
-  void end(const std::string& problem);
+  void end_pass(const std::string& error);
+  /// It cannot be read further. What has ended with an error stays so.
+  void end(const std::string& error);
   /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
   /// What comes from now on is read from the position that await_seek() returned last.
@@ -50,7 +50,7 @@ class ReadAhead {
   using Time = std::chrono::steady_clock::time_point;
   enum class Found {
     kBlock,
-    kEnd,  ///< there is no more, see problem()
+    kEnd,  ///< there is no more, see error()
     kLate  ///< it is not there yet
   };
 
@@ -64,8 +64,8 @@ class ReadAhead {
   // --- any thread
 
   /// Why the file could not be read to its end; empty as long as it could.
-  std::string problem() const;
-  /// Whether all has been taken that could be read before a problem.
+  std::string error() const;
+  /// Whether all has been taken that could be read before an error.
   bool has_failed() const;
   /// Whether take() has waited in vain.
   bool was_late() const;
@@ -78,7 +78,7 @@ class ReadAhead {
 
  private:
   void set(bool& flag, bool value);
-  void set_end(const std::string& problem);  // while it is locked
+  void set_end(const std::string& error);  // while it is locked
   bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
   bool is_full() const;
 
@@ -86,7 +86,7 @@ class ReadAhead {
   std::condition_variable changed_;
   std::deque<TrackBlock> blocks_;
   bool ended_ = false, late_ = false, interrupted_ = false, stopped_ = false;
-  std::string problem_;
+  std::string error_;
   TrackFaults faults_;
   int64_t later_ns_ = 0;
   int64_t sought_ns_ = 0;        // in the file

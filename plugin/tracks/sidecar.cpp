@@ -93,7 +93,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
   if (!fingerprint.empty()) {
     const std::optional<int64_t> later_ns = find_picture(fingerprint, film.packets);
     if (!later_ns) {
-      match.problem = kOtherPictures;
+      match.mismatch = kOtherPictures;
       return match;
     }
     match.later_ns = *later_ns;
@@ -106,7 +106,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes
   // Sound may be longer than the pictures.
   const bool is_short = film.end_ns && missing_ns > tolerance_ns;
   if (end_ns != 0 && (is_short || -missing_ns > tolerance_ns)) {
-    match.problem =
+    match.mismatch =
         "the track lasts " + seconds_text(track_ns) + ", the film " + seconds_text(end_ns);
   }
   return match;

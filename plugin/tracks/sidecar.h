@@ -36,7 +36,7 @@ std::string why_not_played(const std::string& film, const std::string& track);
 extern const char* const kOtherPictures;
 
 struct FilmMatch {
-  std::string problem;   ///< empty, or why the track is not that of the film
+  std::string mismatch;  ///< empty, or why the track is not that of the film
   int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
 };
 

@@ -105,9 +105,9 @@ HapticOutput& gst_spidar_sink_output(GstSpidarSink* self) {
 
 static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  const std::string problem = self->state->input.set_caps(caps);
-  if (problem.empty()) return TRUE;
-  GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", problem.c_str()),
+  const std::string error = self->state->input.set_caps(caps);
+  if (error.empty()) return TRUE;
+  GST_ELEMENT_ERROR(self, STREAM, WRONG_TYPE, ("%s", error.c_str()),
                     ("caps %" GST_PTR_FORMAT, static_cast<void*>(caps)));
   return FALSE;
 }
@@ -241,10 +241,10 @@ static bool open_device(GstSpidarSink* self) {
   SinkState& state = *self->state;
   return state.warnings.open(
       state.output, properties.device, properties.on_device_error, [&state, &properties] {
-        const std::string trace_problem =
+        const std::string trace_error =
             state.output.open(properties.device, properties.profile, properties.haptic_trace);
         state.queue.connect(&state.output.session()->loop());
-        return trace_problem;
+        return trace_error;
       });
 }
 

@@ -40,8 +40,8 @@ std::string clause(std::string sentence) {
   return sentence;
 }
 
-/// Opens the track, and compares it with the film. Null when there is none, or `loaded` has a
-/// problem.
+/// Opens the track, and compares it with the film. Null when there is none, or `loaded` has an
+/// error.
 std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::string& film,
                                       const std::atomic<bool>* stopped, LoadedTrack& loaded) {
   loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
@@ -53,12 +53,12 @@ std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::stri
   const bool is_inside = loaded.path == film;
   loaded.is_compared = is_inside || read;
   loaded.blocks = track->blocks();
-  loaded.problem = track->missing(track->duration_ns().value_or(INT64_MAX));
-  if (is_inside || !loaded.problem.empty()) return track;
+  loaded.error = track->missing(track->duration_ns().value_or(INT64_MAX));
+  if (is_inside || !loaded.error.empty()) return track;
   loaded.duration_ns = track->duration_ns() ? *track->duration_ns() : find_end(*track);
   if (!read) return track;
   const FilmMatch match = match_film(*read, loaded.duration_ns, track->notes());
-  loaded.problem = match.problem;
+  loaded.error = match.mismatch;
   loaded.blocks->set_later(match.later_ns);
   return track;
 }
@@ -119,9 +119,9 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
       track = load_track(wanted, film, &reading->stopped, loaded);
     } catch (const std::exception& error) {
       if (loaded.path.empty()) loaded.path = wanted;
-      loaded.problem = clause(error.what());
+      loaded.error = clause(error.what());
     }
-    const bool is_played = track && loaded.problem.empty();
+    const bool is_played = track && loaded.error.empty();
     reading->set_opened(loaded);
     while (is_played) {
       const std::optional<int64_t> position_ns = loaded.blocks->await_seek();
@@ -135,7 +135,7 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
     thread_ = start_thread("spidar-track", std::move(read));
   } catch (const std::system_error& error) {
     reading->loaded.path = wanted == "auto" ? film : wanted;
-    reading->loaded.problem = std::string("the system gives no thread to read it: ") + error.what();
+    reading->loaded.error = std::string("the system gives no thread to read it: ") + error.what();
     reading->opened = reading->done = true;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -194,13 +194,13 @@ void TrackLoader::stop() {
 std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns) {
   if (loaded.path.empty()) return nullptr;
   GstElement* const element = element_;
-  std::string problem = loaded.problem;
-  if (problem.empty() && !loaded.is_compared) {
+  std::string error = loaded.error;
+  if (error.empty() && !loaded.is_compared) {
     GstPad* pad = gst_element_get_static_pad(element, "sink");
-    problem = other_film(pad, loaded.duration_ns, frame_ns);
+    error = other_film(pad, loaded.duration_ns, frame_ns);
     gst_object_unref(pad);
   }
-  if (problem.empty()) {
+  if (error.empty()) {
     name_unused(element, loaded.path);
     path_ = loaded.path;
     blocks_ = loaded.blocks;
@@ -208,10 +208,9 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
     warnings_.start();
     return blocks_;
   }
-  GST_ELEMENT_WARNING(
-      element, RESOURCE, SETTINGS,
-      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), problem.c_str()),
-      ("The video is analysed in its place."));
+  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
+                      ("The haptic track %s is not felt: %s.", loaded.path.c_str(), error.c_str()),
+                      ("The video is analysed in its place."));
   return nullptr;
 }
 
@@ -229,7 +228,7 @@ bool FeltTrack::check() {
   if (!blocks_->has_failed()) return true;
   GST_ELEMENT_WARNING(element, RESOURCE, READ,
                       ("The haptic track %s is not felt any further: %s.", path_.c_str(),
-                       clause(blocks_->problem()).c_str()),
+                       clause(blocks_->error()).c_str()),
                       ("The video is analysed in its place."));
   reset();
   return false;

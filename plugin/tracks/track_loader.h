@@ -25,7 +25,7 @@ struct LoadedTrack {
   std::string path;                   ///< empty: there is none
   std::shared_ptr<ReadAhead> blocks;  ///< null when the file cannot be read
   int64_t duration_ns = 0;
-  std::string problem;       ///< why it cannot be used; empty when it can
+  std::string error;         ///< why it cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
 };
 

@@ -43,7 +43,7 @@ class Window::Session {
 
   /// The thread, until the window is gone.
   void run();
-  void fail(const std::string& problem);
+  void fail(const std::string& error);
 
   void close();
   bool wants_frame() const { return is_asking_ && !is_full_; }
@@ -63,7 +63,7 @@ class Window::Session {
   void answer(Channel& channel);
   void free_slot(const SlotFree& free);
   void finish(const WindowEnd& end);
-  void end_waiting(const std::string& problem);
+  void end_waiting(const std::string& error);
   std::shared_ptr<PictureSlots> slots_for(const GstVideoFrame& frame);
   void wake() const { eventfd_write(wake_, 1); }
 
@@ -85,7 +85,7 @@ class Window::Session {
   bool is_closing_ = false;
   bool is_gone_ = false;
   uint64_t pictures_asked_ = 0, pictures_taken_ = 0;
-  std::string picture_problem_;
+  std::string picture_error_;
 };
 
 // --- streaming thread --------------------------------------------------------------------------
@@ -150,16 +150,16 @@ std::string Window::Session::take_picture(const std::string& path,
   wake();
   const auto is_taken = [&] { return pictures_taken_ >= number || is_gone_; };
   if (!changed_.wait_for(lock, timeout, is_taken)) return "the debug window does not answer";
-  return pictures_taken_ >= number ? picture_problem_ : kNotOpen;
+  return pictures_taken_ >= number ? picture_error_ : kNotOpen;
 }
 
 // --- the thread --------------------------------------------------------------------------------
 
 void Window::Session::run() {
   WindowProcess process;
-  const std::string problem =
+  const std::string error =
       wake_ < 0 ? std::string("no eventfd: ") + std::strerror(errno) : process.start();
-  if (!problem.empty()) return fail(problem);
+  if (!error.empty()) return fail(error);
   bool is_understood = false, has_left = false;
   {
     Channel channel(process.socket());
@@ -174,9 +174,9 @@ void Window::Session::run() {
 }
 
 /// The window was not even started.
-void Window::Session::fail(const std::string& problem) {
+void Window::Session::fail(const std::string& error) {
   has_failed_ = true;
-  source_->warn("The debug window cannot be started: " + problem + ".",
+  source_->warn("The debug window cannot be started: " + error + ".",
                 "Is spidar-window installed, or named in SPIDAR_WINDOW?");
   finish({false, ""});
 }
@@ -267,17 +267,17 @@ void Window::Session::handle(Channel& channel, FromWindow&& message) {
   } else if (const auto* seek = std::get_if<SeekFilm>(&message)) {
     source_->seek(seek->to_ns);
   } else if (const auto* taken = std::get_if<PictureTaken>(&message)) {
-    end_waiting(taken->problem);
+    end_waiting(taken->error);
   } else if (const auto* failed = std::get_if<CannotOpen>(&message)) {
     has_failed_ = true;
     source_->warn(failed->what, failed->advice);
   }
 }
 
-void Window::Session::end_waiting(const std::string& problem) {
+void Window::Session::end_waiting(const std::string& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++pictures_taken_;
-  picture_problem_ = problem;
+  picture_error_ = error;
   changed_.notify_all();
 }
 

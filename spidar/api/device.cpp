@@ -235,13 +235,13 @@ void Device::clear_surface() {
 
 std::optional<Pose> Device::pose() const {
   const auto snapshot = impl_->snapshot();
-  if (!snapshot || snapshot->last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  if (!snapshot || snapshot->last.pose_fault != spidar::PoseFault::kNone) return std::nullopt;
   return to_api(snapshot->last.pose);
 }
 
 std::optional<Vector3> Device::velocity() const {
   const auto snapshot = impl_->snapshot();
-  if (!snapshot || snapshot->last.trouble != spidar::PoseTrouble::kNone) return std::nullopt;
+  if (!snapshot || snapshot->last.pose_fault != spidar::PoseFault::kNone) return std::nullopt;
   const Eigen::Vector3d& velocity_m_s = snapshot->last.velocity.linear_m_s;
   return Vector3{velocity_m_s.x(), velocity_m_s.y(), velocity_m_s.z()};
 }
@@ -308,8 +308,8 @@ std::string Device::last_fault() const {
 std::string Device::warning() const {
   const Driven* const mine = impl_->driven.get();
   if (!mine) return {};
-  const std::string trouble = mine->session.vibration_trouble();
-  return trouble.empty() ? mine->session.grip().warning() : trouble;
+  const std::string error = mine->session.vibration_error();
+  return error.empty() ? mine->session.grip().warning() : error;
 }
 
 Capabilities Device::capabilities() const {

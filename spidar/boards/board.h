@@ -123,10 +123,9 @@ inline ForceOutput scaled(ForceOutput output, double fraction) noexcept {
 
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
-  PoseTrouble trouble =
-      PoseTrouble::kNoReading;  ///< why the position is not a number, if it is not
-  uint32_t buttons = 0;         ///< those that are pressed; the first one is the lowest bit
-  int64_t lag_ns = 0;           ///< from a force to when it acts, as the device reports it
+  PoseFault pose_fault = PoseFault::kNoReading;  ///< why the position is not a number, if it is not
+  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
+  int64_t lag_ns = 0;    ///< from a force to when it acts, as the device reports it
 };
 
 /// Shortens a force that it cannot give, and gives none for one that is not a number.

@@ -44,7 +44,7 @@ void require_fitting(const std::string& device, const Profile& profile, const Bo
   const std::string why = misfit(profile, board);
   if (!why.empty())
     throw DeviceError(device + ": profile \"" + profile.name + "\" " + why,
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
 }
 
 }  // namespace spidar

@@ -41,10 +41,10 @@ inline int64_t soon_ns() noexcept {
 /// "usb:1-2: does not answer: stall"
 inline DeviceError no_answer(const std::string& board, LinkFault fault,
                              SourceLocation location = SourceLocation::here()) {
-  return DeviceError(board + ": does not answer as it should: " + to_string(fault) +
-                         "; switch it off and on, and check cable and supply",
-                     fault == LinkFault::kGone ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed,
-                     location);
+  return DeviceError(
+      board + ": does not answer as it should: " + to_string(fault) +
+          "; switch it off and on, and check cable and supply",
+      fault == LinkFault::kGone ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed, location);
 }
 
 /// Tries the first exchange up to three times, because it may first receive data that an earlier

@@ -37,13 +37,13 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
                           ": " + error.what() +
                           "; SPIDAR_FALCON_FIRMWARE names the file, which is "
                           "firmware/nvent_firmware.bin in the sources of libnifalcon",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   }
   const std::vector<uint8_t> firmware(text.begin(), text.end());
   if (firmware.empty() || firmware.size() > kMostFirmware)
     throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
                           " bytes and is no firmware of a Falcon, which has some 8 kB",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   return firmware;
 }
 
@@ -184,7 +184,7 @@ LinkFault FalconBoard::cycle(const ForceOutput& output, ForceReading& reading,
   see();
   reading.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (position_) reading.position_m = position_->position_m;
-  reading.trouble = seen_.all_homed() ? PoseTrouble::kNoFit : PoseTrouble::kNotHomed;
+  reading.pose_fault = seen_.all_homed() ? PoseFault::kNoFit : PoseFault::kNotHomed;
   reading.buttons = seen_.buttons;
   return LinkFault::kNone;
 }

@@ -30,11 +30,11 @@ class ForceGrip final : public Grip {
     reading_.delivered = {};
     reading_.pose = {};
     reading_.motion.reset();
-    reading_.trouble = trust_.trouble();
+    reading_.pose_fault = trust_.fault();
   }
   void check_age(int64_t now_ns) noexcept override {
     trust_.check_age(now_ns);
-    reading_.trouble = trust_.trouble();
+    reading_.pose_fault = trust_.fault();
   }
   LinkFault exchange(const GripCommand& command) noexcept override {
     const ForceOutput output = output_for(command);
@@ -48,7 +48,7 @@ class ForceGrip final : public Grip {
       trust_.miss(command.now_ns);
       if (!trust_.trusted()) reading_.motion.reset();
     }
-    reading_.trouble = trust_.trouble();
+    reading_.pose_fault = trust_.fault();
     return fault;
   }
   const GripReading& reading() const noexcept override { return reading_; }
@@ -82,16 +82,16 @@ class ForceGrip final : public Grip {
   void see(const ForceReading& answer, const GripCommand& command) noexcept {
     reading_.buttons = answer.buttons;
     reading_.lag_ns = answer.lag_ns;
-    const PoseTrouble trouble = judge(answer, command.now_ns);
-    if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
+    const PoseFault fault = judge(answer, command.now_ns);
+    if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
       reading_.pose.position_m = answer.position_m;
       trust_.locate(command.now_ns);
     }
-    if (trouble == PoseTrouble::kNone) {
+    if (fault == PoseFault::kNone) {
       trust_.succeed(command.wrench.stacked().isZero(0));
     } else {
       ++reading_.pose_errors;
-      trust_.fail(trouble, trouble == PoseTrouble::kJump);
+      trust_.fail(fault, fault == PoseFault::kJump);
     }
     if (trust_.trusted())
       reading_.motion.see(reading_.pose, trust_.located_ns());
@@ -99,11 +99,10 @@ class ForceGrip final : public Grip {
       reading_.motion.reset();
   }
   /// A stick is no hand: it snaps back, and its driver reports seldom.
-  PoseTrouble judge(const ForceReading& answer, int64_t now_ns) const noexcept {
-    if (!answer.position_m.allFinite()) return answer.trouble;
+  PoseFault judge(const ForceReading& answer, int64_t now_ns) const noexcept {
+    if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double way_m = (answer.position_m - reading_.pose.position_m).norm();
-    return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump
-                                                            : PoseTrouble::kNone;
+    return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseFault::kJump : PoseFault::kNone;
   }
 
   const ForceBoard& board_;  // of the link

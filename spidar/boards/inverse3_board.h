@@ -38,7 +38,7 @@ class Inverse3Board final : public ForceBoard {
     if (fault == LinkFault::kGone)
       refuse("Haply's service knows no Inverse3" + (wanted().empty() ? "" : " " + wanted()) +
                  ": plug it in, and wait until its light is steady",
-             DeviceTrouble::kAbsent);
+             DeviceErrorCode::kAbsent);
     if (fault != LinkFault::kNone)
       refuse(std::string("Haply's service does not answer as it should: ") + to_string(fault) +
              "; version 3.1 or later is needed");
@@ -123,10 +123,10 @@ class Inverse3Board final : public ForceBoard {
   }
   /// After it was lost, the same device is looked for: another hand may hold another one.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
-  [[noreturn]] void refuse(const std::string& why, DeviceTrouble trouble = DeviceTrouble::kFailed,
+  [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
                            SourceLocation location = SourceLocation::here()) {
     close();
-    throw DeviceError(name_ + ": " + why, trouble, location);
+    throw DeviceError(name_ + ": " + why, code, location);
   }
 
   const std::string name_;

@@ -38,7 +38,7 @@ class MouseBoard final : public ForceBoard {
                             ": the device with the id 04d8:003f is no SPIDAR-mouse: asked for its "
                             "state, the answer is " +
                             to_string(fault) + "; that id is shared by many devices, unplug others",
-                        DeviceTrouble::kAbsent);
+                        DeviceErrorCode::kAbsent);
     }
     mouse::encode_start(out_);
     transport_->exchange({out_}, {}, soon_ns());

@@ -75,7 +75,7 @@ void StickEffects::open() {
   if (thread_runs())
     throw DeviceError(
         name_ + ": its driver has not returned from a call yet; plug the device in again",
-        DeviceTrouble::kBusy);
+        DeviceErrorCode::kBusy);
   transport_->open();
   try {
     const LinkFault fault = open_exchange(
@@ -126,7 +126,7 @@ void StickEffects::begin_effects() {
         device +
             "has no force feedback (neither FF_CONSTANT nor FF_RUMBLE); spidarctl list "
             "names devices that have",
-        DeviceTrouble::kSettings);
+        DeviceErrorCode::kSettings);
   if (description_.effects == 0)
     throw DeviceError(device + "has no room for an effect; another driver may help");
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
@@ -138,8 +138,8 @@ void StickEffects::begin_effects() {
     if (transfer.fault != LinkFault::kNone)
       throw DeviceError(device + "does not take an effect: " + reason(transfer),
                         transfer.error == ENOMEM || transfer.error == ENOSPC
-                            ? DeviceTrouble::kBusy
-                            : DeviceTrouble::kFailed);
+                            ? DeviceErrorCode::kBusy
+                            : DeviceErrorCode::kFailed);
   }
 }
 

@@ -66,7 +66,7 @@ void UartBoard::require_same_stations() {
   throw DeviceError(name_ + ": these are other boards than those that were lost, " +
                         first_description_ + ": now " + description() +
                         "; they get no force: stop and start to use them",
-                    DeviceTrouble::kSettings);
+                    DeviceErrorCode::kSettings);
 }
 
 void UartBoard::open() {
@@ -83,7 +83,7 @@ void UartBoard::open() {
               std::to_string(motors_) + " motors; the profile has " + std::to_string(strings_) +
               " strings: name the lines of all boards (uart:PATH,PATH), and check their "
               "supply",
-          stations_.empty() ? DeviceTrouble::kAbsent : DeviceTrouble::kFailed);
+          stations_.empty() ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed);
     require_same_stations();
     std::array<uint32_t, kMaxStrings> raw{};
     LinkFault fault = LinkFault::kTimeout;

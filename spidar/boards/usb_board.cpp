@@ -52,7 +52,7 @@ std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
     for (const BoardKind* kind : kinds_)
       names += (names.empty() ? "no " : " or ") + std::string(kind->title) + " (" +
                kind->usb.text() + ")";
-    throw DeviceError(name_ + ": " + names + " is plugged in", DeviceTrouble::kAbsent);
+    throw DeviceError(name_ + ": " + names + " is plugged in", DeviceErrorCode::kAbsent);
   }
   return found;
 }
@@ -94,7 +94,8 @@ void UsbSearch::open_again(const Open& open, const std::function<void()>& close)
   if (same == found.end()) {
     const bool other = !found.empty() && !found.front().kind->usb.shared;
     if (other) throw first_.other(name_, found.front().identity());
-    throw DeviceError(name_ + ": " + first_.text() + " is not plugged in", DeviceTrouble::kAbsent);
+    throw DeviceError(name_ + ": " + first_.text() + " is not plugged in",
+                      DeviceErrorCode::kAbsent);
   }
   const int rotary = open(*same);
   if (rotary == first_rotary_) return;
@@ -109,7 +110,7 @@ void UsbSearch::open_again(const Open& open, const std::function<void()>& close)
 UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& open,
                                               const std::function<void()>& close) const {
   const int wanted = rotary_of(id_);
-  std::string listed, trouble;
+  std::string listed, errors;
   for (const Candidate& candidate : found) {
     listed += std::string(" ") + candidate.kind->device + ":" + candidate.device.path;
     if (!is_to_ask(found)) continue;
@@ -119,15 +120,15 @@ UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& foun
       listed += " (rotary switch " + std::to_string(rotary) + ")";
       close();
     } catch (const DeviceError& error) {
-      trouble += std::string("; ") + error.what();
+      errors += std::string("; ") + error.what();
     }
   }
   const std::string what =
       id_.empty()
           ? "there are several boards, name one of"
           : "no board has the bus path, serial number or rotary switch " + id_ + "; there are";
-  throw DeviceError(name_ + ": " + what + listed + trouble,
-                    id_.empty() ? DeviceTrouble::kSettings : DeviceTrouble::kAbsent);
+  throw DeviceError(name_ + ": " + what + listed + errors,
+                    id_.empty() ? DeviceErrorCode::kSettings : DeviceErrorCode::kAbsent);
 }
 
 template <typename BoardType>
@@ -157,7 +158,7 @@ void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
                             "\" is for boards of the kind " + profile_board_ +
                             "; spidarctl info usb:" + candidate.device.path +
                             " lists the profiles that fit",
-                        DeviceTrouble::kSettings);
+                        DeviceErrorCode::kSettings);
     kind.transport->select(candidate.device);
     kind.board->open();
     used_ = &kind;

@@ -23,7 +23,7 @@ struct BoardInfo {
   /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
   /// no force until one is named (see profile_choice.h).
   std::string profile;
-  std::string memory_trouble;  ///< why what was confirmed cannot be read; may be empty
+  std::string memory_error;  ///< why what was confirmed cannot be read; may be empty
   /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
   /// no strings.
   std::string profile_board;

@@ -35,14 +35,14 @@ AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
     at = end;
     if (path.empty())
       throw DeviceError(name + ": the path is empty; write ff:/dev/input/eventN," + option,
-                        DeviceTrouble::kSettings);
+                        DeviceErrorCode::kSettings);
     if (!take_option(option, axes, options))
       throw DeviceError(
           name + ": \"" + option + "\" is unknown, out of range or given twice; write ff:" + path +
               ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +
               ",gain=50 for 50 % of the device's strength (1 to 100), or ff:" + path +
               ",flip=x if it pushes to the wrong side",
-          DeviceTrouble::kSettings);
+          DeviceErrorCode::kSettings);
   }
   return std::unique_ptr<ForceBoard>(std::make_unique<ForceFeedbackBoard>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),

@@ -21,7 +21,7 @@ AnyBoard make_inverse3(const std::string& name, const std::string& rest, const P
                           ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
                           "port of Haply's service, " + std::to_string(inverse3::kPort) +
                           " unless it was changed",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   return std::unique_ptr<ForceBoard>(std::make_unique<Inverse3Board>(
       name, rest.substr(0, comma),
       std::make_unique<WebSocketTransport>(

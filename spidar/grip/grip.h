@@ -80,7 +80,7 @@ struct GripReport {
 
   Pose pose;             ///< from the newest good reading
   uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
-  PoseTrouble trouble = PoseTrouble::kNotYet;
+  PoseFault pose_fault = PoseFault::kNotYet;
   double pose_residual_m = 0;
   int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   double motor_heat = 0;   ///< of the warmest motor, see MotorHeat
@@ -94,7 +94,7 @@ struct GripReading : GripReport {
   int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
 
-  bool knows_pose() const noexcept { return trouble == PoseTrouble::kNone; }
+  bool knows_pose() const noexcept { return pose_fault == PoseFault::kNone; }
 };
 
 /// What a hand holds, with the device behind it. It protects the device and what is between device

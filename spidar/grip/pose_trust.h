@@ -8,7 +8,7 @@
 
 namespace spidar {
 
-enum class PoseTrouble {
+enum class PoseFault {
   kNone,
   kNotYet,     ///< too few good poses in a row since the device was opened or the pose was lost
   kNoReading,  ///< the device did not answer
@@ -21,26 +21,26 @@ enum class PoseTrouble {
 };
 
 /// For messages: "the string lengths fit no pose", …
-constexpr const char* to_string(PoseTrouble trouble) noexcept {
-  switch (trouble) {
-    case PoseTrouble::kNone:
+constexpr const char* to_string(PoseFault fault) noexcept {
+  switch (fault) {
+    case PoseFault::kNone:
       return "none";
-    case PoseTrouble::kNotYet:
+    case PoseFault::kNotYet:
       return "too few good readings in a row";
-    case PoseTrouble::kNoReading:
+    case PoseFault::kNoReading:
       return "the device does not answer";
-    case PoseTrouble::kNoFit:
+    case PoseFault::kNoFit:
       return "the string lengths fit no pose";
-    case PoseTrouble::kJump:
+    case PoseFault::kJump:
       return "the grip seems to move faster than a hand can";
-    case PoseTrouble::kOutside:
+    case PoseFault::kOutside:
       return "the grip seems to be outside the frame";
-    case PoseTrouble::kTurned:
+    case PoseFault::kTurned:
       return "the grip seems to be turned right round";
-    case PoseTrouble::kNotHomed:
+    case PoseFault::kNotHomed:
       return "the device does not know its zero: pull the grip all the way out, then push it all "
              "the way in";
-    case PoseTrouble::kFrozen:
+    case PoseFault::kFrozen:
       return "no encoder counts, although the force has changed";
   }
   return "unknown";
@@ -79,17 +79,17 @@ class PoseTrust {
     if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
   }
   /// There is no good pose. `at_once`: nor is the previous one the present one.
-  void fail(PoseTrouble trouble, bool at_once = false) noexcept {
+  void fail(PoseFault fault, bool at_once = false) noexcept {
     if (at_once) misses_ = kMaxMisses;
     good_poses_ = 0;
     if (++misses_ <= kMaxMisses && trusted_) return;
     trusted_ = false;
-    trouble_ = trouble;
+    fault_ = fault;
   }
   /// For a tick in which the device did not answer.
   void miss(int64_t now_ns) noexcept {
     check_age(now_ns);
-    fail(PoseTrouble::kNoReading);
+    fail(PoseFault::kNoReading);
   }
   /// To be called before the force of a tick is computed: withdraws trust if the newest pose is too
   /// old.
@@ -97,18 +97,18 @@ class PoseTrust {
     if (!trusted_ || now_ns - located_ns_ <= kPoseTimeout_ns) return;
     trusted_ = false;
     good_poses_ = 0;
-    trouble_ = PoseTrouble::kNoReading;
+    fault_ = PoseFault::kNoReading;
   }
 
   bool trusted() const noexcept { return trusted_; }
   /// kNone while trusted.
-  PoseTrouble trouble() const noexcept { return trusted_ ? PoseTrouble::kNone : trouble_; }
+  PoseFault fault() const noexcept { return trusted_ ? PoseFault::kNone : fault_; }
   /// When the newest pose was read.
   int64_t located_ns() const noexcept { return located_ns_; }
 
  private:
   bool trusted_ = false;
-  PoseTrouble trouble_ = PoseTrouble::kNotYet;
+  PoseFault fault_ = PoseFault::kNotYet;
   int misses_ = 0;
   int good_poses_ = 0;
   bool located_ = false;

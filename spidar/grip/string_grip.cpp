@@ -43,16 +43,16 @@ void GripWatch::reset() noexcept {
   solver_.reset();
 }
 
-PoseTrouble GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
-  if (result.status != PoseStatus::kSolved) return PoseTrouble::kNoFit;
+PoseFault GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
+  if (result.status != PoseStatus::kSolved) return PoseFault::kNoFit;
   const Pose& pose = result.pose;
   const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
-  if (turn_rad > kMaxTurn_rad) return PoseTrouble::kTurned;
-  if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_) return PoseTrouble::kOutside;
+  if (turn_rad > kMaxTurn_rad) return PoseFault::kTurned;
+  if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_) return PoseFault::kOutside;
   // A rotation counts as the way of the points at which the strings are tied.
   const double way_m = (pose.position_m - pose_.position_m).norm() +
                        radius_m_ * pose.orientation.angularDistance(pose_.orientation);
-  return trust_.is_jump(way_m, now_ns) ? PoseTrouble::kJump : PoseTrouble::kNone;
+  return trust_.is_jump(way_m, now_ns) ? PoseFault::kJump : PoseFault::kNone;
 }
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept {
@@ -79,23 +79,23 @@ void GripWatch::see(const DeviceReading& reading, const GripCommand& command) no
   const bool frozen = is_frozen(reading, command);
   const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
   residual_m_ = result.residual_m;
-  PoseTrouble trouble = judge(result, now_ns);
-  if (trouble == PoseTrouble::kNone || trouble == PoseTrouble::kJump) {
+  PoseFault fault = judge(result, now_ns);
+  if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
     // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
     trust_.locate(now_ns);
   }
-  if (trouble == PoseTrouble::kNone && frozen) trouble = PoseTrouble::kFrozen;
-  if (trouble == PoseTrouble::kNone) {
+  if (fault == PoseFault::kNone && frozen) fault = PoseFault::kFrozen;
+  if (fault == PoseFault::kNone) {
     if (result.faulty_string >= 0 && result.faulty_string != faulty_string_) ++string_faults_;
     faulty_string_ = result.faulty_string;
     return trust_.succeed(command.wrench.stacked().isZero(0));
   }
   ++pose_errors_;
   // A single jump is enough: the previous pose is not the present one.
-  trust_.fail(trouble, trouble == PoseTrouble::kJump || trouble == PoseTrouble::kFrozen);
+  trust_.fail(fault, fault == PoseFault::kJump || fault == PoseFault::kFrozen);
   // The grip may have moved far from the last pose: search from the centre.
-  if (!trust_.trusted() && trouble == PoseTrouble::kNoFit) solver_.search_from({});
+  if (!trust_.trusted() && fault == PoseFault::kNoFit) solver_.search_from({});
 }
 
 namespace {
@@ -143,7 +143,7 @@ void StringGrip::pass(double passed_s) noexcept {
 
 void StringGrip::check_age(int64_t now_ns) noexcept {
   watch_.check_age(now_ns);
-  reading_.trouble = watch_.trouble();
+  reading_.pose_fault = watch_.fault();
 }
 
 void StringGrip::pull(const GripCommand& command) noexcept {
@@ -197,7 +197,7 @@ void StringGrip::see(const DeviceReading& answer, const GripCommand& command) no
 
 void StringGrip::report() noexcept {
   reading_.pose = watch_.pose();
-  reading_.trouble = watch_.trouble();
+  reading_.pose_fault = watch_.fault();
   reading_.pose_residual_m = watch_.residual_m();
   reading_.faulty_string = watch_.faulty_string();
   reading_.pose_errors = watch_.pose_errors();

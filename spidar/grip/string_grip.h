@@ -50,7 +50,7 @@ class GripWatch {
 
   bool trusted() const noexcept { return trust_.trusted(); }
   /// kNone while trusted.
-  PoseTrouble trouble() const noexcept { return trust_.trouble(); }
+  PoseFault fault() const noexcept { return trust_.fault(); }
   /// The newest good one, trusted or not.
   const Pose& pose() const noexcept { return pose_; }
   /// When it was read.
@@ -64,7 +64,7 @@ class GripWatch {
   uint64_t string_faults() const noexcept { return string_faults_; }
 
  private:
-  PoseTrouble judge(const PoseResult& result, int64_t now_ns) const noexcept;
+  PoseFault judge(const PoseResult& result, int64_t now_ns) const noexcept;
   bool is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept;
 
   const Profile profile_;

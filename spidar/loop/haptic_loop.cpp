@@ -60,7 +60,7 @@ bool HapticLoop::reopen() noexcept {
   try {
     grip_->open();
   } catch (const DeviceError& error) {
-    refuse(error.trouble() == DeviceTrouble::kAbsent ? "" : error.what());
+    refuse(error.code() == DeviceErrorCode::kAbsent ? "" : error.what());
     return false;
   } catch (...) {
     return false;
@@ -297,7 +297,7 @@ void HapticLoop::follow(double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
   // A hand does not turn a grip until its strings tangle.
-  if (grip.trouble == PoseTrouble::kTurned) brake_.release();
+  if (grip.pose_fault == PoseFault::kTurned) brake_.release();
   if (!grip.knows_pose()) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, dt_s);
   brake_.pull(grip.delivered, grip.at_rest, dt_s);

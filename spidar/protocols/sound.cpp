@@ -69,7 +69,7 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
   settings.card = text.substr(0, comma);
   if (settings.card.empty())
     throw DeviceError(name + ": the name of the card is empty; spidarctl list names sound cards",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   bool has_carrier = false, has_gain = false;
   while (comma != std::string::npos) {
     const size_t end = text.find(',', comma + 1);
@@ -82,7 +82,7 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
               ",3=x,4=-y for the direction that channel 3 and 4 play (x, y, z, or 0.6/0.8/0), " +
               card + ",carrier=40 for 40 Hz (20 to 120), or " + card +
               ",gain=50 for 50 % of the full volume (1 to 100)",
-          DeviceTrouble::kSettings);
+          DeviceErrorCode::kSettings);
     }
     comma = end;
   }

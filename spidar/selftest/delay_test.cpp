@@ -50,7 +50,7 @@ class DelayRun {
     loop_->open();
     if (settle()) excite();
     release();
-    if (result_.complete && result_.trouble.empty()) judge();
+    if (result_.complete && result_.error.empty()) judge();
     return result_;
   }
 
@@ -76,17 +76,17 @@ class DelayRun {
     // A pause for which the guardian has set the motors to zero.
     const bool stood_still = device_.health().last_fault == LinkFault::kStoodStill;
     if (stood_still && ++reopened_ <= settings_.most_periods() && loop_->reopen()) return true;
-    return fault(loss_text(device_.name(), device_.health().last_fault, late_ns));
+    return fail_by_device(loss_text(device_.name(), device_.health().last_fault, late_ns));
   }
 
-  bool fail(const std::string& trouble) {
-    result_.trouble = trouble;
+  bool fail(const std::string& error) {
+    result_.error = error;
     return false;
   }
 
-  bool fault(const std::string& trouble) {
-    result_.fault = true;
-    return fail(trouble);
+  bool fail_by_device(const std::string& error) {
+    result_.is_of_device = true;
+    return fail(error);
   }
 
   /// Runs until the tensions are at rest and the pose is known.
@@ -95,10 +95,10 @@ class DelayRun {
     for (;;) {
       if (!tick()) return false;
       const LoopSnapshot now = loop_->snapshot();
-      if (record_.device == DeviceState::kRunning && now.last.trouble == PoseTrouble::kNone) break;
+      if (record_.device == DeviceState::kRunning && now.last.pose_fault == PoseFault::kNone) break;
       if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s)
-        return fault(std::string("the pose of the grip is not known: ") +
-                     to_string(now.last.trouble));
+        return fail_by_device(std::string("the pose of the grip is not known: ") +
+                              to_string(now.last.pose_fault));
     }
     start_m_ = record_.pose.position_m;
     begin_ns_ = record_.monotonic_ns;
@@ -156,24 +156,25 @@ class DelayRun {
   /// After a pause of the machine the loop has lost the pose. It then ramps the force to rest until
   /// the pose is known again. This is not a fault of the device.
   bool recovers() const {
-    const PoseTrouble trouble = loop_->snapshot().last.trouble;
-    return record_.acknowledged &&
-           (trouble == PoseTrouble::kNoReading || trouble == PoseTrouble::kNotYet);
+    const PoseFault fault = loop_->snapshot().last.pose_fault;
+    return record_.acknowledged && (fault == PoseFault::kNoReading || fault == PoseFault::kNotYet);
   }
 
   /// Returns false, to end the test, if the pose is lost, a string is faulty, or the grip has moved
   /// too far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
-    if (now.last.trouble == PoseTrouble::kFrozen)
+    if (now.last.pose_fault == PoseFault::kFrozen)
       return fail(
           "no encoder counted although the force changed: the grip is held too firmly, or clamped; "
           "hold it loosely, so that it can move");
-    if (now.last.trouble != PoseTrouble::kNone)
-      return fault(std::string("the pose of the grip was lost: ") + to_string(now.last.trouble));
+    if (now.last.pose_fault != PoseFault::kNone)
+      return fail_by_device(std::string("the pose of the grip was lost: ") +
+                            to_string(now.last.pose_fault));
     if (record_.faulty_string >= 0)
-      return fault("the length of string " + std::to_string(record_.faulty_string) +
-                   " does not fit the others: it is slack or broken, or its encoder is dead");
+      return fail_by_device(
+          "the length of string " + std::to_string(record_.faulty_string) +
+          " does not fit the others: it is slack or broken, or its encoder is dead");
     const double moved_m = (record_.pose.position_m - start_m_).norm();
     if (moved_m <= kFurthest_m) return true;
     return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
@@ -200,7 +201,7 @@ class DelayRun {
       return;
     }
     result_.fit = fit_lag(average(periods_), result_.periods);
-    result_.trouble = result_.fit->trouble;
+    result_.error = result_.fit->error;
   }
 
   const StringDevice& device_;

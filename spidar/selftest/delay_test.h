@@ -36,14 +36,14 @@ struct DelayTestSettings {
 };
 
 struct DelayTest {
-  bool complete = true;  ///< false if it was interrupted
-  std::string trouble;   ///< why the test ended or has no result: a sentence, or empty
-  bool fault = false;    ///< `trouble` is a fault of the device, not only a missing result
+  bool complete = true;       ///< false if it was interrupted
+  std::string error;          ///< why the test ended or has no result: a sentence, or empty
+  bool is_of_device = false;  ///< `error` is a fault of the device, not only a missing result
   std::optional<LagFit> fit;
   int periods = 0;  ///< number of periods used
 
   /// Whether the test has a result.
-  bool measured() const noexcept { return trouble.empty() && fit; }
+  bool measured() const noexcept { return error.empty() && fit; }
 };
 
 /// CLOCK_MONOTONIC, or the clock of a simulation, in ns.

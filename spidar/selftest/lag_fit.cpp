@@ -193,7 +193,7 @@ std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) 
 }
 
 /// Empty if the fit can be used.
-std::string trouble_of(const LagFit& fit) {
+std::string error_of(const LagFit& fit) {
   const double vague_s = std::max(kVagueLag_s, kVagueLagFraction * fit.lag_s);
   if (!(fit.misfit <= kMostMisfit))
     return formatted(
@@ -216,7 +216,7 @@ std::string trouble_of(const LagFit& fit) {
 LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   LagFit result;
   if (std::count_if(lines.begin(), lines.end(), stands_out) < kFewestLines) {
-    result.trouble =
+    result.error =
         "the grip hardly moved with the force; hold it loosely, so that it can move, or use a "
         "larger force";
     return result;
@@ -243,7 +243,7 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
     result.most_s = std::max(result.most_s, candidate.lag_s + either_s);
   }
   result.error_s = (result.most_s - result.least_s) / (2 * kDeviations);
-  result.trouble = trouble_of(result);
+  result.error = error_of(result);
   return result;
 }
 

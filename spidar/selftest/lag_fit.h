@@ -96,9 +96,9 @@ class PeriodSums {
 std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
 
 struct LagFit {
-  std::string trouble;  ///< why there is no result, a sentence; empty if there is one
-  double lag_s = 0;     ///< best estimate
-  double error_s = 0;   ///< standard error of lag_s
+  std::string error;   ///< why there is no result, a sentence; empty if there is one
+  double lag_s = 0;    ///< best estimate
+  double error_s = 0;  ///< standard error of lag_s
   /// Confidence interval of 99.7 %: three standard errors to either side.
   double least_s = 0;
   double most_s = 0;

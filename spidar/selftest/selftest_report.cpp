@@ -130,7 +130,7 @@ Json wiring_json(const Profile& profile, const WiringAnswers& answers, const Wir
 void print_lag(std::ostream& out, const Profile& profile, const DelayTest& test,
                const LagVerdict& verdict) {
   if (!test.measured()) {
-    out << "drive lag: not measured: " << test.trouble << '\n';
+    out << "drive lag: not measured: " << test.error << '\n';
     return;
   }
   const LagFit& fit = *test.fit;
@@ -143,7 +143,7 @@ void print_lag(std::ostream& out, const Profile& profile, const DelayTest& test,
 }
 
 Json lag_json(const DelayTest& test, const LagVerdict& verdict) {
-  if (!test.measured()) return {{"trouble", test.trouble}};
+  if (!test.measured()) return {{"error", test.error}};
   return {{"lag_s", test.fit->lag_s},
           {"least_s", test.fit->least_s},
           {"most_s", test.fit->most_s},

@@ -74,7 +74,7 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   test.complete = repeated(
       hold, [] { return true; }, begin);
   if (test.complete && !grip.reading().knows_pose())
-    throw DeviceError(grip.name() + ": " + to_string(grip.reading().trouble));
+    throw DeviceError(grip.name() + ": " + to_string(grip.reading().pose_fault));
   for (size_t axis = 0; axis < test.moved_m.size(); ++axis) {
     if (!can.direction || !can.force[axis]) continue;
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));

@@ -29,7 +29,7 @@ std::string unconfirmed(const BoardInfo& board) {
   const std::string named = "device=" + board.device + " profile=NAME";
   const std::string once = "spidarctl choose " + board.device + " --profile NAME";
   return "this " + board.name + " has no confirmed profile, without which its motors get no force" +
-         (board.memory_trouble.empty() ? "" : " (" + board.memory_trouble + ")") +
+         (board.memory_error.empty() ? "" : " (" + board.memory_error + ")") +
          (board.serial.empty() ? "; name it each time: " + named : "; confirm it: " + once) + " (" +
          fitting_text(board) + ")";
 }

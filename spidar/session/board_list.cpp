@@ -72,7 +72,7 @@ std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
     try {
       board.profile = remembered_profile(board.usb_id, board.serial);
     } catch (const ProfileError& error) {
-      board.memory_trouble = error.what();
+      board.memory_error = error.what();
     }
   }
   return boards;
@@ -82,8 +82,8 @@ std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
 void add_plugged_in(const DeviceKind& kind, std::vector<BoardInfo>& boards) {
   for (BoardInfo& board : kind.list ? kind.list() : list_usb(kind)) {
     describe(board, kind);
-    if (!board.memory_trouble.empty())
-      board.note += (board.note.empty() ? "" : "; ") + board.memory_trouble;
+    if (!board.memory_error.empty())
+      board.note += (board.note.empty() ? "" : "; ") + board.memory_error;
     boards.push_back(std::move(board));
   }
 }

@@ -68,7 +68,7 @@ DeviceError unclear(const DeviceKind& kind) {
       std::string("\"") + kind.device + "\" does not say which one: write " +
           names.substr(0, names.find(',')) +
           (there.empty() ? "; none is listed by name (spidarctl list)" : "; there are " + there),
-      DeviceTrouble::kSettings);
+      DeviceErrorCode::kSettings);
 }
 
 std::string simulated_names() {
@@ -85,7 +85,7 @@ auto simulating(const std::string& text, const Profile& profile, const Make& mak
     return make();
   } catch (const std::invalid_argument& error) {
     throw DeviceError(text + ": cannot simulate profile \"" + profile.name + "\": " + error.what(),
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   }
 }
 
@@ -97,13 +97,13 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
     if (!kind)
       throw DeviceError(
           "unknown simulated board \"" + name.rest + "\"; known are: " + simulated_names(),
-          DeviceTrouble::kSettings);
+          DeviceErrorCode::kSettings);
     return simulating(text, profile, [&] { return simulated_board(*kind, text, profile); });
   }
   const auto kinds = kinds_called(name.device);
   if (!kinds.empty() && kinds[0]->needs_rest() && name.rest.empty()) throw unclear(*kinds[0]);
   const std::string called = called_here(text);
-  if (!called.empty()) throw DeviceError(called, DeviceTrouble::kSettings);
+  if (!called.empty()) throw DeviceError(called, DeviceErrorCode::kSettings);
   if (kinds.empty() || !name.has_end) {
     // Only an element does without a device, or chooses one: this is not asked about these names.
     const bool is_elements = text == "none" || text == "auto";
@@ -112,7 +112,7 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
                      : "unknown device \"" + text + "\"" +
                            (kinds.empty() && name.has_end ? meant_device(name.device) : "")) +
             "; known are: " + known_names(!is_elements),
-        DeviceTrouble::kSettings);
+        DeviceErrorCode::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());
@@ -174,7 +174,7 @@ std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile
   MadeDevice made = make(text, profile, settings_for(text, profile, settings));
   if (!made.strings)
     throw DeviceError(text + ": takes a force; it has no strings, and no encoders",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   return std::move(made.strings);
 }
 

@@ -83,8 +83,8 @@ TraceStatus HapticSession::trace_status() const noexcept {
   return impl_->trace ? impl_->trace->status() : TraceStatus();
 }
 
-std::string HapticSession::vibration_trouble() const {
-  return impl_->keeper ? VibrationMemory::of_user().trouble() : "";
+std::string HapticSession::vibration_error() const {
+  return impl_->keeper ? VibrationMemory::of_user().error() : "";
 }
 
 int64_t HapticSession::monotonic_now_ns() noexcept {

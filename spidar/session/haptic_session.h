@@ -56,7 +56,7 @@ class HapticSession {
   TraceStatus trace_status() const noexcept;
 
   /// Why VibrationMemory::of_user() cannot be used; empty if it can.
-  std::string vibration_trouble() const;
+  std::string vibration_error() const;
 
   /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;

@@ -33,7 +33,7 @@ std::string without_profile(const BoardInfo& board) {
                         ? "no board is plugged in whose profile is remembered, and none is named"
                         : "no profile is named for this board, and the board does not say which "
                           "frame, motors and encoders it has";
-  if (!board.memory_trouble.empty()) why += " (" + board.memory_trouble + ")";
+  if (!board.memory_error.empty()) why += " (" + board.memory_error + ")";
   return board.device + ": the motors get no force: " + why + ". " + fitting_text(board) +
          ". Name yours (profile=NAME, spidarctl --profile NAME), or confirm it once: spidarctl "
          "choose " +
@@ -53,7 +53,7 @@ void require_plugged_in(const std::string& device) {
     const int error = errno;
     throw DeviceError(device + ": " + path + ": " + std::strerror(error) +
                           "; serial lines have names such as /dev/ttyUSB0 and /dev/serial/by-id/…",
-                      trouble_of(error));
+                      error_code_of(error));
   }
 }
 
@@ -85,7 +85,7 @@ std::string why_not(const BoardInfo& board, const Profile& profile) {
 }  // namespace
 
 NoProfile::NoProfile(const BoardInfo& board, SourceLocation location)
-    : DeviceError(without_profile(board), DeviceTrouble::kSettings, location) {}
+    : DeviceError(without_profile(board), DeviceErrorCode::kSettings, location) {}
 
 std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   std::vector<std::string> fitting;
@@ -130,7 +130,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
   // None fits a board whose name is not right.
   if (!why.empty())
     throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board),
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   return profile;
 }
 
@@ -183,14 +183,14 @@ void require_serial(const BoardInfo& board, const std::string& profile) {
     throw DeviceError(board.device +
                           ": is one of several boards; name it by its bus path or serial "
                           "number, which spidarctl list prints",
-                      DeviceTrouble::kSettings);
+                      DeviceErrorCode::kSettings);
   if (board.serial.empty())
     throw DeviceError(
         board.device +
             ": has no serial number by which its profile could be remembered; name it each "
             "time: profile=" +
             profile,
-        DeviceTrouble::kSettings);
+        DeviceErrorCode::kSettings);
 }
 
 void remember_profile(const BoardInfo& board, const std::string& profile) {

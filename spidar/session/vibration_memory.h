@@ -47,7 +47,7 @@ class VibrationMemory {
   /// how long the store is full again.
   int64_t add(int64_t taken_ns, const Moment& now = Moment::now());
   /// Why the file was not used, and what is assumed instead; empty if it was.
-  std::string trouble() const;
+  std::string error() const;
 
  private:
   struct Entry {
@@ -63,7 +63,7 @@ class VibrationMemory {
   const std::string file_;
   mutable std::mutex mutex_;
   std::optional<Entry> last_;  // known in this process
-  std::string trouble_;
+  std::string error_;
 };
 
 /// Keeps the memory up to date while a loop runs, in a thread of its own.

@@ -81,7 +81,7 @@ int choose(const DeviceOptions& options) {
   require_strings(board, "choose");
   if (options.profile.empty())
     throw UsageError("choose needs --profile NAME. " + fitting_text(board));
-  if (!board.memory_trouble.empty()) throw ProfileError(board.memory_trouble);
+  if (!board.memory_error.empty()) throw ProfileError(board.memory_error);
   ChosenDevice chosen = choose_device(options, Motors::kOff);
   require_serial(board, options.profile);
   catch_signals();

@@ -43,7 +43,7 @@ Json found_devices() {
     try {
       profiles.push_back({{"name", name}, {"description", load_profile(name).description}});
     } catch (const ProfileError& error) {
-      profiles.push_back({{"name", name}, {"trouble", error.what()}});
+      profiles.push_back({{"name", name}, {"error", error.what()}});
     }
   }
   return {{"devices", devices}, {"serial_lines", lines}, {"profiles", profiles}};
@@ -82,8 +82,8 @@ int list(const ListOptions& options) {
   std::cout << "\nprofiles\n";
   for (const Json& profile : found["profiles"])
     std::cout << "  " << text_of(profile, "name") << "  "
-              << (profile.contains("trouble") ? "cannot be used: " + text_of(profile, "trouble")
-                                              : text_of(profile, "description"))
+              << (profile.contains("error") ? "cannot be used: " + text_of(profile, "error")
+                                            : text_of(profile, "description"))
               << '\n';
   return kDone;
 }

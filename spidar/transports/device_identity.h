@@ -55,7 +55,7 @@ class FirstDevice {
     return DeviceError(name + ": " + found.text() + why +
                            ": it gets no force. Plug that one in again, or stop and start to use "
                            "this one",
-                       DeviceTrouble::kSettings);
+                       DeviceErrorCode::kSettings);
   }
 
  private:

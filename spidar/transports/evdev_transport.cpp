@@ -89,7 +89,7 @@ void EvdevTransport::fail(const std::string& path, const std::string& what,
   if (error == ENOTTY) advice = "; it is no input device, write ff:/dev/input/eventN";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice,
-                    trouble_of(error), location);
+                    error_code_of(error), location);
 }
 
 /// The path of the device that is to be opened.
@@ -107,7 +107,7 @@ std::string EvdevTransport::find() {
       name_ + (first_.known() ? ": " + first_.text() + " is not plugged in"
                               : ": no joystick, wheel or gamepad with force feedback is plugged "
                                 "in, or the kernel has no driver for it"),
-      DeviceTrouble::kAbsent);
+      DeviceErrorCode::kAbsent);
 }
 
 void EvdevTransport::open() {
@@ -155,7 +155,7 @@ void EvdevTransport::find_axes(const std::string& path, const EvdevTraits& trait
   close();
   throw DeviceError(name_ + ": \"" + traits.name.data() +
                         "\" does not have two axes (ABS_X and ABS_Y); write ff:" + path + ",axes=1",
-                    DeviceTrouble::kSettings);
+                    DeviceErrorCode::kSettings);
 }
 
 ff::Description EvdevTransport::describe() const noexcept {

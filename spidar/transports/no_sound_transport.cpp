@@ -27,7 +27,7 @@ void SoundTransport::open() {
       name_ +
           ": this build of gst-spidar cannot play sound: install libasound2-dev and build it with "
           "-Dsound=enabled",
-      DeviceTrouble::kSettings);
+      DeviceErrorCode::kSettings);
 }
 
 Transfer SoundTransport::exchange(std::initializer_list<ByteView>, MutableBytes, int64_t) noexcept {

@@ -18,7 +18,7 @@ void WebSocketTransport::open() {
       name_ +
           ": this build of gst-spidar cannot reach services: install libwebsockets-dev "
           "and build it with -Dwebsockets=enabled",
-      DeviceTrouble::kSettings);
+      DeviceErrorCode::kSettings);
 }
 
 Transfer WebSocketTransport::exchange(std::initializer_list<ByteView>, MutableBytes,

@@ -89,7 +89,7 @@ SoundCard chosen_card(const std::string& device, const std::string& id, const Fi
   }
   if (named == cards.end())
     throw DeviceError(device + ": there is no sound card \"" + id + "\"; " + names_of(cards),
-                      DeviceTrouble::kAbsent);
+                      DeviceErrorCode::kAbsent);
   return *named;
 }
 

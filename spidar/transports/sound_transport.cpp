@@ -69,7 +69,7 @@ class SoundTransport::Pcm {
   snd_pcm_uframes_t buffer_ = 0, period_ = 0;
   snd_pcm_sframes_t held_ = 0;  // of the buffer, so much is used
   int64_t next_ns_ = 0;         // a block is due
-  std::string trouble_;
+  std::string error_;
 };
 
 SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int least_channels) {
@@ -82,13 +82,13 @@ SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int lea
                  ? "; another program plays on it, perhaps the sound server: choose another "
                    "card there, or wait until it is silent"
                  : ""),
-        trouble_of(-error));
+        error_code_of(-error));
   int wrong = set_hardware(static_cast<unsigned>(least_channels));
   if (wrong >= 0) wrong = set_software();
   if (wrong >= 0) return;
   snd_pcm_close(handle_);
-  throw DeviceError(name + ": cannot be used: " + trouble_ + " (" + snd_strerror(wrong) + ")",
-                    DeviceTrouble::kSettings);
+  throw DeviceError(name + ": cannot be used: " + error_ + " (" + snd_strerror(wrong) + ")",
+                    DeviceErrorCode::kSettings);
 }
 
 /// The fewest channels that the device itself has, because a conversion would play them elsewhere.
@@ -97,15 +97,15 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
       {SND_PCM_FORMAT_S16_LE, 2}, {SND_PCM_FORMAT_S32_LE, 4}, {SND_PCM_FORMAT_S24_3LE, 3}};
   snd_pcm_hw_params_t* hardware = nullptr;
   snd_pcm_hw_params_alloca(&hardware);
-  trouble_ = "it does not say what it can do";
+  error_ = "it does not say what it can do";
   int error = snd_pcm_hw_params_any(handle_, hardware);
   if (error < 0) return error;
   unsigned most = 0;
   snd_pcm_hw_params_get_channels_max(hardware, &most);
-  trouble_ = "it has " + std::to_string(most) + " channels, and channel " +
-             std::to_string(least_channels) + " is asked for";
+  error_ = "it has " + std::to_string(most) + " channels, and channel " +
+           std::to_string(least_channels) + " is asked for";
   if (most < least_channels) return -EINVAL;
-  trouble_ = "it does not play integers of 16, 24 or 32 bits at 48 kHz";
+  error_ = "it does not play integers of 16, 24 or 32 bits at 48 kHz";
   error = snd_pcm_hw_params_set_access(handle_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED);
   for (const auto& [format, size] : kFormats) {
     if (snd_pcm_hw_params_test_format(handle_, hardware, format) != 0) continue;
@@ -120,7 +120,7 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
   error = snd_pcm_hw_params_set_channels(handle_, hardware, channels_);
   if (error >= 0) error = snd_pcm_hw_params_set_rate(handle_, hardware, sound::kRate_Hz, 0);
   if (error < 0) return error;
-  trouble_ = "it takes no buffer of a size that it was asked for";
+  error_ = "it takes no buffer of a size that it was asked for";
   period_ = sound::kBlockFrames;
   error = snd_pcm_hw_params_set_period_size_near(handle_, hardware, &period_, nullptr);
   buffer_ = std::max<snd_pcm_uframes_t>(3 * period_, period_ + kAhead);
@@ -132,7 +132,7 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
 /// It starts when all but a block of what it is to hold is there, and stops by itself when it has
 /// played all that it has. Between two of its periods it may report less than it has taken.
 int SoundTransport::Pcm::set_software() {
-  trouble_ = "its buffer is too small";
+  error_ = "its buffer is too small";
   int error = snd_pcm_get_params(handle_, &buffer_, &period_);
   if (error < 0) return error;
   held_ = static_cast<snd_pcm_sframes_t>(
@@ -142,7 +142,7 @@ int SoundTransport::Pcm::set_software() {
   const auto started = std::min<snd_pcm_uframes_t>(
       static_cast<snd_pcm_uframes_t>(held_ - sound::kBlockFrames), most * sound::kBlockFrames);
   if (held_ < 2 * sound::kBlockFrames || started < period_) return -EINVAL;
-  trouble_ = "it does not take its settings";
+  error_ = "it does not take its settings";
   snd_pcm_sw_params_t* software = nullptr;
   snd_pcm_sw_params_alloca(&software);
   error = snd_pcm_sw_params_current(handle_, software);
@@ -206,7 +206,7 @@ void SoundTransport::open() {
     throw DeviceError(
         name_ + ": \"" + id +
             "\" plays on whatever a server or a setting chooses; name the card: " + names_of(cards),
-        DeviceTrouble::kSettings);
+        DeviceErrorCode::kSettings);
   const SoundCard card = chosen_card(name_, id, first_, cards);
   pcm_ = std::make_unique<Pcm>(name_, card, settings_.channels);
   first_.require(name_, card.identity());

@@ -127,8 +127,8 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
     advice = "; serial lines have names such as /dev/ttyUSB0 and /dev/serial/by-id/…";
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
-  throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice, trouble_of(error),
-                    location);
+  throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice,
+                    error_code_of(error), location);
 }
 
 void TtyTransport::open() {

@@ -56,7 +56,7 @@ UsbContext make_usb_context() {
   if (error != LIBUSB_SUCCESS)
     throw DeviceError(std::string("usb: cannot be used: ") + libusb_strerror(error) +
                           "; is there a USB on this machine (/dev/bus/usb)?",
-                      DeviceTrouble::kAbsent);
+                      DeviceErrorCode::kAbsent);
   return UsbContext(context);
 }
 

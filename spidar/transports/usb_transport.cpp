@@ -61,17 +61,17 @@ extern "C" void LIBUSB_CALL mark_done(libusb_transfer* transfer) {
   *static_cast<int*>(transfer->user_data) = 1;
 }
 
-DeviceTrouble trouble_of_usb(int error) noexcept {
+DeviceErrorCode error_code_of_usb(int error) noexcept {
   switch (error) {
     case LIBUSB_ERROR_ACCESS:
-      return DeviceTrouble::kForbidden;
+      return DeviceErrorCode::kForbidden;
     case LIBUSB_ERROR_BUSY:
-      return DeviceTrouble::kBusy;
+      return DeviceErrorCode::kBusy;
     case LIBUSB_ERROR_NO_DEVICE:
     case LIBUSB_ERROR_NOT_FOUND:
-      return DeviceTrouble::kAbsent;
+      return DeviceErrorCode::kAbsent;
     default:
-      return DeviceTrouble::kFailed;
+      return DeviceErrorCode::kFailed;
   }
 }
 
@@ -179,7 +179,7 @@ void UsbTransport::open() {
     close();
     throw DeviceError(
         name_ + ": cannot open " + file + ": " + libusb_strerror(error) + advice(error),
-        trouble_of_usb(error));
+        error_code_of_usb(error));
   }
   if (setting < 0) {
     close();
@@ -195,7 +195,7 @@ void UsbTransport::open() {
     close();
     throw DeviceError(
         name_ + ": cannot claim " + file + ": " + libusb_strerror(error) + advice(error),
-        trouble_of_usb(error));
+        error_code_of_usb(error));
   }
 }
 

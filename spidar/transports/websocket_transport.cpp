@@ -199,7 +199,7 @@ void WebSocketTransport::open() {
     throw DeviceError(name_ + ": no service answers at " + at +
                           (connection->error().empty() ? "" : " (" + connection->error() + ")") +
                           "; " + cure_,
-                      DeviceTrouble::kAbsent);
+                      DeviceErrorCode::kAbsent);
   if (!connection->receive(deadline_ns))
     throw DeviceError(name_ + ": the service at " + at + " does not say what is plugged in; " +
                       cure_);
@@ -231,7 +231,7 @@ void WebSocketTransport::recover() noexcept {
 
 std::optional<LastWill> WebSocketTransport::last_will() const {
   if (!connection_ || connection_->gone())
-    throw DeviceError(name_ + ": the service has ended", DeviceTrouble::kAbsent);
+    throw DeviceError(name_ + ": the service has ended", DeviceErrorCode::kAbsent);
   LastWill will;
   will.wire = LastWill::Wire::kSocket;
   will.file = connection_->file();

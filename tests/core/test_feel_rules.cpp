@@ -15,7 +15,7 @@ namespace {
 
 constexpr int64_t kSecond = 1'000'000'000;
 
-std::string problem(const std::string& text) {
+std::string error(const std::string& text) {
   try {
     const FeelRules rules(text);
   } catch (const FeelRulesError& error) {
@@ -141,11 +141,10 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
       {std::string(100, 'x'), "line 1: \"" + std::string(40, 'x') + "…\" is none of: " + all},
   };
   for (const auto& [text, wanted] : mistakes) {
-    EXPECT_EQ(problem(text), wanted) << text;
+    EXPECT_EQ(error(text), wanted) << text;
   }
-  EXPECT_EQ(problem("0-nan largest"),
-            "line 1: \"nan\" is not a time such as 12.5, 0:12 or 1:02:03");
-  EXPECT_NE(problem(std::string("largest\0camera", 14)), "");
+  EXPECT_EQ(error("0-nan largest"), "line 1: \"nan\" is not a time such as 12.5, 0:12 or 1:02:03");
+  EXPECT_NE(error(std::string("largest\0camera", 14)), "");
 }
 
 std::string after(const std::string& text, const FeelEdit& edit) {

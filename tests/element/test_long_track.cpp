@@ -43,7 +43,7 @@ class LongTrack : public testing::TestWithParam<const char*> {
     loader.await(kLongest);
     const auto loaded = loader.take();
     ASSERT_TRUE(loaded);
-    ASSERT_EQ(loaded->problem, "");
+    ASSERT_EQ(loaded->error, "");
     EXPECT_EQ(loaded->duration_ns, kLength_ms * kMs_ns);
     blocks = loaded->blocks;
     replay.set_track(blocks);
@@ -126,13 +126,13 @@ TEST_P(LongTrack, ThatIsCutOffWhileItIsPlayedSaysWhereItEnds) {
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   while (blocks->take(block, deadline) == ReadAhead::Found::kBlock) end_ns = end_of(block);
   EXPECT_LT(end_ns, kLength_ms * kMs_ns);
-  const std::string problem = blocks->problem();
-  EXPECT_NE(problem.find("cut off while it was played: it ends at "), std::string::npos) << problem;
-  EXPECT_NE(problem.find("was 60.000 s long"), std::string::npos) << problem;
+  const std::string error = blocks->error();
+  EXPECT_NE(error.find("cut off while it was played: it ends at "), std::string::npos) << error;
+  EXPECT_NE(error.find("was 60.000 s long"), std::string::npos) << error;
   // A jump to what is not there any more changes nothing of that.
   blocks->seek(50'000 * kMs_ns);
   EXPECT_EQ(blocks->take(block, deadline), ReadAhead::Found::kEnd);
-  EXPECT_EQ(blocks->problem(), problem);
+  EXPECT_EQ(blocks->error(), error);
 }
 
 TEST_P(LongTrack, IsFeltWhereTheFilmJumps) {

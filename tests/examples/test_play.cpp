@@ -219,7 +219,7 @@ TEST(PlayReport, NamesTheProblemsOfTheDevice) {
       record,
       structure("stats, device=(string)usb, device-state=(string)lost, times-lost=(guint64)2, "
                 "exchange-errors=(guint64)21, faulty-string=(int)4, "
-                "pose-trouble=(string)\"the string lengths fit no pose\", "
+                "pose-fault=(string)\"the string lengths fit no pose\", "
                 "refused-wrenches=(guint64)3")
           .get(),
       1);

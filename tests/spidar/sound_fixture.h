@@ -114,14 +114,14 @@ class Sound : public testing::Test {
   static std::unique_ptr<Grip> grip(const std::string& spec) {
     return make_grip(spec, load_profile(kDefaultProfile));
   }
-  /// The message of open(), and what kind of trouble it is.
-  static std::pair<std::string, DeviceTrouble> trouble(const std::string& spec) {
+  /// The message of open(), and what kind of error it is.
+  static std::pair<std::string, DeviceErrorCode> error(const std::string& spec) {
     try {
       grip(spec)->open();
     } catch (const DeviceError& error) {
-      return {error.what(), error.trouble()};
+      return {error.what(), error.code()};
     }
-    return {"", DeviceTrouble::kFailed};
+    return {"", DeviceErrorCode::kFailed};
   }
   /// As the loop does, a force each millisecond.
   static void push(Grip& grip, const Eigen::Vector3d& force_N, int ms) {

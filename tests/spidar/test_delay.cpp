@@ -79,7 +79,7 @@ DelayTest measure(const std::string& board, const Profile& profile, const GripMo
 /// The interval is 99.7 % wide, and the seeds are given: the true lag is in each, or something is
 /// wrong. LagFitter bounds how wide it may be.
 void expect_right(const DelayTest& test, const Profile& profile, const GripModel& model) {
-  ASSERT_TRUE(test.measured()) << test.trouble;
+  ASSERT_TRUE(test.measured()) << test.error;
   const double lag_s = true_lag_s(profile, model);
   EXPECT_LE(test.fit->least_s, lag_s);
   EXPECT_GE(test.fit->most_s, lag_s);
@@ -158,9 +158,9 @@ TEST(Delay, GivesNoNumberWhenTheGripCannotMove) {
     const DelayTest test = measure("sim", profile, clamped, 1);
     EXPECT_FALSE(test.measured());
     EXPECT_TRUE(test.complete);
-    EXPECT_FALSE(test.fault);
-    EXPECT_NE(test.trouble.find("hold it loosely, so that it can move"), std::string::npos)
-        << test.trouble;
+    EXPECT_FALSE(test.is_of_device);
+    EXPECT_NE(test.error.find("hold it loosely, so that it can move"), std::string::npos)
+        << test.error;
   }
 }
 
@@ -191,7 +191,7 @@ struct Watched {
 TEST(Delay, PushesNoHarderThanItSays) {
   Watched watched;
   const DelayTest test = watched.measure(1, [] {});
-  EXPECT_TRUE(test.measured()) << test.trouble;
+  EXPECT_TRUE(test.measured()) << test.error;
   const double peak_N = DelayTestSettings().peak_N;
   EXPECT_GT(watched.largest_N, 0.9 * peak_N);
   const double step_N = watched.profile.dac_max_V / ((1 << watched.profile.dac_bits) - 1) *
@@ -225,10 +225,11 @@ TEST(Delay, StopsAtAnyFault) {
     Watched watched;
     const DelayTest test = watched.measure(3, [&] { fault.happen(watched); });
     EXPECT_FALSE(test.measured());
-    EXPECT_NE(test.trouble.find(fault.says), std::string::npos) << test.trouble;
+    EXPECT_NE(test.error.find(fault.says), std::string::npos) << test.error;
     EXPECT_LT(watched.time.now_ns, 4000 * kTick_ns);
     EXPECT_EQ(watched.sim.felt().tension_N.norm(), 0);
-    EXPECT_EQ(test.fault, std::string(fault.says) != "further than 20 mm");  // the hand's own
+    EXPECT_EQ(test.is_of_device,
+              std::string(fault.says) != "further than 20 mm");  // the hand's own
   }
 }
 
@@ -265,7 +266,7 @@ TEST(Delay, TooFewSecondsGiveNoNumber) {
   };
   const DelayTest test = measure_delay(watched.sim, watched.profile, pace, watched.time.clock());
   EXPECT_FALSE(test.measured());
-  EXPECT_NE(test.trouble.find("only 0 of 18 seconds"), std::string::npos) << test.trouble;
+  EXPECT_NE(test.error.find("only 0 of 18 seconds"), std::string::npos) << test.error;
 }
 
 TEST(LagVerdict, SaysWhetherTheProfileIsRight) {

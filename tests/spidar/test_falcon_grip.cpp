@@ -114,7 +114,7 @@ TEST(FalconGrip, WithoutItsZeroHasNoPositionAndNoForce) {
   for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
     ASSERT_EQ(grip->exchange(told(2)), LinkFault::kNone);
   EXPECT_TRUE(bench.motors.all_zero());
-  EXPECT_EQ(grip->reading().trouble, PoseTrouble::kNotHomed);
+  EXPECT_EQ(grip->reading().pose_fault, PoseFault::kNotHomed);
   EXPECT_EQ(grip->reading().buttons, 5u);
   bench.motors.inputs = 0x70;
   for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)

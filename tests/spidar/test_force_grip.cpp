@@ -140,7 +140,7 @@ TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {
   EXPECT_EQ(now.last.device, DeviceState::kRunning);
   EXPECT_EQ(now.last.commanded.force_N, Eigen::Vector3d(1, 0.5, 0));
   EXPECT_EQ(now.last.delivered.force_N, Eigen::Vector3d(1, 0.5, 0));
-  EXPECT_EQ(now.last.trouble, PoseTrouble::kNone);
+  EXPECT_EQ(now.last.pose_fault, PoseFault::kNone);
   EXPECT_NEAR(motors.digit[0] / 2, motors.digit[1], rounding());
   EXPECT_GT(motors.digit[1], 0);
 }
@@ -210,7 +210,7 @@ TEST(ForceGrip, AJumpIsNotFollowedUntilItHasLasted) {
   ASSERT_TRUE(device.grip->reading().knows_pose());
   device.bench.motors.count[0] = 200'000;  // µm
   device.exchange(1);
-  EXPECT_EQ(device.grip->reading().trouble, PoseTrouble::kJump);
+  EXPECT_EQ(device.grip->reading().pose_fault, PoseFault::kJump);
   device.exchange(PoseTrust::kGoodPoses - 1);
   EXPECT_FALSE(device.grip->reading().knows_pose());
   device.exchange(1);

@@ -184,7 +184,7 @@ class Round {
   /// Whether there should be no force: nobody commands one, or the pose is not known.
   bool should_rest() const {
     if (dead_ms_ >= 0 || loop_->lost()) return true;
-    return loop_->snapshot().last.trouble != PoseTrouble::kNone && played_at_ns_ > 0;
+    return loop_->snapshot().last.pose_fault != PoseFault::kNone && played_at_ns_ > 0;
   }
 
   void measure() {

@@ -47,7 +47,7 @@ TEST(LagFit, OfTwoStagesIsHardlyTooLong) {
     return grip_of(w) / ((1.0 + kJ * w * 0.001) * (1.0 + kJ * w * 0.0015));
   };
   const LagFit fit = fit_lag(lines_of(response, 0.005, 1), kPeriods);
-  EXPECT_EQ(fit.trouble, "");
+  EXPECT_EQ(fit.error, "");
   EXPECT_GE(fit.most_s, 0.0025);
   EXPECT_LE(fit.least_s, 0.0025 + 76e-6);
 }
@@ -73,7 +73,7 @@ TEST(LagFit, OfAHandOnFingersIsRightOrRefused) {
     for (const double damper : {0.5, 2.0, 8.0}) {
       SCOPED_TRACE(testing::Message() << spring << " N/m, " << damper << " N s/m");
       const LagFit fit = in_fingers_of(spring, damper);
-      if (!fit.trouble.empty()) continue;
+      if (!fit.error.empty()) continue;
       ++found;
       EXPECT_NEAR(fit.lag_s, 0.002, kVagueLag_s);
     }
@@ -82,21 +82,21 @@ TEST(LagFit, OfAHandOnFingersIsRightOrRefused) {
 }
 
 TEST(LagFit, GivesNoNumberWhereThereIsNone) {
-  const auto expect_trouble = [](const auto& response, double noise, const char* part) {
+  const auto expect_error = [](const auto& response, double noise, const char* part) {
     const LagFit fit = fit_lag(lines_of(response, noise, 1), kPeriods);
-    EXPECT_NE(fit.trouble.find(part), std::string::npos) << part << ": " << fit.trouble;
+    EXPECT_NE(fit.error.find(part), std::string::npos) << part << ": " << fit.error;
   };
   const auto delayed = [](double w) { return grip_of(w) * std::exp(-kJ * w * 0.002); };
-  expect_trouble(delayed, 2.0, "hardly moved");
+  expect_error(delayed, 2.0, "hardly moved");
   const auto sluggish = [](double w) { return grip_of(w) / (1.0 + kJ * w * 0.008); };
-  expect_trouble(sluggish, 0.1, "could be told to within");
+  expect_error(sluggish, 0.1, "could be told to within");
   const auto slow = [](double w) { return grip_of(w) * std::exp(-kJ * w * 0.04); };
-  expect_trouble(slow, 0.005, "more than 30 ms");
+  expect_error(slow, 0.005, "more than 30 ms");
   // Two grips that swing against each other.
   const auto resonant = [](double w) {
     return grip_of(w) + 1.0 / (0.02 * (8e4 - w * w) + kJ * 0.3 * w);
   };
-  expect_trouble(resonant, 0.005, "not move as a mass");
+  expect_error(resonant, 0.005, "not move as a mass");
 }
 
 }  // namespace

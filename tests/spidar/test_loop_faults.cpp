@@ -74,7 +74,7 @@ TEST(LostPose, RestsWithoutIt) {
         bench.run(1);
         ASSERT_EQ(bench.tension_N(), bench.profile.min_tension_N()) << name;
       }
-      EXPECT_EQ(bench.snapshot().last.trouble, PoseTrouble::kNoFit) << name;
+      EXPECT_EQ(bench.snapshot().last.pose_fault, PoseFault::kNoFit) << name;
       EXPECT_GE(bench.snapshot().untrusted_ns, 300 * kMs) << name;
     }
   }
@@ -110,7 +110,7 @@ TEST(LostPose, WhileStoppingTakesNoLonger) {
   driver.pause();
   driver.run(18 * kMs);
   driver.tick(PoseTrust::kPoseTimeout_ns + kMs);  // a stall, of which two milliseconds count
-  EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kNoReading);
+  EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kNoReading);
   EXPECT_EQ(driver.run(30 * kMs).tension_N, driver.profile.min_tension_N());
 }
 
@@ -133,7 +133,7 @@ TEST(LostPose, NeedsSeveralGoodOnesInARow) {
   }
   driver.log().count = good;
   EXPECT_EQ(driver.run((PoseTrust::kGoodPoses + 42) * kMs).commanded.force_N.x(), 1);
-  EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kNone);
+  EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kNone);
 }
 
 TEST(LostPose, AJumpIsNotFollowed) {
@@ -147,7 +147,7 @@ TEST(LostPose, AJumpIsNotFollowed) {
   put_grip(driver, there);
   driver.tick();
   driver.tick();
-  EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kJump);
+  EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kJump);
   int rested = 0;
   for (int i = 0; i < 48; ++i) rested += driver.tick().tension_N == driver.profile.min_tension_N();
   EXPECT_GT(rested, 0);
@@ -161,7 +161,7 @@ TEST(LostPose, CountersThatAllStandStillAreNoticed) {
   bench.loop->cancel_scheduled();
   bench.loop->schedule({0, INT64_MAX / 2, push_right(-1)});
   bench.run(600);
-  EXPECT_EQ(bench.snapshot().last.trouble, PoseTrouble::kFrozen);
+  EXPECT_EQ(bench.snapshot().last.pose_fault, PoseFault::kFrozen);
   for (int i = 0; i < 2000; ++i) {
     bench.run(1);
     ASSERT_EQ(bench.tension_N(), bench.profile.min_tension_N()) << "tick " << i;
@@ -172,7 +172,7 @@ TEST(LostPose, CountersThatAllStandStillAreNoticed) {
   hand.position_m.x() = 1e-4;
   bench.simulated.set_hand(hand);
   bench.run(200);
-  EXPECT_EQ(bench.snapshot().last.trouble, PoseTrouble::kNone);
+  EXPECT_EQ(bench.snapshot().last.pose_fault, PoseFault::kNone);
   EXPECT_EQ(bench.snapshot().last.commanded.force_N.x(), -1);
 }
 
@@ -200,11 +200,11 @@ TEST(LostPose, CountersThatNeverMoveStopEveryForceThatIsFelt) {
         }
       };
       play(0.9 * longest_s);
-      EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kNone) << force_N << " N";
+      EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kNone) << force_N << " N";
       play(0.5 * longest_s + 0.2);
-      EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kFrozen) << force_N << " N";
+      EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kFrozen) << force_N << " N";
       play(10);
-      EXPECT_EQ(driver.loop->snapshot().last.trouble, PoseTrouble::kFrozen) << force_N << " N";
+      EXPECT_EQ(driver.loop->snapshot().last.pose_fault, PoseFault::kFrozen) << force_N << " N";
       EXPECT_EQ(driver.loop->snapshot().last.tension_N, driver.profile.min_tension_N());
     }
   }
@@ -220,7 +220,7 @@ TEST(LostPose, AHandThatYieldsToAWeakForceIsNotFrozen) {
       bench.loop->schedule({0, INT64_MAX / 2, wanted});
       bench.loop->set_playback_clock({bench.now_ns, 0, 1, true});
       bench.run(8000);
-      EXPECT_EQ(bench.snapshot().last.trouble, PoseTrouble::kNone) << name << ", " << force_N;
+      EXPECT_EQ(bench.snapshot().last.pose_fault, PoseFault::kNone) << name << ", " << force_N;
     }
   }
 }

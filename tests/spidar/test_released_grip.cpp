@@ -103,11 +103,11 @@ TEST(ReleasedGrip, AGripThatComesBackFromATurnGetsNoForceYet) {
   grip.run(0.5);
   ASSERT_TRUE(grip.snapshot().last.held);
   turn_to(GripWatch::kMaxTurn_rad + 0.2);
-  EXPECT_EQ(grip.snapshot().last.trouble, PoseTrouble::kTurned);
+  EXPECT_EQ(grip.snapshot().last.pose_fault, PoseFault::kTurned);
   EXPECT_FALSE(grip.snapshot().last.held);
   grip.run(brake::kRest_s + brake::kReturn_s + 1);
   turn_to(GripWatch::kMaxTurn_rad - 0.5);
-  ASSERT_EQ(grip.snapshot().last.trouble, PoseTrouble::kNone);
+  ASSERT_EQ(grip.snapshot().last.pose_fault, PoseFault::kNone);
   grip.run(0.5);
   EXPECT_FALSE(grip.snapshot().last.held);
   EXPECT_EQ(grip.snapshot().last.commanded.force_N.norm(), 0);

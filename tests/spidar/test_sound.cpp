@@ -148,18 +148,19 @@ TEST_F(Sound, IsListedAndNeverChosenByItself) {
 TEST_F(Sound, SaysWhatIsWrong) {
   struct Case {
     const char *spec, *says;
-    DeviceTrouble trouble;
+    DeviceErrorCode error;
   };
   for (const Case& wrong : {
            Case{"sound:shaeker", "no sound card \"shaeker\"; there are sound:shaker, sound:stereo",
-                DeviceTrouble::kAbsent},
-           Case{"sound:default", "name the card: there are sound:shaker", DeviceTrouble::kSettings},
-           Case{"sound:pipewire", "whatever a server", DeviceTrouble::kSettings},
-           Case{"sound:stereo,3=x", "it has 2 channels, and channel 3", DeviceTrouble::kSettings},
+                DeviceErrorCode::kAbsent},
+           Case{"sound:default", "name the card: there are sound:shaker",
+                DeviceErrorCode::kSettings},
+           Case{"sound:pipewire", "whatever a server", DeviceErrorCode::kSettings},
+           Case{"sound:stereo,3=x", "it has 2 channels, and channel 3", DeviceErrorCode::kSettings},
        }) {
-    const auto [text, kind] = trouble(wrong.spec);
+    const auto [text, kind] = error(wrong.spec);
     EXPECT_NE(text.find(wrong.says), std::string::npos) << wrong.spec << ": " << text;
-    EXPECT_EQ(kind, wrong.trouble) << wrong.spec;
+    EXPECT_EQ(kind, wrong.error) << wrong.spec;
   }
   for (const char* rest :
        {",1=x", "a,5=x", "a,0=x", "a,1=w", "a,1=", "a,1=0/0/0", "a,1=1/0", "a,1=nan/0/0",
@@ -313,7 +314,7 @@ TEST_F(Sound, ACardThatGoesAwayIsLostAndComesBack) {
   GripCommand command = told(1);
   wait_for([&] { return device->exchange(command) == LinkFault::kGone; });
   device->close();
-  EXPECT_EQ(trouble("sound:shaker").second, DeviceTrouble::kAbsent);
+  EXPECT_EQ(error("sound:shaker").second, DeviceErrorCode::kAbsent);
   plug(true);
   device->open();
   wait_for([&] { return device->exchange(command) == LinkFault::kNone; });

@@ -109,7 +109,7 @@ TEST_F(Sound, LeavesTheErrorHandlerOfTheProgram) {
   const auto device = grip("sound:stereo");
   device->open();
   device->close();
-  EXPECT_NE(trouble("sound:none").first, "");
+  EXPECT_NE(error("sound:none").first, "");
   program_was_told = false;
   snd_pcm_t* none = nullptr;
   EXPECT_LT(snd_pcm_open(&none, "no such device", SND_PCM_STREAM_PLAYBACK, 0), 0);

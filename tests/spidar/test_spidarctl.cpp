@@ -169,7 +169,7 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWiredAndLags) {
             load_profile("spidar-g6x3-v2-r").drives[3].encoder_sign);
   const bool measured = outcome.text.find("\"drive_lag_s\": 0.00") != std::string::npos;
   EXPECT_EQ(written.drive_lag_known, measured);
-  if (!measured) expect_contains(outcome.text, "\"drive_lag\": {\n    \"trouble\": ");
+  if (!measured) expect_contains(outcome.text, "\"drive_lag\": {\n    \"error\": ");
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {

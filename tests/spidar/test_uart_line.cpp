@@ -51,7 +51,7 @@ class UartLines : public testing::Test {
         return board.open();
       } catch (const DeviceError& error) {
         const bool may_be_late =
-            error.trouble() == DeviceTrouble::kAbsent || error.trouble() == DeviceTrouble::kFailed;
+            error.code() == DeviceErrorCode::kAbsent || error.code() == DeviceErrorCode::kFailed;
         if (!may_be_late) throw;
       }
     }

@@ -65,7 +65,7 @@ TEST_F(VibrationMemories, TheNextProgramBeginsWithWhatIsLeft) {
   VibrationMemory second(file);
   EXPECT_EQ(second.add(0, at(3 * kHour)), 5 * kHour);
   EXPECT_EQ(second.add(0, at(20 * kHour)), 0);
-  EXPECT_EQ(second.trouble() + first.trouble(), "");
+  EXPECT_EQ(second.error() + first.error(), "");
   struct stat status {};
   ASSERT_EQ(stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777u, 0600u);
@@ -83,7 +83,7 @@ TEST_F(VibrationMemories, ProgramsThatRunTogetherAddUp) {
     threads.emplace_back([this] {
       VibrationMemory memory(file);
       for (int n = 0; n < kTimes; ++n) memory.add(kSecond, at(kHour));
-      EXPECT_EQ(memory.trouble(), "");
+      EXPECT_EQ(memory.error(), "");
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(one.add(0, at(kHour)), 3 * kHour + kThreads * kTimes * kSecond);
@@ -106,13 +106,13 @@ TEST_F(VibrationMemories, WithoutAUsableFileHalfCountsAsUsed) {
     write(text);
     VibrationMemory memory(file);
     EXPECT_EQ(memory.add(0, at(kHour)), kEmpty_ns / 2) << text.substr(0, 300);
-    EXPECT_NE(memory.trouble().find(file), std::string::npos);
-    EXPECT_NE(memory.trouble().find("not what this program writes"), std::string::npos);
+    EXPECT_NE(memory.error().find(file), std::string::npos);
+    EXPECT_NE(memory.error().find("not what this program writes"), std::string::npos);
     // It is written anew, and all that counts is in it.
     EXPECT_EQ(memory.add(kHour, at(kHour)), kEmpty_ns / 2 + kHour);
     VibrationMemory next(file);
     EXPECT_EQ(next.add(0, at(kHour)), kEmpty_ns / 2 + kHour);
-    EXPECT_EQ(next.trouble(), "");
+    EXPECT_EQ(next.error(), "");
   }
 }
 
@@ -120,7 +120,7 @@ TEST_F(VibrationMemories, AFileThatCannotBeOpenedIsSaid) {
   fs::create_directories(file);  // a folder
   VibrationMemory folder_there(file);
   EXPECT_EQ(folder_there.add(0, at(kHour)), kEmpty_ns / 2);
-  EXPECT_NE(folder_there.trouble().find("Is a directory"), std::string::npos);
+  EXPECT_NE(folder_there.error().find("Is a directory"), std::string::npos);
   // Half once, and then what is known.
   EXPECT_EQ(folder_there.add(kHour, at(2 * kHour)), kEmpty_ns / 2);
   fs::remove(file);
@@ -134,7 +134,7 @@ TEST_F(VibrationMemories, AFileThatCannotBeOpenedIsSaid) {
   EXPECT_EQ(pipe.add(0, at(kHour)), kEmpty_ns / 2);
   VibrationMemory nowhere("/proc/none/vibration");
   EXPECT_EQ(nowhere.add(0, at(kHour)), kEmpty_ns / 2);
-  EXPECT_NE(nowhere.trouble(), "");
+  EXPECT_NE(nowhere.error(), "");
 }
 
 TEST_F(VibrationMemories, AFullDiskIsSaid) {
@@ -148,7 +148,7 @@ TEST_F(VibrationMemories, AFullDiskIsSaid) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, ignored);
   EXPECT_EQ(empty_ns, kEmpty_ns / 2);
-  EXPECT_NE(memory.trouble().find("File too large"), std::string::npos) << memory.trouble();
+  EXPECT_NE(memory.error().find("File too large"), std::string::npos) << memory.error();
 }
 
 TEST_F(VibrationMemories, AFileThatSomebodyElseHoldsIsNotWaitedForLong) {

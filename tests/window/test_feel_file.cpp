@@ -31,7 +31,7 @@ class FeelFile : public testing::Test {
   void write(const std::string& name, const std::string& what) const {
     std::ofstream(path(name)) << what;
   }
-  std::string problem(const std::string& feel, const std::string& of) const {
+  std::string error(const std::string& feel, const std::string& of) const {
     try {
       save_feel(feel, of, {kChoice});
     } catch (const std::runtime_error& error) {
@@ -107,11 +107,11 @@ TEST_F(FeelFile, GoesWithItsLastRule) {
 }
 
 TEST_F(FeelFile, SaysWhyItCannotBeWritten) {
-  EXPECT_EQ(problem("", ""), "what is played comes from no file, beside which rules could be kept");
-  EXPECT_EQ(problem("", path("none/film.avi")),
+  EXPECT_EQ(error("", ""), "what is played comes from no file, beside which rules could be kept");
+  EXPECT_EQ(error("", path("none/film.avi")),
             path("none/film.avi.feel") + ": there is no folder " + path("none"));
   fs::create_directory(path("film.avi.feel"));
-  EXPECT_EQ(problem("", film), path("film.avi.feel") + ": it is not a regular file");
+  EXPECT_EQ(error("", film), path("film.avi.feel") + ": it is not a regular file");
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ inline bool is_white(const Color& c) {
 inline Screenshot look(Window& window) {
   const TemporaryFolder folder;
   const std::string path = folder.path / "window.png";
-  const std::string problem = window.take_picture(path, kLong);
-  EXPECT_EQ(problem, "");
+  const std::string error = window.take_picture(path, kLong);
+  EXPECT_EQ(error, "");
   Screenshot shot;
   int channels = 0;
   if (uint8_t* const pixels = stbi_load(path.c_str(), &shot.width, &shot.height, &channels, 3)) {

@@ -45,10 +45,10 @@ std::vector<FeelRule> rules_in(const std::string& text) {
 /// Returns the name of the copy, which nothing has yet.
 std::string keep_copy(const std::string& path) {
   std::string copy = path + "~";
-  std::error_code problem;
-  while (fs::exists(copy, problem)) copy += "~";
-  if (!fs::copy_file(path, copy, problem)) {
-    throw std::runtime_error(copy + ": cannot be written: " + problem.message());
+  std::error_code failed;
+  while (fs::exists(copy, failed)) copy += "~";
+  if (!fs::copy_file(path, copy, failed)) {
+    throw std::runtime_error(copy + ": cannot be written: " + failed.message());
   }
   return copy;
 }

@@ -93,10 +93,10 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
   end_gap(frame.stamp.running_ns);
   const FramePacer::Order order = pacer_.order(frame.stamp.running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
-    report.problem = FrameProblem::kSameTimestamp;
+    report.fault = FrameFault::kSameTimestamp;
     return false;
   }
-  if (order == FramePacer::Order::kFalling) report.problem = FrameProblem::kFallingTimestamp;
+  if (order == FramePacer::Order::kFalling) report.fault = FrameFault::kFallingTimestamp;
   if (order != FramePacer::Order::kNext) reset();
   return true;
 }
@@ -108,7 +108,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   const ImageView picture = packed ? picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
     reset();
-    report.problem = luma.data ? FrameProblem::kSmallHalf : FrameProblem::kNotShown;
+    report.fault = luma.data ? FrameFault::kSmallHalf : FrameFault::kNotShown;
     return false;
   }
   const int64_t begin_ns = monotonic_now_ns();
@@ -129,7 +129,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
     reset();
-    report.problem = has_size ? FrameProblem::kTooSmall : FrameProblem::kWrongSize;
+    report.fault = has_size ? FrameFault::kTooSmall : FrameFault::kWrongSize;
     return;
   }
   const int64_t shown_ns = schedule_.at_sink_ns(frame.stamp.running_ns);

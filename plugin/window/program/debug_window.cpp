@@ -304,8 +304,8 @@ void DebugWindow::save_here() {
   std::tm local{};
   localtime_r(&now, &local);
   std::strftime(path, sizeof path, "spidar-window-%Y%m%d-%H%M%S.png", &local);
-  const std::string problem = save(path);
-  say(problem.empty() ? std::string("saved ") + path : std::string(path) + ": " + problem);
+  const std::string error = save(path);
+  say(error.empty() ? std::string("saved ") + path : std::string(path) + ": " + error);
 }
 
 }  // namespace spidar

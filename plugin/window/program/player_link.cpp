@@ -123,9 +123,9 @@ void PlayerLink::take_frame(FrameShown&& frame) {
        std::move(frame.report)});
 }
 
-void PlayerLink::picture_taken(const std::string& problem) {
+void PlayerLink::picture_taken(const std::string& error) {
   wanted_picture_.reset();
-  send(PictureTaken{problem});
+  send(PictureTaken{error});
 }
 
 void PlayerLink::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {

@@ -67,7 +67,7 @@ class PlayerLink {
   /// The file into which the next drawing is to be written.
   std::optional<std::string> wanted_picture() const { return wanted_picture_; }
   /// the result of processing it, see PictureTaken.
-  void picture_taken(const std::string& problem);
+  void picture_taken(const std::string& error);
 
   void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }
   void load_preset(const std::string& name) { send(LoadPreset{name}); }

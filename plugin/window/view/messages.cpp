@@ -257,7 +257,7 @@ void pass(Wire& wire, SeekFilm& seek) {
 
 template <typename Wire>
 void pass(Wire& wire, PictureTaken& taken) {
-  wire(taken.problem);
+  wire(taken.error);
 }
 
 template <typename Wire>

@@ -99,7 +99,7 @@ struct SeekFilm {
   int64_t to_ns = 0;
 };
 struct PictureTaken {
-  std::string problem;  ///< empty when it was written
+  std::string error;  ///< empty when it was written
 };
 /// The window cannot be opened: `what` happened, `advice` to do.
 struct CannotOpen {
