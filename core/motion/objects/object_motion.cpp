@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+
 #include "core/motion/objects/object_motion.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/quantile.h"
 
 namespace spidar {
 namespace {
@@ -81,6 +84,79 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
     found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
   }
   return found;
+}
+
+namespace {
+
+/// The background is compared with its model up to this far from the object's box: two blocks and a
+/// half, so that two whole ones are within it.
+constexpr double kAround_px = 2.5 * kBlock_px;
+/// Variance of a median over that of a mean.
+constexpr double kMedianVariance = M_PI / 2;
+
+bool is_around(const Region& region, const Eigen::Vector2d& at_px) {
+  const double outside_px = (region.low_px - at_px).cwiseMax(at_px - region.high_px).maxCoeff();
+  return outside_px > 0 && outside_px < kAround_px;
+}
+
+}  // namespace
+
+ErrorBound::ErrorBound() {
+  squares_px2_.reserve(kMostDisplacements);
+  beside_px_.reserve(kMostDisplacements);
+}
+
+/// Variance of each coordinate that comes from the object's blocks: of their median, and of the
+/// least squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction. Blocks do
+/// not overlap, so that each counts as a measurement.
+double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
+                                    const ObjectEvidence& evidence) {
+  squares_px2_.clear();
+  Eigen::Matrix2f structure = Eigen::Matrix2f::Zero();
+  float residual = 0;
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    const RelativeBlock& relative = evidence.relative[i];
+    if (evidence.owners[i] != key || !relative.shows_motion) continue;
+    const MotionBlock& block = evidence.field.blocks()[i];
+    const Eigen::Vector2d moved_px = relative.moved_px.cast<double>();
+    const Eigen::Vector2d from_px = block.centre_px.cast<double>() - moved_px;
+    squares_px2_.push_back((moved_px - found.model.displacement_px(from_px)).squaredNorm());
+    structure += block.structure;
+    residual += block.residual;
+  }
+  if (squares_px2_.empty()) return 0;
+  const auto n = static_cast<double>(squares_px2_.size());
+  const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
+  const double texture =
+      static_cast<double>(std::max(smaller_eigenvalue(structure), MotionBlock::kLeastTexture));
+  return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
+         static_cast<double>(residual) / (n * kBlockArea_px * texture);
+}
+
+/// The variance of the background: the median of what its model leaves over beside the object, or
+/// the noise of a single block where nothing shows it.
+double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
+  beside_px_.clear();
+  for (size_t i = 0; i < evidence.owners.size(); ++i) {
+    const MotionBlock& block = evidence.field.blocks()[i];
+    const RelativeBlock& relative = evidence.relative[i];
+    if (evidence.owners[i] != 0 || relative.was_outside || !block.has_corners()) continue;
+    if (is_around(region, block.centre_px.cast<double>())) beside_px_.push_back(relative.moved_px);
+  }
+  const bool moves = evidence.background.model.kind != ModelKind::kStill;
+  const double shared_px2 = moves ? kSharedError_px * kSharedError_px : 0;
+  if (beside_px_.empty()) {
+    const double noise_px = moves ? evidence.background.sigma_px : 0;
+    return shared_px2 + noise_px * noise_px;
+  }
+  return shared_px2 + median_of_each(beside_px_).cast<double>().squaredNorm() / 2;
+}
+
+double ErrorBound::px(uint32_t key, const Region& region, const ObjectMotion& found,
+                      const ObjectEvidence& evidence) {
+  return kErrorSigmas *
+         std::sqrt(own_variance_px2(key, found, evidence) +
+                   background_variance_px2(region, evidence) + kSharedError_px * kSharedError_px);
 }
 
 }  // namespace spidar

@@ -3,6 +3,7 @@
 /// Follows objects that move relative to the background from frame to frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,13 +18,123 @@
 #include "core/motion/layers/parallax.h"
 #include "core/motion/layers/regions.h"
 #include "core/motion/layers/salience.h"
-#include "core/motion/objects/error_bound.h"
 #include "core/motion/objects/moving_object.h"
-#include "core/motion/objects/object_life.h"
 #include "core/motion/objects/object_motion.h"
 #include "core/motion/objects/turn_meter.h"
 
 namespace spidar {
+
+/// What is known of an object that is followed from frame to frame.
+struct ObjectLife {
+  enum class State : uint8_t {
+    kSeen,    ///< a region of this frame shows it
+    kRests,   ///< most of it is where it was, and nothing there clearly moves
+    kHidden,  ///< nothing shows it
+  };
+
+  /// Position, motion and size in the last frame in which most of an object was visible. When only
+  /// a rim of it is left, the rim does not determine any of these.
+  struct Expected {
+    double blocks = 0;  ///< when nothing hides it
+    Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
+  };
+
+  /// An object exists once it has been seen with a total of so many blocks, so that a small one
+  /// must be seen more often. A single frame counts for less: noise does not move twice alike.
+  static constexpr int kBornAfterBlocks = 7;
+  /// With less of its usual blocks than this, only a rim of an object is visible.
+  static constexpr double kRimFraction = 0.5;
+  /// Longer than what usually hides an object, and than most pauses in its motion.
+  static constexpr double kForgotten_s = 0.5;
+  /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
+  /// with each frame of 25 a second, a tenth is left.
+  static constexpr double kBoxSettles_s = 0.4;
+
+  uint32_t key = 0;     ///< in the order of creation, > 0
+  MovingObject object;  ///< its id is 0 until it has been in a result
+  Region region;        ///< in the last frame in which it was seen
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
+  Expected expected;
+  SteadyRate roll, growth;
+  /// Corners of the box that is drawn, in the field.
+  Eigen::Vector2d low_px = Eigen::Vector2d::Zero(), high_px = Eigen::Vector2d::Zero();
+  State state = State::kSeen;
+  double since_s = 0;  ///< for how long it has been at rest or hidden
+  LayerEvidence evidence;
+  int blocks_seen = 0;     ///< in all frames together, see kBornAfterBlocks
+  bool is_proven = false;  ///< it was clearly no layer of the scene in one of its frames
+  bool is_layer = false;   ///< looks more like a part of the scene than like an object
+
+  bool is_seen() const { return state == State::kSeen; }
+  bool is_born() const { return blocks_seen >= kBornAfterBlocks; }
+  void turn(State next) {
+    if (state != next) since_s = 0;
+    state = next;
+  }
+
+  /// Whether the region moves as the object did: as alike_px() has it, but with how far off the
+  /// motion of a block may be.
+  bool moves_like(const Region& other, double interval_s) const {
+    const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
+    const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
+    return (other.relative_px - expected_px).norm() <
+           kAlikeFraction * fastest_px + static_cast<double>(kMostOff_px);
+  }
+  /// Whether a region of its blocks is only a rim of it.
+  bool is_rim(const Region& visible) const {
+    return visible.blocks < kRimFraction * expected.blocks;
+  }
+  /// Whether it has moved out of the picture after it was in sight until now.
+  bool has_left(double interval_s) const {
+    const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
+    return region.border_blocks > 0 && region.position_px.dot(on_screen_px) > 0;
+  }
+  /// The box to draw moves as the object does.
+  void move_box(double interval_s) {
+    const Eigen::Vector2d moved_px = velocity_px_s * interval_s + region.background_px;
+    low_px += moved_px;
+    high_px += moved_px;
+  }
+  /// It is then drawn towards the box around the blocks, from which it is never further away than a
+  /// block, because that is how well they locate an edge.
+  void draw_box_to(const Region& seen, double interval_s) {
+    const double newest = interval_s / (kBoxSettles_s + interval_s);
+    const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {
+      constexpr double kBlock = kBlock_px;
+      corner_px += newest * (seen_px - corner_px);
+      corner_px = corner_px.cwiseMax((seen_px.array() - kBlock).matrix())
+                      .cwiseMin((seen_px.array() + kBlock).matrix());
+    };
+    draw(low_px, seen.low_px);
+    draw(high_px, seen.high_px);
+  }
+  /// Nothing shows how it turns and grows.
+  void turn_unseen(double interval_s) {
+    roll.miss(interval_s);
+    growth.miss(interval_s);
+    object.roll_rad_s = object.growth_1_s = 0;
+  }
+  /// Moves the position at which it is expected on.
+  void go_on_unseen(double interval_s) {
+    expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
+  }
+  /// Remembers what is needed if it goes out of sight. Its usual number of blocks rises at once and
+  /// falls slowly.
+  void expect(double interval_s) {
+    const double blocks = region.blocks;
+    const double forgotten = std::min(1.0, interval_s / kForgotten_s);
+    expected.blocks = std::max(blocks, expected.blocks + forgotten * (blocks - expected.blocks));
+    if (is_rim(region)) {  // the rest of it is hidden
+      go_on_unseen(interval_s);
+      return;
+    }
+    expected.position_px = region.position_px;
+    expected.velocity_px_s = velocity_px_s;
+    expected.sides_px = region.high_px - region.low_px;
+  }
+};
 
 /// The field of block motion of one frame, and how its pixels map to the frame.
 struct FieldInFrame {
