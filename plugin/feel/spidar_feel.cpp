@@ -22,7 +22,7 @@
 #include "plugin/properties/typed_property.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/standard_descriptors.h"
-#include "spidar/session/auto_device.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"

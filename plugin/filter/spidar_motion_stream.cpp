@@ -10,7 +10,7 @@
 #include "plugin/filter/engine/frame_touch.h"
 #include "plugin/filter/spidar_motion_private.h"
 #include "plugin/frame/motion_message.h"
-#include "plugin/gobject/exceptions.h"
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/sidecar.h"
 

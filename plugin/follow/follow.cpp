@@ -12,7 +12,6 @@
 #include "plugin/follow/followed_film.h"
 #include "plugin/follow/mpris_player.h"
 #include "plugin/follow/position_filter.h"
-#include "plugin/follow/tell.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 

@@ -10,7 +10,6 @@
 #include <gst/pbutils/pbutils.h>
 
 #include "plugin/follow/position_filter.h"
-#include "plugin/follow/tell.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"

@@ -8,9 +8,15 @@
 #include <string>
 #include <vector>
 
+#include <glib.h>
 #include <gst/gst.h>
 
 namespace spidar {
+
+/// What is said to people.
+inline void tell(const std::string& text) {
+  g_printerr("spidar-feel: %s\n", text.c_str());
+}
 
 /// Its haptic track, or the film once more. One thread. Times are of CLOCK_MONOTONIC.
 class FollowedFilm {

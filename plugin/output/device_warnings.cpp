@@ -4,10 +4,9 @@
 
 #include <utility>
 
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
-#include "plugin/gobject/exceptions.h"
-#include "plugin/gobject/information.h"
-#include "spidar/grip/rendered_text.h"
+#include "spidar/grip/grip.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/session/device_factory.h"
 

@@ -13,7 +13,7 @@
 #include "spidar/devices/device_registry.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/session/auto_device.h"
+#include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "spidar/spelling.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

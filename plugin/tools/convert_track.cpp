@@ -1,23 +1,50 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "plugin/tools/axis_scripts.h"
-#include "plugin/tools/sample_file.h"
+#include "core/track/track_format.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
-#include "spidar/as_text.h"
+#include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {
+
+/// Six funscripts for the six channels of a track, as players of several axes read them.
+struct AxisScript {
+  std::string path;
+  size_t channel;
+};
+
+/// "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others: those
+/// of the names that MultiFunPlayer and others look for (surge forwards, sway sideways, twist about
+/// the vertical, roll, pitch). The vertical force has the name of `main`.
+std::array<AxisScript, kTrackChannels> axis_scripts(const std::string& path, size_t main);
+
+std::array<AxisScript, kTrackChannels> axis_scripts(const std::string& path, size_t main) {
+  // By channel: fx, fy, fz, tx, ty, tz. The first axis of a player is the vertical one.
+  constexpr const char* kNames[kTrackChannels] = {".sway",  "",       ".surge",
+                                                  ".pitch", ".twist", ".roll"};
+  const std::filesystem::path whole = path;
+  std::array<AxisScript, kTrackChannels> scripts;
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    const size_t place = channel == main ? kUsualAxis : channel == kUsualAxis ? main : channel;
+    const std::string name = whole.stem().string() + kNames[place] + whole.extension().string();
+    scripts[channel] = {(whole.parent_path() / name).string(), channel};
+  }
+  return scripts;
+}
+
 namespace {
 
 /// Two digits: this is to be read, not to be computed with.

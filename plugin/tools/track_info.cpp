@@ -11,7 +11,7 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tools/track_summary.h"
-#include "spidar/as_text.h"
+#include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

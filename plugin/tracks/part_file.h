@@ -12,6 +12,14 @@
 
 namespace spidar {
 
+/// Notes in an extended attribute of the open file, whose content is complete, that `maker` has
+/// written it, with its size and the time of its last change. Where the file system keeps no
+/// attributes (FAT, NFS before 4.2), nothing is noted.
+void mark_written(int file, const std::string& maker);
+
+/// Whether `maker` has written the file at `path`, and nobody has changed its content since.
+bool is_as_written(const std::string& path, const std::string& maker);
+
 /// A file in the folder of the file that it becomes, called `.part-`, a number that follows from
 /// the name of that, and the same extension: however long the name of a film is, this one fits. One
 /// owner at a time, among all threads and processes: it is locked for as long as the object exists.

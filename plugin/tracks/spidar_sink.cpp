@@ -27,20 +27,142 @@
  *
  * Since: 0.1
  */
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
+#include <gst/base/gstbasesink.h>
+#include <gst/gst.h>
+
+#include "core/force/motion_rendering.h"
+#include "core/track/track_format.h"
+#include "plugin/frame/motion_message.h"
+#include "plugin/frame/no_force_watch.h"
 #include "plugin/output/device_warnings.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/properties/device_rows.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/timing/instant_rate.h"
 #include "plugin/timing/loop_queue.h"
-#include "plugin/tracks/block_messages.h"
-#include "plugin/tracks/sink_properties.h"
-#include "plugin/tracks/sink_wait.h"
+#include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_mark.h"
+
+namespace spidar {
+namespace {
+
+/// Waits until `ahead_ns` before this running time. `object` is used for preroll when the sink is
+/// paused meanwhile.
+inline GstFlowReturn wait_until(GstBaseSink* sink, GstMiniObject* object, gint64 running_ns,
+                                gint64 ahead_ns) {
+  GstClockReturn waited;
+  do {
+    const GstFlowReturn flow = gst_base_sink_do_preroll(sink, object);
+    if (flow != GST_FLOW_OK) return flow;
+    const gint64 due_ns = running_ns + static_cast<gint64>(gst_base_sink_get_latency(sink)) +
+                          gst_base_sink_get_ts_offset(sink) - ahead_ns;
+    waited = gst_base_sink_wait_clock(sink, static_cast<GstClockTime>(MAX(due_ns, 0)), nullptr);
+    if (sink->flushing) return GST_FLOW_FLUSHING;
+  } while (waited == GST_CLOCK_UNSCHEDULED);
+  return GST_FLOW_OK;
+}
+
+/// What an application can set on spidarsink. The words are those of spidarmotion.
+struct SinkProperties {
+  std::string device = "sim";
+  std::string profile;  ///< empty: that of the device's board
+  double max_force_N = 3;
+  double gain = 1;
+  bool mute = false;
+  bool post_messages = true;
+  bool accept_unmarked = false;
+  OnDeviceError on_device_error = OnDeviceError::kWarn;
+  std::string haptic_trace;
+};
+
+/// All of spidarsink, `stats` included; `ts-offset` is that of every sink.
+inline const PropertyTable<SinkProperties>& sink_properties() {
+  using SinkRow = Property<SinkProperties>;
+  // Never destroyed: a thread may still set a property while the process ends.
+  static const auto& table = *new PropertyTable<SinkProperties>{{
+      SinkRow::text({"device", "Device",
+                     "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, "
+                     "or 'auto' (what is plugged in). Opened from NULL to READY"},
+                    kNull, KEPT_IN(device)),
+      profile_row<SinkProperties>(),
+      SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,
+                      20, kControllable, KEPT_IN(max_force_N)),
+      SinkRow::number(
+          {"gain", "Gain",
+           "Factor on force and torque of the track. A change takes effect after the 0.2 s "
+           "of samples that are already queued"},
+          0, 100, kControllable, KEPT_IN(gain)),
+      SinkRow::on_off(
+          {"mute", "Mute",
+           "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
+           "property is set to false"},
+          kControllable, KEPT_IN(mute)),
+      SinkRow::on_off(
+          {"post-messages", "Post messages",
+           "Post a 'spidar-motion' element message for each 40 ms of the track, as long as fewer "
+           "than 1000 of them wait on the bus"},
+          kPlaying, KEPT_IN(post_messages)),
+      SinkRow::on_off(
+          {"accept-unmarked", "Accept unmarked",
+           "Feel sound of six channels that nothing marks as a haptic track. Tracks that "
+           "spidarextract and spidartrack make are marked by a tag; other sound is not felt"},
+          kReady, KEPT_IN(accept_unmarked)),
+      on_device_error_row<SinkProperties>(),
+      haptic_trace_row<SinkProperties>(),
+      SinkRow::statistics({"stats", "Statistics",
+                           "Statistics: samples and their faults, state and timing of the haptic "
+                           "loop"}),
+  }};
+  return table;
+}
+
+/// Posts for each block of samples what spidarmotion posts for a frame. Streaming thread; lives as
+/// long as the element, which its messages hold.
+class BlockMessages {
+ public:
+  explicit BlockMessages(GstElement* element) : element_(element) {}
+
+  /// Another stream comes to this pad: its file is the track or, where there is none, the element.
+  void begin_stream(GstPad* sink) {
+    const std::string file = film_of(sink);
+    track_ = std::make_shared<const std::string>(file.empty() ? GST_OBJECT_NAME(element_) : file);
+  }
+
+  /// `loop` is nothing while no device is open.
+  void post(const TrackBlock& block, const GstSegment& segment,
+            const std::optional<LoopSnapshot>& loop, bool muted) {
+    const auto begin = static_cast<guint64>(block.begin_ns);
+    const guint64 pts = gst_segment_position_from_running_time(&segment, GST_FORMAT_TIME, begin);
+    FrameReport report;
+    report.track = track_;
+    report.frame.stamp.running_ns = block.begin_ns;
+    report.frame.stamp.stream_ns =
+        static_cast<int64_t>(gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts));
+    for (size_t i = 0; i < block.count; ++i) {
+      const Wrench wrench = to_wrench(block.samples[i]);
+      if (size_N(wrench) > size_N(report.frame.wrench)) report.frame.wrench = wrench;
+    }
+    report.no_force = reason_in_track(report.frame.wrench, loop);
+    report.device_no_force = loop ? reason_in_device(*loop, muted) : NoForceReason::kNoDevice;
+    post_motion_message(element_, pts, static_cast<GstClockTime>(block.duration_ns), report,
+                        &unread_);
+  }
+
+ private:
+  GstElement* const element_;
+  std::shared_ptr<const std::string> track_ = std::make_shared<const std::string>();
+  gint unread_ = 0;  // atomic
+};
+
+}  // namespace
+}  // namespace spidar
 
 GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT

@@ -2,8 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/boards/board_parts.h"
 
-#include "spidar/as_text.h"
 #include "spidar/boards/encoder_counts.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

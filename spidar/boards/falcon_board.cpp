@@ -11,7 +11,7 @@
 
 #include "spidar/boards/board_parts.h"
 #include "spidar/boards/falcon_kinematics.h"
-#include "spidar/regular_file.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {

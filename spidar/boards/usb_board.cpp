@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "spidar/device.h"
-#include "spidar/transports/usb_bus.h"
+#include "spidar/transports/usb_transport.h"
 
 namespace spidar {
 

@@ -10,10 +10,10 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/singular_values.h"
 #include "core/quantile.h"
-#include "spidar/as_text.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"
 #include "spidar/simulation/grip_model.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/as_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
 #include "spidar/selftest/hold.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

@@ -4,7 +4,7 @@
 #include "spidar/devices/device_kind.h"
 #include "spidar/devices/device_parts.h"
 #include "spidar/emulation/emulated_boards.h"
-#include "spidar/profiles/board_names.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/protocols/cyverse.h"
 
 namespace spidar {

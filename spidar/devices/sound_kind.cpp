@@ -6,7 +6,7 @@
 #include "spidar/devices/device_kind.h"
 #include "spidar/devices/device_parts.h"
 #include "spidar/emulation/emulated_force_devices.h"
-#include "spidar/printable.h"
+#include "spidar/text.h"
 #include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"
 

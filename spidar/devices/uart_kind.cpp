@@ -8,7 +8,7 @@
 #include "spidar/devices/device_kind.h"
 #include "spidar/devices/device_parts.h"
 #include "spidar/emulation/emulated_boards.h"
-#include "spidar/profiles/board_names.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/transports/tty_transport.h"
 
 namespace spidar {

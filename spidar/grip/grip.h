@@ -18,6 +18,7 @@ namespace spidar {
 struct GripAbilities {
   /// Axes of the force that are rendered: to the right, up, towards the viewer.
   std::array<bool, 3> force{true, true, true};
+
   bool torque = true;
   /// Otherwise only the size of the force is rendered, in these axes.
   bool direction = true;
@@ -33,6 +34,9 @@ struct GripAbilities {
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
 };
+
+/// "force to the sides, up and down, up to 3 N, no torque"
+std::string rendered_text(const GripAbilities& can);
 
 /// Replaces negative values and NaN by zero.
 constexpr double non_negative(double x) noexcept {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <initializer_list>
 
-#include "spidar/realtime/csv_row.h"
+#include "spidar/realtime/line_writer.h"
 #include "spidar/realtime/thread_setup.h"
 
 namespace spidar {

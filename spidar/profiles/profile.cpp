@@ -10,7 +10,7 @@
 
 #include "spidar/install_folder.h"
 #include "spidar/profiles/profile_file.h"
-#include "spidar/regular_file.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -24,6 +26,19 @@ class ProfileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// What Profile::board may be: the controller that a SPIDAR was used with.
+namespace board_name {
+
+constexpr const char* kSh4 = "usb-sh4";
+constexpr const char* kSimple = "usb-simple";
+constexpr const char* kUart = "uart";
+constexpr const char* kAhs = "ahs";          ///< has no driver
+constexpr const char* kUnknown = "unknown";  ///< its source names none; may be any
+
+inline const std::initializer_list<std::string_view> kAll = {kSh4, kSimple, kUart, kAhs, kUnknown};
+
+}  // namespace board_name
 
 /// Motor, encoder and force range of one string.
 struct StringDrive {
@@ -77,7 +92,7 @@ struct Profile {
 
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;        ///< controller it was used with, see board_names.h
+  std::string board;        ///< controller it was used with, see board_name
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V

@@ -5,7 +5,7 @@
 /// A profile is TOML. All keys but `source` and `note` must be there, others must not:
 ///
 ///     description = "…"           one line
-///     board = "uart"              see board_names.h
+///     board = "uart"              see board_name in profile.h
 ///     dac_bits = 12               8 … 16
 ///     dac_max_V = 3.3             0 … 60
 ///     [geometry]
@@ -62,11 +62,5 @@ struct ShippedProfiles {
 
 /// All of them, sorted by name.
 ShippedProfiles shipped_profiles() noexcept;
-
-/// Writes to a new file in the same folder, which then gets the name `named_file` and the
-/// permissions of what it replaces. A link of that name stays one, and what it leads to is
-/// replaced; a device or a folder is not, and no link is followed at the new file's own name.
-/// Throws ProfileError with the system's reason; the old file is unchanged then.
-void replace_file(const std::filesystem::path& named_file, const std::string& text);
 
 }  // namespace spidar

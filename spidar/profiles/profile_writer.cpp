@@ -7,6 +7,7 @@
 
 #include "core/number_text.h"
 #include "spidar/profiles/profile_file.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {

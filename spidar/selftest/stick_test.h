@@ -7,6 +7,8 @@
 #include <array>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "spidar/grip/grip.h"
 #include "spidar/selftest/hold.h"
 
@@ -33,5 +35,10 @@ struct StickTest {
 /// when this program stood still. Throws DeviceError when the device is lost, or does not know
 /// where it is.
 StickTest test_stick(Grip& grip, const Pace& pace, double push_N);
+
+/// `can`: what the device can do; `reach_m`: where the grip is when it is pushed all the way;
+/// `device`: "ff" or "ff:PATH,flip=x", as it was tested.
+std::string stick_report(const StickTest& test, const GripAbilities& can,
+                         const Eigen::Vector2d& reach_m, const std::string& device);
 
 }  // namespace spidar

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lists devices without opening them.
+/// Lists devices without opening them, and chooses the one that "auto" stands for.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "spidar/devices/board_info.h"
+#include "spidar/devices/device_kind.h"
 
 namespace spidar {
 
@@ -25,5 +25,21 @@ std::string default_profile(const std::string& device);
 /// nothing is opened. If make_grip() does not know the device either, the name in the result is
 /// empty.
 BoardInfo board_info(const std::string& device);
+
+/// What the device "auto" may be.
+constexpr const char* kAutoDevice = "auto";
+
+struct AutoDevice {
+  std::string device;   ///< for make_grip()
+  std::string why;      ///< what it is: "a gamepad that rumbles"
+  std::string why_not;  ///< why it must not be used, and what would be right; empty: it may be
+};
+
+/// What is plugged in and gives a force, in the order in which it is to be tried: a SPIDAR whose
+/// profile somebody has confirmed, a joystick or wheel with directional force, an Inverse3, a
+/// Falcon, and what rumbles. Boards whose profile nobody has named come after the others with
+/// strings, with `why_not`, and so does what is used only if it is named. Opens nothing, so that
+/// what is listed may still be in use, or not be permitted.
+std::vector<AutoDevice> auto_devices();
 
 }  // namespace spidar

@@ -11,7 +11,7 @@
 #include "spidar/devices/device_registry.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
-#include "spidar/spelling.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

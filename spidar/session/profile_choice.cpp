@@ -14,9 +14,10 @@
 #include "spidar/boards/board_parts.h"
 #include "spidar/boards/usb_board.h"
 #include "spidar/devices/device_registry.h"
-#include "spidar/profiles/board_names.h"
+#include "spidar/profiles/profile.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {

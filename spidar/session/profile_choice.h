@@ -53,7 +53,7 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 void require_serial(const BoardInfo& board, const std::string& profile);
 
 /// `profile` is a name or a path as for load_profile(); a path is kept as an absolute one. Throws
-/// as require_serial(), and ProfileError if the file cannot be read or written.
+/// as require_serial(), ProfileError if the file cannot be read, and as replace_file().
 void remember_profile(const BoardInfo& board, const std::string& profile);
 
 }  // namespace spidar

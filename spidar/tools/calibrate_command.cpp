@@ -9,7 +9,6 @@
 #include <unistd.h>
 #include <utility>
 
-#include "spidar/as_text.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/samples.h"
 #include "spidar/profiles/profile_file.h"
@@ -20,6 +19,7 @@
 #include "spidar/session/profile_choice.h"
 #include "spidar/simulation/grip_model.h"
 #include "spidar/simulation/simulated_device.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar {

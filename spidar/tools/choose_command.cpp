@@ -6,11 +6,11 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "spidar/as_text.h"
 #include "spidar/selftest/encoder_signs.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar {

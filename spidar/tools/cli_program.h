@@ -11,7 +11,7 @@
 #include <iostream>
 #include <string>
 
-#include "spidar/as_text.h"
+#include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar {

@@ -13,7 +13,6 @@
 #include "spidar/selftest/delay_test.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
-#include "spidar/selftest/stick_report.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/selftest/wiring_report.h"
 #include "spidar/session/device_factory.h"

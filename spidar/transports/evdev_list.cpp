@@ -15,7 +15,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "spidar/printable.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

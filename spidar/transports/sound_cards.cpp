@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "spidar/device_error.h"
-#include "spidar/printable.h"
+#include "spidar/text.h"
 #include "spidar/transports/quiet_alsa.h"
 
 namespace spidar {

@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "spidar/device.h"
-#include "spidar/printable.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/text.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar {

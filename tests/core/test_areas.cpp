@@ -8,7 +8,7 @@
 
 #include "core/field/areas.h"
 #include "core/motion/camera/border_ring.h"
-#include "core/motion/camera/plain_parts.h"
+#include "core/motion/camera/camera_choice.h"
 #include "tests/core/field_film.h"
 #include "tests/support/texture.h"
 

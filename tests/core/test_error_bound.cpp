@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/motion/objects/error_bound.h"
+#include "core/motion/objects/object_motion.h"
 #include "core/quantile.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/motion_cases.h"

@@ -12,7 +12,6 @@
 #include "core/field/block_field.h"
 #include "core/field/block_kernels.h"
 #include "core/field/block_search.h"
-#include "core/field/field_picture.h"
 #include "tests/core/field_film.h"
 #include "tests/core/plain_block_kernels.h"
 #include "tests/support/picture.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/objects/steady_rate.h"
+#include "core/motion/objects/turn_meter.h"
 #include "tests/support/turning_ball.h"
 
 namespace spidar::test::turning_ball_test {

@@ -12,7 +12,7 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gtest/gtest.h>
 
-#include "plugin/filter/reports/matrix_transform.h"
+#include "plugin/filter/reports/motion_meta.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

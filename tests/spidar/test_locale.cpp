@@ -15,7 +15,7 @@
 #include "spidar/profiles/profile_file.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/protocols/sound.h"
-#include "spidar/realtime/csv_row.h"
+#include "spidar/realtime/line_writer.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 

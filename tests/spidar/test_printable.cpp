@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/printable.h"
+#include "spidar/text.h"
 
 namespace spidar::test::printable_test {
 namespace {

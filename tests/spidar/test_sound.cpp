@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include "spidar/protocols/sound.h"
-#include "spidar/session/auto_device.h"
 #include "spidar/session/board_list.h"
 #include "spidar/transports/sound_cards.h"
 #include "spidar/transports/sound_transport.h"

@@ -17,7 +17,6 @@
 
 #include "core/grip/picture_size.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/selftest/stick_report.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"

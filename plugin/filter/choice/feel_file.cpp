@@ -8,7 +8,7 @@
 
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
-#include "spidar/regular_file.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "plugin/frame/object_metas.h"
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
-#include "plugin/gobject/information.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)

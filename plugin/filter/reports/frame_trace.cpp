@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "core/analysis/analysis_json.h"
-#include "spidar/realtime/csv_row.h"
+#include "spidar/realtime/line_writer.h"
 
 namespace spidar {
 namespace {

@@ -10,7 +10,6 @@
 #include <Eigen/SVD>
 #include <gst-spidar/gstspidarmotionmeta.h>
 
-#include "plugin/filter/reports/matrix_transform.h"
 #include "plugin/frame/motion_message.h"
 
 namespace spidar {

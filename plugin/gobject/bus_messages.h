@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The border between C++ and GStreamer: an exception becomes an error message on the bus.
+/// What goes on the bus: an exception as an error, and information.
 #pragma once
 
 #include <exception>
@@ -67,6 +67,17 @@ bool guarded(GstElement* element, const char* doing, Function&& function,
     post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing, location);
     return false;
   }
+}
+
+/// Posts `text`, a sentence, for people. The debug text repeats it before `advice`, because
+/// gst-launch-1.0 prints nothing else.
+inline void post_information(GstElement* element, GQuark domain, gint code, const std::string& text,
+                             const std::string& advice,
+                             SourceLocation location = SourceLocation::here()) {
+  GST_CAT_INFO_OBJECT(category_of(element), element, "%s", text.c_str());
+  gst_element_message_full(element, GST_MESSAGE_INFO, domain, code, g_strdup(text.c_str()),
+                           g_strdup((text + " " + advice).c_str()), location.file,
+                           location.function, location.line);
 }
 
 }  // namespace spidar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/grip/rendered_text.h"
+#include "spidar/grip/grip.h"
 
 #include <cstdio>
 

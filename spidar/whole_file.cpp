@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+
+#include "spidar/whole_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <sys/stat.h>
+#include <sys/xattr.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace spidar {
+
+std::string read_regular_file(const std::string& path, size_t most_bytes) {
+  struct File {
+    const int descriptor;
+    ~File() {
+      if (descriptor >= 0) close(descriptor);
+    }
+  } const file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  struct stat status {};
+  if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
+    throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error("it is not a regular file");
+  std::string text;
+  char part[1 << 14];
+  while (true) {
+    const ssize_t got = read(file.descriptor, part, sizeof part);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
+    if (got == 0) return text;
+    text.append(part, static_cast<size_t>(got));
+    if (text.size() > most_bytes)
+      throw std::runtime_error("it has more than " + std::to_string(most_bytes >> 20) + " MiB");
+  }
+}
+
+std::filesystem::path place_of_output(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path place = std::filesystem::canonical(path, error);
+  if (!error) return place;
+  throw std::runtime_error(path.string() + ": cannot be written: it is a link to " +
+                           std::filesystem::read_symlink(path, error).string() +
+                           ", which is not there; remove the link");
+}
+
+void keep_permissions(int file, const std::filesystem::path& path) {
+  struct stat before {};
+  if (stat(path.c_str(), &before) != 0) return;
+  // The mode comes last: a new owner takes bits away, and a group that may not be given gets none.
+  const bool has_group = fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
+  [[maybe_unused]] const int owner = fchown(file, before.st_uid, static_cast<gid_t>(-1));
+  fchmod(file, before.st_mode & (has_group ? 0777U : 0707U));
+  constexpr const char* kAcl = "system.posix_acl_access";
+  const ssize_t bytes = getxattr(path.c_str(), kAcl, nullptr, 0);
+  if (bytes <= 0) return;
+  std::vector<char> acl(static_cast<size_t>(bytes));
+  if (getxattr(path.c_str(), kAcl, acl.data(), acl.size()) == bytes)
+    fsetxattr(file, kAcl, acl.data(), acl.size(), 0);
+}
+
+namespace {
+
+bool write_all(int file, const std::string& text) {
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t written = write(file, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    done += static_cast<size_t>(written);
+  }
+  return fsync(file) == 0;
+}
+
+}  // namespace
+
+void replace_file(const std::filesystem::path& named_file, const std::string& text) {
+  const std::filesystem::path file = place_of_output(named_file);
+  // Its name does not depend on that of the file, which may be as long as the system allows.
+  const std::string part = file.parent_path() / (".spidar-" + std::to_string(getpid()) + ".part");
+  const auto fail = [&] {
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+  };
+  struct stat named {};
+  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode))
+    throw std::runtime_error(file.string() + ": cannot be written: it is no regular file");
+  const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (opened < 0) fail();
+  keep_permissions(opened, file);
+  const bool written = write_all(opened, text);
+  int error = written ? 0 : errno;
+  if (close(opened) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  unlink(part.c_str());
+  errno = error;
+  fail();
+}
+
+}  // namespace spidar
