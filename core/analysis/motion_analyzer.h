@@ -63,8 +63,8 @@ class MotionAnalyzer {
 
   AnalyzerSettings settings_;
   ReducedFrame reduced_;
-  OpenCvTracker tracker_;   // for the mean
-  MotionEstimator motion_;  // for all else
+  OpenCvTracker tracker_;   ///< for the mean
+  MotionEstimator motion_;  ///< for all else
   Cadence cadence_;
   ForceRenderer renderer_;
   std::optional<int64_t> last_running_ns_;

@@ -132,7 +132,7 @@ class WrenchTimeline {
   Wrench value(size_t age, int64_t time_ns) const noexcept;
 
   History<Segment, kCapacity> segments_;
-  int64_t present_ns_ = INT64_MIN;  // nothing was rendered yet
+  int64_t present_ns_ = INT64_MIN;  ///< nothing was rendered yet
 };
 
 }  // namespace spidar

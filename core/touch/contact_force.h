@@ -82,7 +82,7 @@ class ContactForce {
   TouchProxy proxy_;
   EnergyBudget budget_;
   bool started_ = false;
-  double before_s_ = 0;  // dt_s of the last tick
+  double before_s_ = 0;  ///< dt_s of the last tick
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();
 };

@@ -96,13 +96,13 @@ class DepthPicture {
   void follow(const DepthSettings& settings, double dt_s) noexcept;
 
   CellAverage average_;
-  std::vector<int> column_;   // of the depth image, for each column that is read
-  std::vector<float> cells_;  // mean sample
+  std::vector<int> column_;   ///< of the depth image, for each column that is read
+  std::vector<float> cells_;  ///< mean sample
   std::vector<float> levels_;
-  std::vector<float> sorted_;  // the cells without holes, in part
+  std::vector<float> sorted_;  ///< the cells without holes, in part
   int read_width_ = 0;
   int from_width_ = 0;
-  DepthSettings settings_;  // used for the current range
+  DepthSettings settings_;  ///< used for the current range
   double near_ = 0;
   double far_ = 0;
   bool has_range_ = false;

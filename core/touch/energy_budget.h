@@ -69,14 +69,14 @@ class EnergyBudget {
   static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
 
   double left_J_ = 0;
-  double bounded_N_ = std::numeric_limits<double>::infinity();  // infinite: it was not bounded
+  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
   History<Eigen::Vector3d, kSlope + 1> velocity_m_s_;
-  History<double, kSlope> dt_s_;  // of the last ticks: in these, the velocity became what it is
-  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  // contact + beside, limited
-  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   // alone, with the same limits
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();    // on the grip, at the end of the last tick
-  Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();     // in the last tick, not yet measured
-  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();   // in the tick before
+  History<double, kSlope> dt_s_;  ///< of the last ticks: in these, the velocity became what it is
+  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
+  Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
+  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();  ///< on the grip, at the end of the last tick
+  Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();   ///< in the last tick, not yet measured
+  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  ///< in the tick before
 };
 
 }  // namespace spidar

@@ -67,7 +67,7 @@ class HeightField {
  private:
   double cell_x_m_;
   double cell_y_m_;
-  std::vector<float> z_m_;  // rows of kColumns
+  std::vector<float> z_m_;  ///< rows of kColumns
 };
 
 }  // namespace spidar

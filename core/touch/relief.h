@@ -59,10 +59,10 @@ class ReliefBuilder {
   void smooth(double across_cells, double down_cells) noexcept;
 
   CellAverage average_;
-  std::vector<uint8_t> row_;     // of the picture
-  std::vector<float> level_;     // 0 (far) … 1 (near), of each cell, before smoothing
-  std::vector<float> smoothed_;  // the same, after
-  std::vector<float> passed_;    // after the pass along the rows
+  std::vector<uint8_t> row_;     ///< of the picture
+  std::vector<float> level_;     ///< 0 (far) … 1 (near), of each cell, before smoothing
+  std::vector<float> smoothed_;  ///< the same, after
+  std::vector<float> passed_;    ///< after the pass along the rows
 };
 
 }  // namespace spidar

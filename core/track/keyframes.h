@@ -76,8 +76,8 @@ class KeyframeChooser {
   // Of the line: its first value, its last one so far, and the last one that was looked at.
   size_t begin_ = 0, end_ = 0, seen_ = 0;
   double begin_value_ = 0, end_value_ = 0;
-  double lowest_ = 0, highest_ = 0;  // slopes
-  std::deque<double> behind_;        // the values behind end_
+  double lowest_ = 0, highest_ = 0;  ///< slopes
+  std::deque<double> behind_;        ///< the values behind end_
 };
 
 }  // namespace spidar

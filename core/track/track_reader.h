@@ -66,9 +66,9 @@ class TrackReader {
 
  private:
   TrackSample last_{};
-  int64_t last_ns_ = INT64_MIN;  // nothing was read yet
-  int64_t period_ns_ = 0;        // of the block to which that belongs
-  size_t read_ = 0;              // samples of the oldest block
+  int64_t last_ns_ = INT64_MIN;  ///< nothing was read yet
+  int64_t period_ns_ = 0;        ///< of the block to which that belongs
+  size_t read_ = 0;              ///< samples of the oldest block
 };
 
 }  // namespace spidar

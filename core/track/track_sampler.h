@@ -59,10 +59,10 @@ class TrackSampler {
  private:
   WrenchTimeline timeline_;
   int64_t next_ns_ = 0;
-  int64_t latest_ns_ = INT64_MIN / 2;  // of all frames added
-  int64_t newest_ns_ = INT64_MIN / 2;  // motion of those that show a picture of their own
+  int64_t latest_ns_ = INT64_MIN / 2;  ///< of all frames added
+  int64_t newest_ns_ = INT64_MIN / 2;  ///< motion of those that show a picture of their own
   int64_t before_newest_ns_ = INT64_MIN / 2;
-  int64_t expired_ns_ = 0;  // for how long the wrench has been going to rest
+  int64_t expired_ns_ = 0;  ///< for how long the wrench has been going to rest
 };
 
 }  // namespace spidar

@@ -38,7 +38,7 @@ class BusWarnings {
 
  private:
   GstElement* const element_;
-  guint frame_faults_ = 0;  // bit i: FrameFault i was reported
+  guint frame_faults_ = 0;  ///< bit i: FrameFault i was reported
   // Reported:
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
   bool trace_ = false;

@@ -163,8 +163,8 @@ class Follower {
   PlayerState state_;
   std::string uri_;
   std::unique_ptr<FollowedFilm> film_;
-  int64_t position_ns_ = 0;    // the newest that it told
-  bool is_beginning_ = false;  // the next position begins a playback
+  int64_t position_ns_ = 0;    ///< the newest that it told
+  bool is_beginning_ = false;  ///< the next position begins a playback
   PositionFilter filter_;
 };
 

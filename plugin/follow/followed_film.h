@@ -52,17 +52,17 @@ class FollowedFilm {
   int64_t running_at(int64_t position_ns) const;
 
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
-  GstElement* felt_ = nullptr;  // spidarmotion or spidarsink; owned by the pipeline
-  GstElement* sink_ = nullptr;  // that waits for the clock
+  GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
+  GstElement* sink_ = nullptr;  ///< that waits for the clock
   int64_t frame_ns_ = 0;
   double rate_ = 1;
-  bool ready_ = false;  // prerolled
+  bool ready_ = false;  ///< prerolled
   bool playing_ = false;
   bool failed_ = false;
   int64_t base_ns_ = 0;
-  int64_t paused_at_ns_ = 0;  // the position
-  int64_t checked_ns_ = 0;    // when follow() has last looked
-  int64_t settled_ns_ = 0;    // from when on the player's position is known well
+  int64_t paused_at_ns_ = 0;  ///< the position
+  int64_t checked_ns_ = 0;    ///< when follow() has last looked
+  int64_t settled_ns_ = 0;    ///< from when on the player's position is known well
   // The segment: a position and its running time.
   int64_t begin_position_ns_ = 0, begin_running_ns_ = 0;
   int64_t seek_began_ns_ = 0, seek_took_ns_ = 0;

@@ -68,7 +68,7 @@ class MprisPlayer {
   GCancellable* const ended_;
   std::vector<guint> signals_;
   guint timer_ = 0;
-  int64_t asked_ns_ = 0;  // the position; 0: no question waits
+  int64_t asked_ns_ = 0;  ///< the position; 0: no question waits
   int64_t state_asked_ns_ = 0;
 };
 

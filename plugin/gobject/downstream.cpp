@@ -45,7 +45,7 @@ class Search {
   }
 
   const std::function<bool(GstElement*)>& wanted_;
-  int pads_left_ = 256;  // ends the search in a cycle
+  int pads_left_ = 256;  ///< ends the search in a cycle
 };
 
 }  // namespace

@@ -53,17 +53,17 @@ class DeviceWarnings {
 
   GstElement* const element_;
   const std::string what_;
-  guint strings_ = 0;       // bit i: string i
-  bool pose_lost_ = false;  // reported, and not come back since
-  bool held_back_ = false;  // reported
-  bool vibrated_ = false;   // reported
-  bool shaken_ = false;     // reported
-  bool late_ = false;       // reported
-  bool remarked_ = false;   // reported
+  guint strings_ = 0;       ///< bit i: string i
+  bool pose_lost_ = false;  ///< reported, and not come back since
+  bool held_back_ = false;  ///< reported
+  bool vibrated_ = false;   ///< reported
+  bool shaken_ = false;     ///< reported
+  bool late_ = false;       ///< reported
+  bool remarked_ = false;   ///< reported
   int64_t late_from_ns_ = 0;
   bool haptic_trace_ = false;
   DeviceState state_ = DeviceState::kClosed;
-  std::string refusal_;  // reported of a device that is lost
+  std::string refusal_;  ///< reported of a device that is lost
   uint64_t times_lost_ = 0;
 };
 

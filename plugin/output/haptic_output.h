@@ -74,17 +74,17 @@ class HapticOutput {
   const std::function<void()> refreshed_;
   PlaybackSync::Now now_ = nullptr;
   void* now_user_ = nullptr;
-  mutable std::mutex mutex_;                      // state changes against any thread
-  std::unique_ptr<CardReservation> reservation_;  // of the session's card
+  mutable std::mutex mutex_;                      ///< state changes against any thread
+  std::unique_ptr<CardReservation> reservation_;  ///< of the session's card
   std::unique_ptr<HapticSession> session_;
-  SimulatedDevice* simulated_ = nullptr;  // of the session, if it is one
+  SimulatedDevice* simulated_ = nullptr;  ///< of the session, if it is one
   Profile profile_;
   std::string chosen_;
-  SafetyLimits limits_;        // as they were set
-  double most_force_N_ = 0;    // that the device can give
-  std::string most_force_of_;  // the profile that this is of, or the device
+  SafetyLimits limits_;        ///< as they were set
+  double most_force_N_ = 0;    ///< that the device can give
+  std::string most_force_of_;  ///< the profile that this is of, or the device
   bool said_too_much_ = false;
-  PlaybackFollower follower_;  // ends before the loop to which it publishes
+  PlaybackFollower follower_;  ///< ends before the loop to which it publishes
 };
 
 }  // namespace spidar

@@ -86,7 +86,7 @@ class LoopQueue {
   }
 
   mutable std::mutex mutex_;
-  std::pmr::unsynchronized_pool_resource pool_;  // so that a queue that has grown needs no heap
+  std::pmr::unsynchronized_pool_resource pool_;  ///< so that a queue that has grown needs no heap
   std::pmr::deque<Entry> entries_{&pool_};
 
  private:
@@ -106,7 +106,7 @@ class LoopQueue {
   const size_t most_waiting_, kept_;
   HapticLoop* loop_ = nullptr;
   bool muted_ = false;
-  size_t handed_ = 0;  // of the entries, from the first one on
+  size_t handed_ = 0;  ///< of the entries, from the first one on
   uint64_t refused_ = 0;
 };
 

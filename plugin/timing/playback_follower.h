@@ -46,7 +46,7 @@ class PresentationDelay {
 
  private:
   DownstreamPath path_;
-  std::vector<GstClockTimeDiff> latency_ns_;  // of live sources before each element of the path
+  std::vector<GstClockTimeDiff> latency_ns_;  ///< of live sources before each element of the path
   GstClockTimeDiff told_ns_ = 0;
 };
 
@@ -83,10 +83,10 @@ class PlaybackFollower {
   void run();
   void refresh_locked();
 
-  GstElement* const element_;  // owns the owner of this
+  GstElement* const element_;  ///< owns the owner of this
   std::mutex mutex_;
   std::condition_variable changed_;
-  Publish publish_;  // null: there is no device
+  Publish publish_;  ///< null: there is no device
   PlaybackSync sync_{nullptr, nullptr};
   PresentationDelay delay_;
   bool sink_outdated_ = false;

@@ -175,7 +175,7 @@ class PlaybackSync {
   int64_t offset_ns_ = 0;
   int64_t skipped_ns_ = 0;
 
-  const GstClock* clock_ = nullptr;  // only compared: the readings are of this one
+  const GstClock* clock_ = nullptr;  ///< only compared: the readings are of this one
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};

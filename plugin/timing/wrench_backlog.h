@@ -78,8 +78,8 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
   }
 
   InstantRate instant_rate_;
-  int64_t skipped_ns_ = 0;         // by the sink, since the last flush
-  int64_t skipped_before_ns_ = 0;  // of it, before this segment
+  int64_t skipped_ns_ = 0;         ///< by the sink, since the last flush
+  int64_t skipped_before_ns_ = 0;  ///< of it, before this segment
 };
 
 }  // namespace spidar

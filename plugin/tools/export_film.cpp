@@ -165,8 +165,8 @@ class ExportedFilm {
   const PartFile::Replaces replaces_;
   FilmPage page_;
   TrackCondition condition_;
-  std::string unplayed_;       // why browsers do not play it
-  std::string in_the_middle_;  // why it is not known where the felt object is
+  std::string unplayed_;       ///< why browsers do not play it
+  std::string in_the_middle_;  ///< why it is not known where the felt object is
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ class QuietEnd {
   static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   void speak();
 
-  int errors_ = -1;  // where the standard error goes otherwise
+  int errors_ = -1;  ///< where the standard error goes otherwise
 };
 
 /// Keeps every sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.

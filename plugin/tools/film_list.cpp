@@ -132,8 +132,8 @@ class FilmSearch {
   const fs::path folder_;
   std::vector<FoundFilm> found_;
   std::vector<std::string> unreadable_;
-  std::map<std::string, size_t> passed_over_;  // by what they are
-  std::map<std::string, size_t> others_;       // files, by their ending
+  std::map<std::string, size_t> passed_over_;  ///< by what they are
+  std::map<std::string, size_t> others_;       ///< files, by their ending
 };
 
 }  // namespace

@@ -38,11 +38,11 @@ class FilmPage {
   static constexpr size_t kStep_samples = 10;
   static constexpr size_t kAxes = 3;
 
-  std::array<double, kAxes> sum_N_{};  // of the samples of a step
+  std::array<double, kAxes> sum_N_{};  ///< of the samples of a step
   size_t count_ = 0;
-  std::array<std::vector<double>, kAxes> force_N_;  // means of steps
+  std::array<std::vector<double>, kAxes> force_N_;  ///< means of steps
   double largest_N_ = 0;
-  std::array<std::vector<double>, 4> edges_;  // of FeltBox, from -1 to 1, of each step; or empty
+  std::array<std::vector<double>, 4> edges_;  ///< of FeltBox, from -1 to 1, of each step; or empty
 };
 
 }  // namespace spidar

@@ -48,17 +48,17 @@ class FilmWatch {
 
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;  // with an error; warnings after it follow from it
-  std::string warning_;  // the first one
-  std::string remark_;   // the first warning of spidarmotion
+  bool failed_ = false;  ///< with an error; warnings after it follow from it
+  std::string warning_;  ///< the first one
+  std::string remark_;   ///< the first warning of spidarmotion
   bool has_appended_ = false;
-  bool unmeasured_ = false;         // frames in a row; the remark says why
-  std::set<std::string> pictures_;  // streams of pictures that are files, by their ids
-  std::string missing_;             // the decoder of the video that is not installed
-  bool has_video_ = true;           // unknown until chosen
+  bool unmeasured_ = false;         ///< frames in a row; the remark says why
+  std::set<std::string> pictures_;  ///< streams of pictures that are files, by their ids
+  std::string missing_;             ///< the decoder of the video that is not installed
+  bool has_video_ = true;           ///< unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
-  std::array<int, kNoForceReasons> frames_by_reason_{};  // that were measured
+  std::array<int, kNoForceReasons> frames_by_reason_{};  ///< that were measured
 };
 
 }  // namespace spidar

@@ -50,10 +50,10 @@ class RecordReport {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::chrono::steady_clock::time_point told_ = begin_;
-  std::vector<double> sizes_;      // of the films, in bytes, at least 1
-  double work_ = 0, skipped_ = 0;  // bytes of those that are done, and of which were there
-  std::map<size_t, int> in_work_;  // film and percent
-  std::array<size_t, 4> count_{};  // of each result
+  std::vector<double> sizes_;      ///< of the films, in bytes, at least 1
+  double work_ = 0, skipped_ = 0;  ///< bytes of those that are done, and of which were there
+  std::map<size_t, int> in_work_;  ///< film and percent
+  std::array<size_t, 4> count_{};  ///< of each result
   std::vector<std::pair<size_t, std::string>> failures_;
 };
 

@@ -107,7 +107,7 @@ class StoredSound {
  private:
   static GstPadProbeReturn flows(GstPad* pad, GstPadProbeInfo* info, gpointer self);
 
-  std::string format_;  // of the samples, as caps name it
+  std::string format_;  ///< of the samples, as caps name it
   uint64_t bytes_ = 0;
   std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
                                                         g_checksum_free};

@@ -271,16 +271,16 @@ class FilmReader {
 
   FilePipeline file_;
   GstElement* const parser_;
-  GstElement* sink_ = nullptr;  // of the pictures
-  bool is_cover_ = false;       // they may be a single one, beside those of the film
+  GstElement* sink_ = nullptr;  ///< of the pictures
+  bool is_cover_ = false;       ///< they may be a single one, beside those of the film
   PacketFraming framing_;
   std::mutex mutex_;
   Part part_ = Part::kStart;
-  size_t bytes_ = 0;  // of this part
+  size_t bytes_ = 0;  ///< of this part
   std::vector<int64_t> times_ns_;
   int64_t last_ns_ = 0, last_length_ns_ = 0;
   Film film_;
-  std::string missing_;  // why there are no pictures
+  std::string missing_;  ///< why there are no pictures
 };
 
 }  // namespace

@@ -285,12 +285,12 @@ class TrackOfFile : public OpenTrack {
   Ref<GstPad> pad_;
   TrackNotes notes_;
   std::atomic<bool> is_chosen_{false}, has_sound_{false};
-  std::atomic<int> ended_{0};  // streams
+  std::atomic<int> ended_{0};  ///< streams
   // Streaming thread.
   TrackInput input_;
   Ref<GstCaps> caps_;
   int64_t first_ns_ = INT64_MAX;
-  int64_t end_ns_ = 0;  // of what has been read in this pass
+  int64_t end_ns_ = 0;  ///< of what has been read in this pass
   bool has_begun_ = false;
 };
 

@@ -72,10 +72,10 @@ class PartFile {
   bool may_replace() const;
 
   std::string path_, target_;
-  std::string place_;  // the target, or what it leads to
+  std::string place_;  ///< the target, or what it leads to
   Replaces replaces_;
   int descriptor_ = -1;
-  uint64_t written_ = 0;  // bytes
+  uint64_t written_ = 0;  ///< bytes
   std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
                                                         g_checksum_free};
 };

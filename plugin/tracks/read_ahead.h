@@ -82,15 +82,15 @@ class ReadAhead {
   bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
   bool is_full() const;
 
-  mutable std::mutex mutex_;  // of all
+  mutable std::mutex mutex_;  ///< of all
   std::condition_variable changed_;
   std::deque<TrackBlock> blocks_;
   bool ended_ = false, late_ = false, interrupted_ = false, stopped_ = false;
   std::string error_;
   TrackFaults faults_;
   int64_t later_ns_ = 0;
-  int64_t sought_ns_ = 0;        // in the file
-  int64_t last_ns_ = INT64_MIN;  // begin of the last block of this pass
+  int64_t sought_ns_ = 0;        ///< in the file
+  int64_t last_ns_ = INT64_MIN;  ///< begin of the last block of this pass
   // Of the blocks that come, of the seek that is executed, and of the last seek().
   uint64_t pass_ = 0, next_pass_ = 0, wanted_pass_ = 0;
 };

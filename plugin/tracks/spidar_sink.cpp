@@ -158,7 +158,7 @@ class BlockMessages {
  private:
   GstElement* const element_;
   std::shared_ptr<const std::string> track_ = std::make_shared<const std::string>();
-  gint unread_ = 0;  // atomic
+  gint unread_ = 0;  ///< atomic
 };
 
 }  // namespace

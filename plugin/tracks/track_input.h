@@ -59,9 +59,9 @@ class TrackInput {
   TrackThinner thinner_;
   GstClockTime next_pts_ = GST_CLOCK_TIME_NONE;
   GstClockTime end_ = GST_CLOCK_TIME_NONE;
-  std::vector<gdouble> doubles_;  // of a buffer, sample by sample
-  std::vector<gdouble> plane_;    // of a channel
-  std::vector<gint32> integers_;  // as the format unpacks
+  std::vector<gdouble> doubles_;  ///< of a buffer, sample by sample
+  std::vector<gdouble> plane_;    ///< of a channel
+  std::vector<gint32> integers_;  ///< as the format unpacks
   TrackBand band_;
   TrackFaults faults_;
   uint64_t samples_ = 0;

@@ -64,7 +64,7 @@ class TrackLoader {
 
   std::shared_ptr<Reading> reading() const;
 
-  mutable std::mutex mutex_;  // of the pointer
+  mutable std::mutex mutex_;  ///< of the pointer
   std::shared_ptr<Reading> reading_;
   std::thread thread_;
 };

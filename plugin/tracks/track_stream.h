@@ -90,16 +90,16 @@ class TrackStream {
   GstFlowReturn push();
 
   GstPad* const pad_;
-  GstSegment segment_{};  // of the video
-  GstSegment sent_{};     // of the samples
+  GstSegment segment_{};  ///< of the video
+  GstSegment sent_{};     ///< of the samples
   bool negotiated_ = false;
   bool begun_ = false;
   bool pushed_ = false;
-  int64_t jumped_to_ns_ = -1;  // of the last frame, if that is_alone()
+  int64_t jumped_to_ns_ = -1;  ///< of the last frame, if that is_alone()
   TrackSampler sampler_;
-  int64_t last_frame_ns_ = 0;  // running time
+  int64_t last_frame_ns_ = 0;  ///< running time
   Wrench last_wrench_;
-  int64_t interval_ns_ = 0;  // its duration, or the time since the one before
+  int64_t interval_ns_ = 0;  ///< its duration, or the time since the one before
   // The buffer that is being filled.
   GstBuffer* buffer_ = nullptr;
   GstMapInfo map_{};

@@ -105,7 +105,7 @@ class ForceGrip final : public Grip {
     return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseFault::kJump : PoseFault::kNone;
   }
 
-  const ForceBoard& board_;  // of the link
+  const ForceBoard& board_;  ///< of the link
   const GripTraits traits_;
   GripReading reading_;
   PoseTrust trust_;

@@ -83,14 +83,14 @@ class LinkThread final : public DeviceOf<Output, Reading> {
 
   const std::unique_ptr<BoardOf<Output, Reading>> board_;
   const BoardSettings settings_;
-  bool zeroed_ = false;  // the counts have been zeroed once
+  bool zeroed_ = false;  ///< the counts have been zeroed once
   std::vector<std::unique_ptr<Guardian>> guardians_;
   bool open_ = false;
   Output last_;
   uint32_t number_ = 0;
   // Used by the thread that exchanges.
   int errors_in_a_row_ = 0;
-  bool pulling_ = false;  // the output of the board may differ from zero
+  bool pulling_ = false;  ///< the output of the board may differ from zero
   // Not kNone: a guardian failed, or zeroed the motors, which stay at zero until open().
   LinkFault unguarded_ = LinkFault::kNone;
 

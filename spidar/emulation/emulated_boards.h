@@ -71,9 +71,9 @@ class EmulatedUart final : public EmulatedBoard {
   std::array<int, kMaxStrings> digits_{};
   // The command that is being received.
   const Station* station_ = nullptr;
-  size_t first_ = 0;  // first motor of the station
+  size_t first_ = 0;  ///< first motor of the station
   std::array<uint8_t, 256> command_{};
-  size_t length_ = 0;  // of the whole command
+  size_t length_ = 0;  ///< of the whole command
   size_t taken_ = 0;
   // Replies that have not been read yet.
   std::array<uint8_t, 1024> reply_{};

@@ -134,12 +134,12 @@ class Guardian {
   void finish(End end) noexcept;
 
   int socket_ = -1;
-  pid_t process_ = -1;  // −1: it is a service
+  pid_t process_ = -1;  ///< −1: it is a service
   pid_t owner_ = -1;
-  bool pulling_ = false;  // as the guardian knows it
-  bool zeroed_ = false;   // the motors, by the guardian
+  bool pulling_ = false;  ///< as the guardian knows it
+  bool zeroed_ = false;   ///< the motors, by the guardian
   int64_t said_ns_ = 0;
-  int64_t unanswered_ns_ = 0;  // since when; 0: all is answered
+  int64_t unanswered_ns_ = 0;  ///< since when; 0: all is answered
 };
 
 }  // namespace spidar

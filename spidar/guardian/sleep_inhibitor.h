@@ -76,7 +76,7 @@ class SleepInhibitor {
     ::close(ends[0]);
   }
 
-  int pipe_ = -1;  // −1: not wanted
+  int pipe_ = -1;  ///< −1: not wanted
   pid_t process_ = -1;
 };
 

@@ -182,28 +182,28 @@ class HapticLoop {
   Seqlock<LoopSnapshot> snapshot_;
   // Loop thread only.
   PlaybackClock clock_;
-  SafetyLimits set_limits_;     // bounded() of those that were set
-  SafetyLimits limits_;         // in effect, see limits_in_effect()
-  SafetyLimits limits_before_;  // in effect before this tick
-  Wrench exerted_;              // delivered by the last acknowledged command
+  SafetyLimits set_limits_;     ///< bounded() of those that were set
+  SafetyLimits limits_;         ///< in effect, see limits_in_effect()
+  SafetyLimits limits_before_;  ///< in effect before this tick
+  Wrench exerted_;              ///< delivered by the last acknowledged command
   TouchRendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};
   VibrationBudget vibration_{grip_->traits().radius_m};
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
-  double power_ = 0;               // GripCommand::power
-  double acknowledged_power_ = 0;  // of the last acknowledged command, from which it continues
+  double power_ = 0;               ///< GripCommand::power
+  double acknowledged_power_ = 0;  ///< of the last acknowledged command, from which it continues
   int errors_in_a_row_ = 0;
-  uint64_t gap_ticks_ = 0;    // since the newest frame was over
-  int64_t untrusted_ns_ = 0;  // time for which the pose has not been trusted
-  int64_t unfelt_ns_ = 0;     // time for which no force has been requested
+  uint64_t gap_ticks_ = 0;    ///< since the newest frame was over
+  int64_t untrusted_ns_ = 0;  ///< time for which the pose has not been trusted
+  int64_t unfelt_ns_ = 0;     ///< time for which no force has been requested
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;
   LoopCounters counters_;
-  std::string newest_refusal_;        // of the latest reopen()
-  mutable std::mutex refusal_mutex_;  // locked only while the device is lost
+  std::string newest_refusal_;        ///< of the latest reopen()
+  mutable std::mutex refusal_mutex_;  ///< locked only while the device is lost
   std::string refusal_;
 };
 

@@ -48,7 +48,7 @@ class LookAhead {
   static constexpr int64_t kFarAhead_ns = INT64_MAX / 2;
 
   int64_t before_ns_ = 0;
-  int64_t ahead_ns_ = kFarAhead_ns;  // for which the film is known in any case
+  int64_t ahead_ns_ = kFarAhead_ns;  ///< for which the film is known in any case
   int64_t late_ns_ = 0;
 };
 
@@ -123,10 +123,10 @@ class LoopSchedule {
   TrackReader track_;
   uint32_t timeline_generation_ = 0;
   LookAhead look_ahead_;
-  int64_t known_ns_ = INT64_MIN;   // until when frames or samples are known
-  int64_t newest_ns_ = INT64_MIN;  // running time of the newest wrench in the timeline
+  int64_t known_ns_ = INT64_MIN;   ///< until when frames or samples are known
+  int64_t newest_ns_ = INT64_MIN;  ///< running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
-  int64_t reached_ns_ = INT64_MIN;  // running time of the frame reached last
+  int64_t reached_ns_ = INT64_MIN;  ///< running time of the frame reached last
   int64_t motion_late_ns_ = 0;
   uint64_t refused_ = 0;
 };

@@ -54,7 +54,7 @@ class TickTrace {
 
  private:
   LineWriter file_;
-  std::string row_;  // its memory is used again
+  std::string row_;  ///< its memory is used again
   uint64_t last_tick_ = 0;
   uint64_t missing_ticks_ = 0;
 };

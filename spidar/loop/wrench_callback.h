@@ -79,18 +79,18 @@ class WrenchCallback {
   void stop(State why) noexcept;
 
   std::unique_ptr<Called> owned_;
-  uint64_t set_ = 0;  // so many functions
+  uint64_t set_ = 0;  ///< so many functions
   std::atomic<Called*> called_{nullptr};
-  std::atomic<Called*> running_{nullptr};  // its call has not returned
+  std::atomic<Called*> running_{nullptr};  ///< its call has not returned
   std::atomic<State> state_{State::kNone};
   std::array<char, 160> thrown_{};
   // Loop thread only.
   int slow_in_a_row_ = 0;
-  uint64_t last_ = 0;  // number of the function that was called last
+  uint64_t last_ = 0;  ///< number of the function that was called last
   EnergyBudget budget_;
   Eigen::Vector3d position_m_ = Eigen::Vector3d::Zero();
   bool has_position_ = false;
-  bool pushes_ = false;  // the last wrench had a force
+  bool pushes_ = false;  ///< the last wrench had a force
 };
 
 }  // namespace spidar

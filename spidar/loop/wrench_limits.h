@@ -70,7 +70,7 @@ class StaleRamp {
   static constexpr double kSteepest = 1.5;
 
  private:
-  double way_ = 0;  // 0 … 1, in ramp_s
+  double way_ = 0;  ///< 0 … 1, in ramp_s
 };
 
 /// The four steps in a row, from a wanted wrench to the commanded one.
@@ -103,7 +103,7 @@ class WrenchLimits {
   FiniteCheck finite_;
   SlewLimit slew_;
   StaleRamp stale_;
-  SlewLimit slew_before_;  // the last apply()
+  SlewLimit slew_before_;  ///< the last apply()
   StaleRamp stale_before_;
 };
 
@@ -182,10 +182,10 @@ class VibrationBudget {
   };
 
   Six to_acceleration_;
-  Section transition_;  // of acceleration to velocity, ISO 5349-1
+  Section transition_;  ///< of acceleration to velocity, ISO 5349-1
   Section high_pass_;
-  double mean_m2_s4_ = 0;  // of the unlowered vibration, at present
-  double most_m2_s4_ = 0;  // the same, falling with kReturn_s
+  double mean_m2_s4_ = 0;  ///< of the unlowered vibration, at present
+  double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
   VibrationState state_;
   int64_t full_at_ns_ = INT64_MIN;
   std::atomic<int64_t> restored_ns_{INT64_MIN};

@@ -44,7 +44,7 @@ class EncoderScale {
  private:
   int count_;
   StringVector zero_m_;
-  std::array<double, kMaxStrings> metres_{};  // per count, with the encoder's direction
+  std::array<double, kMaxStrings> metres_{};  ///< per count, with the encoder's direction
 };
 
 }  // namespace spidar

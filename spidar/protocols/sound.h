@@ -84,7 +84,7 @@ class Carrier {
   }
 
  private:
-  double step_, phase_ = 1;  // the next frame begins a period
+  double step_, phase_ = 1;  ///< the next frame begins a period
   Levels from_, to_;
 };
 

@@ -71,9 +71,9 @@ class LineWriter {
 
   std::shared_ptr<Output> output_;
   std::thread thread_;
-  Status last_;  // of the output that was closed
+  Status last_;  ///< of the output that was closed
   bool stuck_ = false;
-  uint64_t stuck_at_ = 0;  // what had been written by then
+  uint64_t stuck_at_ = 0;  ///< what had been written by then
 };
 
 /// Appends fields, and the commas between them, to what `csv` has. Numbers are written without

@@ -115,7 +115,7 @@ class Hold {
   void watch(LinkFault fault);
 
   int errors_in_a_row_ = 0;
-  int64_t last_ns_ = 0;  // when the latest exchange ended
+  int64_t last_ns_ = 0;  ///< when the latest exchange ended
 };
 
 /// Keeps a device open during its lifetime, and its strings at tensions in newtons.

@@ -183,8 +183,8 @@ class Asking {
   const StringVector rest_N_;
   StringHold hold_;
   int pulling_ = -1;
-  StringVector at_rest_ = StringVector::Zero();  // latest average of the counts
-  bool rested_ = false;                          // whether it belongs to the present tensions
+  StringVector at_rest_ = StringVector::Zero();  ///< latest average of the counts
+  bool rested_ = false;                          ///< whether it belongs to the present tensions
 };
 
 }  // namespace

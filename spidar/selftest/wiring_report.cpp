@@ -201,7 +201,7 @@ class Judge {
 
   const int count_;
   const StructureMatrix structure_;
-  CountChanges answer_ = CountChanges::Zero();  // shortening, metres per newton
+  CountChanges answer_ = CountChanges::Zero();  ///< shortening, metres per newton
   Eigen::Matrix<double, kMaxStrings, kMaxStrings> expected_;
   std::array<bool, kMaxStrings> silent_motor_{}, silent_encoder_{};
 };

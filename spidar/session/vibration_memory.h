@@ -62,7 +62,7 @@ class VibrationMemory {
 
   const std::string file_;
   mutable std::mutex mutex_;
-  std::optional<Entry> last_;  // known in this process
+  std::optional<Entry> last_;  ///< known in this process
   std::string error_;
 };
 
@@ -79,7 +79,7 @@ class VibrationKeeper {
 
   VibrationBudget& budget_;
   VibrationMemory& memory_;
-  int64_t kept_ns_ = 0;  // of what the budget has taken
+  int64_t kept_ns_ = 0;  ///< of what the budget has taken
   std::mutex mutex_;
   std::condition_variable ended_;
   bool ends_ = false;

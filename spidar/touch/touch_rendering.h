@@ -129,7 +129,7 @@ class ShakeWatch {
   static constexpr double kSlow_s = 0.02;  ///< 8 Hz
 
   double slow_m_s_ = 0;
-  double most_m_s_ = 0;  // since the sign changed
+  double most_m_s_ = 0;  ///< since the sign changed
   double since_s_ = 0;
   bool rises_ = false;
   int intervals_ = 0;

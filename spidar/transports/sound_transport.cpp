@@ -65,10 +65,10 @@ class SoundTransport::Pcm {
 
   snd_pcm_t* handle_ = nullptr;
   unsigned channels_ = 0;
-  int bytes_ = 0;  // of a sample
+  int bytes_ = 0;  ///< of a sample
   snd_pcm_uframes_t buffer_ = 0, period_ = 0;
-  snd_pcm_sframes_t held_ = 0;  // of the buffer, so much is used
-  int64_t next_ns_ = 0;         // a block is due
+  snd_pcm_sframes_t held_ = 0;  ///< of the buffer, so much is used
+  int64_t next_ns_ = 0;         ///< a block is due
   std::string error_;
 };
 

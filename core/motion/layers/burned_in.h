@@ -83,7 +83,7 @@ class BurnedIn {
   std::vector<uint8_t> contained_;
   std::vector<uint8_t> occluded_;
   bool camera_moves_ = false;
-  std::vector<float> nearby_;  // residuals of the background around a block
+  std::vector<float> nearby_;  ///< residuals of the background around a block
 };
 
 }  // namespace spidar

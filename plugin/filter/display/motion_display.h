@@ -65,11 +65,11 @@ class MotionDisplay {
   SinkHand hand_;
   // Streaming thread.
   PointOwners owners_;
-  ForceCurve curve_;  // for the overlay
-  FilmScene film_;    // for the window
+  ForceCurve curve_;  ///< for the overlay
+  FilmScene film_;    ///< for the window
   uint32_t epoch_ = 0;
 
-  mutable std::mutex mutex_;  // never held while a window opens or closes
+  mutable std::mutex mutex_;  ///< never held while a window opens or closes
   std::shared_ptr<Window> window_;
 };
 

@@ -64,9 +64,9 @@ class LiveSource {
   MotionAnalyzer analyzer_;
   FramePacer pacer_;
   uint32_t epoch_ = 0;
-  int64_t picture_ns_ = 0;         // at which the picture of the newest frame was first shown
-  std::optional<int64_t> gap_ns_;  // where a gap begins, unless a frame comes there
-  double motion_fraction_ = 1;     // of the newest frame's wrench
+  int64_t picture_ns_ = 0;         ///< at which the picture of the newest frame was first shown
+  std::optional<int64_t> gap_ns_;  ///< where a gap begins, unless a frame comes there
+  double motion_fraction_ = 1;     ///< of the newest frame's wrench
 };
 
 }  // namespace spidar

@@ -60,12 +60,12 @@ class TrackReplay {
   // All blocks that end after begin_ns_ and begin before end_ns_.
   std::deque<TrackBlock> window_;
   int64_t begin_ns_ = 0, end_ns_ = 0;
-  bool continues_ = true;  // the next block of track_ is the one behind the window
-  bool late_ = false;      // no more frames wait until a block has come
+  bool continues_ = true;  ///< the next block of track_ is the one behind the window
+  bool late_ = false;      ///< no more frames wait until a block has come
   std::optional<uint32_t> epoch_;
   double rate_ = 1;
-  int64_t expected_ns_ = 0;  // stream time of the next frame
-  int64_t given_ns_ = 0;     // up to here; backwards, from here on
+  int64_t expected_ns_ = 0;  ///< stream time of the next frame
+  int64_t given_ns_ = 0;     ///< up to here; backwards, from here on
 };
 
 class TrackSource {
@@ -99,7 +99,7 @@ class TrackSource {
   NoForceWatch& no_force_;
   ReliefStream& reliefs_;
   TrackReplay replay_;
-  mutable std::mutex path_mutex_;  // of the pointer
+  mutable std::mutex path_mutex_;  ///< of the pointer
   std::shared_ptr<const std::string> path_;
   std::atomic<uint64_t> frames_{0};
 };

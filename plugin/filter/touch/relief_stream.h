@@ -89,7 +89,7 @@ class ReliefStream {
   HapticLoop* loop_ = nullptr;
   Profile profile_;
   Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
-  std::mutex mutex_;  // guards mailbox_ against clear()
+  std::mutex mutex_;  ///< guards mailbox_ against clear()
   std::unique_ptr<TouchMailbox> mailbox_;
   std::atomic<bool> muted_{false};
   // Streaming thread.

@@ -71,14 +71,14 @@ class DebugWindow {
   double screen_scale_ = 1, scale_ = 1;  ///< of text: that of the screen, and in this window
   Fonts fonts_;
   std::optional<PictureTexture> texture_, relief_;
-  int width_ = 0, height_ = 0;  // of the frame buffer drawn last
+  int width_ = 0, height_ = 0;  ///< of the frame buffer drawn last
 
   ElementState state_;
   SharedPicture picture_;
   FrameReport report_;
   double frame_s_ = 0;  ///< when the last frame came
   Timeline timeline_;
-  int shown_width_ = 0, loaded_width_ = 0;  // of the picture in the window, and its texture
+  int shown_width_ = 0, loaded_width_ = 0;  ///< of the picture in the window, and its texture
   MouseHand hand_;
   ObjectClick click_;
   /// The object of a click of which no frame knows yet, see ShownPicture; and the click before it.

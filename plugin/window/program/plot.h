@@ -58,7 +58,7 @@ class Plot {
   const Brush& brush_;
   Rect area_;
   PlotAxis x_, y_;
-  float unit_width_ = 0;  // of y
+  float unit_width_ = 0;  ///< of y
 };
 
 }  // namespace spidar
