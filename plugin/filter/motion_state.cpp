@@ -71,7 +71,7 @@ void MotionState::flush() {
 }
 
 void MotionState::skip(GstClockTime duration) {
-  const std::lock_guard<std::mutex> lock(skip_mutex);
+  const std::lock_guard<std::mutex> lock(skip_mutex_);
   schedule.skip(duration);
   output.follower().set_skipped(schedule.skipped_ns());
 }
@@ -87,7 +87,7 @@ void MotionState::reset_timing() {
   begin_epoch();
   live.reset_timing();
   {
-    const std::lock_guard<std::mutex> lock(skip_mutex);
+    const std::lock_guard<std::mutex> lock(skip_mutex_);
     schedule.reset();
     output.follower().set_skipped(0);
   }
@@ -114,7 +114,7 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
   report.begin();
   if (!has_time(frame.buffer, segment)) return pass_untimed();
   const std::optional<FrameStamp> stamp =
-      stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch);
+      stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch_);
   if (!stamp) {
     report.fault = FrameFault::kNotShown;
     return;
@@ -146,7 +146,7 @@ void MotionState::pass_untimed() {
 
 void MotionState::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   const std::optional<FrameStamp> stamp =
-      has_time(buffer, segment) ? stamp_of(buffer, 0, segment, epoch) : std::nullopt;
+      has_time(buffer, segment) ? stamp_of(buffer, 0, segment, epoch_) : std::nullopt;
   if (!stamp || !is_in_time(*stamp)) return live.reset();
   if (track.has_track()) {
     track.pass_gap(*stamp);

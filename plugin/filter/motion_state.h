@@ -59,7 +59,7 @@ struct MotionState {
   /// A frame with the settings `frame_settings`. What is only shown of it is not filled in yet.
   void process(const GstVideoFrame& frame, const GstSegment& segment);
   /// The next frame does not follow the one before: a seek, another film, another rate.
-  void begin_epoch() { ++epoch; }
+  void begin_epoch() { ++epoch_; }
   /// In place of a frame that has no picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
 
@@ -74,7 +74,6 @@ struct MotionState {
   BlockQueue track_samples;
   NoForceWatch no_force;
   ReliefStream reliefs;
-  std::mutex skip_mutex;  ///< what is skipped reaches schedule and output in the same order
   HapticOutput output;
   MotionStats stats;
   TrackLoader loader;
@@ -83,7 +82,6 @@ struct MotionState {
   StepWatch steps;  ///< state changes
 
   // Streaming thread.
-  uint32_t epoch = 0;            ///< FrameStamp
   FrameSettings frame_settings;  ///< of the frame that passes
   StreamOrientation orientation;
   LiveSource live{schedule, no_force, reliefs, output};
@@ -95,6 +93,9 @@ struct MotionState {
 
  private:
   void pass_untimed();
+
+  std::mutex skip_mutex_;  ///< what is skipped reaches schedule and output in the same order
+  uint32_t epoch_ = 0;     ///< FrameStamp; streaming thread
 };
 
 }  // namespace spidar

@@ -49,6 +49,7 @@
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_warnings.h"
 
 namespace spidar {
 namespace {

@@ -17,6 +17,7 @@
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/read_ahead.h"
 #include "plugin/tracks/track_input.h"
+#include "plugin/tracks/track_warnings.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which profile drives a device, and what is remembered of it.
+/// Which profile drives a device.
 ///
 /// A profile that is wrong gives other forces than wanted, and may pull where it should let go:
 /// boards do not report which frame, motors and encoders are connected to them. So the motors of a
@@ -8,7 +8,6 @@
 /// choose`.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -39,21 +38,12 @@ bool can_drive(const std::string& device, const Profile& profile);
 /// profile does not fit the board or there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
-/// The file with the profiles that were confirmed for boards:
-/// $XDG_CONFIG_HOME/gst-spidar/boards.toml, or ~/.config/gst-spidar/boards.toml. Empty when neither
-/// variable is set.
-std::filesystem::path remembered_profiles_file();
-
-/// The profile that remember_profile() last stored for the board with this USB ID and serial
-/// number; empty if nothing. Throws ProfileError when the file cannot be read.
-std::string remembered_profile(const std::string& usb_id, const std::string& serial);
-
 /// Throws DeviceError, which says what to do instead, if the board has no serial number by which
 /// its `profile` could be remembered.
 void require_serial(const BoardInfo& board, const std::string& profile);
 
-/// `profile` is a name or a path as for load_profile(); a path is kept as an absolute one. Throws
-/// as require_serial(), ProfileError if the file cannot be read, and as replace_file().
+/// `profile` is a name or a path as for load_profile(). Throws as require_serial() and
+/// store_profile().
 void remember_profile(const BoardInfo& board, const std::string& profile);
 
 }  // namespace spidar
