@@ -32,7 +32,7 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (is_comparable) {
-    step = cadence_.see(picture, running_ns);
+    step = cadence_.see(picture, running_ns, !tracked && reduced_.is_coded());
     if (step.waits) {
       frame_.picture = PictureKind::kWaiting;
       return false;

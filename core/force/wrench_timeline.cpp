@@ -71,6 +71,15 @@ bool is_gap(const TimedWrench& frame, int64_t next_ns) {
          static_cast<uint64_t>(hold_ns) + 2 * static_cast<uint64_t>(WrenchTimeline::kRamp_ns);
 }
 
+/// Whether the picture before `motion_ns` gave no force, and was shown again until after that: the
+/// motion has begun with the picture, not with the last of its frames.
+template <typename Segments>
+bool rests_until(const Segments& segments, size_t age, int64_t motion_ns) {
+  const auto is_zero = [&](size_t of) { return segments[of].frame.wrench.stacked().isZero(0); };
+  return age + 1 < segments.size() && motion_ns <= segments[age].frame.time_ns && is_zero(age) &&
+         is_zero(age + 1);
+}
+
 }  // namespace
 
 size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
@@ -99,7 +108,8 @@ void WrenchTimeline::join_smoothly(Segment& next) noexcept {
   Segment& last = segments_[0];
   const bool has_begun = present_ns_ > last.from_ns;
   const bool is_plain =  // neither late nor bending away from the segment before
-      size() > 1 && last.to_ns == last.frame.motion_ns() && last.from_ns >= segments_[1].to_ns;
+      size() > 1 && last.to_ns == last.frame.motion_ns() &&
+      (last.from_ns >= segments_[1].to_ns || rests_until(segments_, 1, last.to_ns));
   if (has_begun || !is_plain) return;
   const Wrench before = last.from_rest ? Wrench() : segments_[1].frame.wrench;
   last.to_slope = next.from_slope =
@@ -135,7 +145,8 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
 
   const Segment& last = segments_[0];
   const int64_t soonest_ns = soonest(last.frame, added);
-  const bool is_late = std::max(soonest_ns, last.to_ns) > motion_ns;
+  const int64_t free_ns = segments_[rests_until(segments_, 0, motion_ns) ? 1 : 0].to_ns;
+  const bool is_late = std::max(soonest_ns, free_ns) > motion_ns;
   if (is_late) {
     // When the last frame has expired, the force is on its way to rest already, and there is no
     // curve over which to fade in.
@@ -143,11 +154,11 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
     if (at_rest) return next;
     next.from_ns = std::max(present_ns_, last.from_ns);
     next.to_ns = std::max(soonest_ns, motion_ns);
-  } else if (is_gap(last.frame, motion_ns)) {
+  } else if (motion_ns > last.frame.time_ns && is_gap(last.frame, motion_ns)) {
     next.from_rest = true;
     next.from_ns = std::max(present_ns_, motion_ns - kRamp_ns);
   } else {
-    next.from_ns = std::max(present_ns_, last.to_ns);
+    next.from_ns = std::max(present_ns_, free_ns);
     join_smoothly(next);
   }
   return next;
@@ -165,8 +176,9 @@ bool WrenchTimeline::push(const TimedWrench& added) noexcept {
     return true;
   }
   TimedWrench next = added;
-  const uint64_t most_ns =
-      std::min<uint64_t>(elapsed_ns(last.time_ns, added.time_ns) - 1, INT64_MAX);
+  const bool rests = rests_until(segments_, 0, added.motion_ns());
+  const int64_t least_ns = rests ? segments_[1].to_ns : last.time_ns;
+  const uint64_t most_ns = std::min<uint64_t>(elapsed_ns(least_ns, added.time_ns) - 1, INT64_MAX);
   next.before_ns = is_gap(last, added.time_ns)
                        ? 0
                        : std::clamp<int64_t>(added.before_ns, 0, static_cast<int64_t>(most_ns));

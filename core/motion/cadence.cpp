@@ -35,6 +35,12 @@ void Cadence::remember(const Shown& shown) {
   shown_.add(shown);
 }
 
+bool Cadence::knows_repeats() const {
+  for (size_t i = 0; i < shown_.size(); ++i)
+    if (shown_[i].frames > 1) return true;
+  return false;
+}
+
 int64_t Cadence::median_ns() const {
   std::array<int64_t, kPictures> sorted{};
   for (size_t i = 0; i < shown_.size(); ++i) sorted[i] = shown_[i].interval_ns;
@@ -97,12 +103,16 @@ bool Cadence::would_wait(int64_t time_ns) const {
   return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
 }
 
-Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
+Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns, bool is_coded) {
   const bool repeated = picture == PictureKind::kSame;
   const bool waits = repeated && would_wait(time_ns);
   const int64_t frame_ns = begun_ ? std::max<int64_t>(time_ns - frame_ns_, 1) : 0;
   frame_ns_ = time_ns;
-  if (repeated) ++frames_;
+  if (repeated) {
+    // The first repetitions passed for pictures, and cut their intervals in pieces.
+    if (is_coded && !knows_repeats()) shown_.clear();
+    ++frames_;
+  }
   if (waits) return {true, 0, 0};
 
   Step step{false, frame_ns, frame_ns};
@@ -121,17 +131,15 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns) {
     if (picture == PictureKind::kOther) remember(shown);
     step.interval_ns = step.shown_for_ns = between_ns;
   }
-  bool repeats = false;
   size_t unlike = 0;
   const int64_t median = median_ns();
   for (size_t i = 0; i < shown_.size(); ++i) {
     const int64_t interval_ns = shown_[i].interval_ns;
-    repeats = repeats || shown_[i].frames > 1;
     const bool is_alike = std::abs(static_cast<double>(interval_ns - median)) <
                           kSameInterval * static_cast<double>(median);
     if (i < kAccident && !is_alike) ++unlike;
   }
-  if (!repeats) return step;
+  if (!knows_repeats()) return step;
   if (shown_.size() >= kEnough && unlike <= 1) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;

@@ -46,8 +46,9 @@ class Cadence {
   bool would_wait(int64_t time_ns) const;
 
   /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
-  /// that waited for long enough to be analysed; or kOther.
-  Step see(PictureKind picture, int64_t time_ns);
+  /// that waited for long enough to be analysed; or kOther. `is_coded`: it is kSame but for the
+  /// noise of coding, which is told from motion only after RepeatedPicture::kLeastDips repetitions.
+  Step see(PictureKind picture, int64_t time_ns, bool is_coded = false);
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
@@ -67,6 +68,7 @@ class Cadence {
   };
 
   void remember(const Shown& shown);
+  bool knows_repeats() const;
   int64_t median_ns() const;
   int64_t expected_ns() const;
   double even_interval_ns() const;

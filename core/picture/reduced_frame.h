@@ -31,7 +31,8 @@ class ReducedFrame {
       return picture_ = PictureKind::kFirst;
     }
     picture_ = repeated_picture_.look(before_.view(), base_.view());
-    if (picture_ == PictureKind::kAlike && may_wait) picture_ = PictureKind::kSame;
+    is_coded_ = picture_ == PictureKind::kAlike;
+    if (is_coded_ && may_wait) picture_ = PictureKind::kSame;
     if (picture_ == PictureKind::kSame) std::swap(before_, base_);
     return picture_;
   }
@@ -46,6 +47,8 @@ class ReducedFrame {
   int height() const { return height_; }
   /// kFirst where the frame before had another size; kSame where it was skipped. Never kWaiting.
   PictureKind picture() const { return picture_; }
+  /// It is the same but for the noise of coding.
+  bool is_coded() const { return is_coded_; }
 
   /// The next frame will not be compared with this one.
   void reset() { width_ = 0; }
@@ -57,6 +60,7 @@ class ReducedFrame {
   int width_ = 0;
   int height_ = 0;
   PictureKind picture_ = PictureKind::kFirst;
+  bool is_coded_ = false;
   RepeatedPicture repeated_picture_;
 };
 

@@ -18,19 +18,21 @@ using Shows = PictureKind;
 constexpr double kSpeed_px_s = 100;
 
 /// Shows pictures taken `picture_Hz` times a second in frames, and returns the intervals of those
-/// that did not wait, ms. The first `unseen` repetitions are taken for other pictures.
+/// that did not wait, ms. The first `unseen` repetitions are taken for other pictures, as happens
+/// in a film that is coded.
 std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double frame_Hz, int frames,
                                  int unseen = 0) {
   std::vector<double> found;
   LostFrames lost;
+  const bool is_coded = unseen > 0;
   cadence.cut(0);
   int64_t before = 0;
   for (int n = 1; n < frames; ++n) {
     const auto picture = static_cast<int64_t>(n * picture_Hz / frame_Hz + 1e-9);
     const bool again = picture == before;
     const bool is_seen = again && unseen-- <= 0;
-    const Cadence::Step step =
-        cadence.see(is_seen ? Shows::kSame : Shows::kOther, std::llround(1e9 * n / frame_Hz));
+    const Cadence::Step step = cadence.see(is_seen ? Shows::kSame : Shows::kOther,
+                                           std::llround(1e9 * n / frame_Hz), is_coded);
     if (!step.waits && !again) {
       const double interval_s = 1e-9 * static_cast<double>(step.interval_ns);
       found.push_back(1e3 * interval_s);
@@ -66,6 +68,14 @@ TEST(Cadence, LearnsTheIntervalFromTheSecondRepetitionOn) {
   for (size_t i = 4 * (kUnseen + 2); i < found.size(); ++i) {
     EXPECT_NEAR(found[i], 1e3 / 24, 1.5 / 8 * 1e3 / 30) << i;
   }
+}
+
+// What passed for pictures before was halves of them, of which the interval was learnt.
+TEST(Cadence, KnowsADrawingOnTwosFromTheFirstRepetitionThatIsSeen) {
+  constexpr int kUnseen = 3;
+  Cadence cadence;
+  const std::vector<double> found = intervals_ms(cadence, 12, 24, 48, kUnseen);
+  for (size_t i = kUnseen; i < found.size(); ++i) EXPECT_NEAR(found[i], 1e3 / 12, 1e-3) << i;
 }
 
 TEST(Cadence, LearnsTheIntervalAnewAtAnotherRateOfPlayback) {
