@@ -51,7 +51,8 @@ struct BackgroundVotes {
 /// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Chooses, from frame to frame, the simplest model of the hierarchy that explains the votes.
+/// Keeps the model of the frame before while it explains the votes; otherwise chooses, of those of
+/// the hierarchy, the one with the smallest GRIC.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When so few votes are cast that two objects may have them all, a translation

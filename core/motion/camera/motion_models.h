@@ -57,8 +57,9 @@ struct Background {
   double coverage =
       1;  ///< fraction of the picture's votes that agree with the model; 0: hardly any
   /// False where there is texture all over the picture and hardly any of it agrees with the best
-  /// model: how the camera moves is unknown, and with it what moves by itself. The model is 'still'
-  /// then, and `coverage` 0.
+  /// model, where what agrees may be an object's, and where there are few votes because most of the
+  /// picture is new: how the camera moves is unknown, and with it what moves by itself. The model
+  /// is 'still' then, and `coverage` 0.
   bool is_known = true;
   bool is_of_areas = false;  ///< areas of several blocks showed it, of which few had texture
 };
