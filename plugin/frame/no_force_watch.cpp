@@ -12,7 +12,7 @@ namespace spidar {
 namespace {
 
 /// What is slower than this, in px/s of a frame 480 lines high, does not count as moving: half of
-/// 2.1 px/s, whose force a hand just feels with the default alpha (docs/feeling.md).
+/// 2.1 px/s, whose force a hand just feels with an alpha of 0.01 s/px (docs/feeling.md).
 constexpr double kMoving_px_s = 1;
 /// With fewer points no motion differs from the background's: a translation of the background
 /// takes one of them, and an object two.

@@ -91,7 +91,7 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
 FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
                               double later_s) const {
   constexpr double kCoarser = 1.25;
-  // A line on the screen is as exact as that in each direction.
+  // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
   double edges_off = 2 * 0.005;
   constexpr double kMostOff = 2 * 0.1;  // another place, to the eye
   const std::string page = kFilmPage, place = "@TRACK@";
@@ -109,6 +109,8 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
     for (const std::vector<double>& force_N : force_N_)
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
     track["box"] = Json::array();
+    // Two edges that are off by so much each, and rounded, are a box no longer.
+    track["least"] = edges_off + 0.5 / kSteps;
     for (const std::vector<double>& edge : edges_)
       if (edges_off < kMostOff) track["box"].push_back(curve_text(edge, edges_off, 1));
     edges_off *= kCoarser;

@@ -54,6 +54,8 @@ bool border_has_moved(const BlockField& field, const Past& past, const MotionMod
       kBlock_px * kOfTwoSizes * std::sqrt(static_cast<double>(field.noise_grey2()));
   const double clearly = std::max(kCoded, kUnequalSigmas * of_noise);
   const BlockGrid& grid = field.grid();
+  uint32_t asked = 0;  // neighbours are mostly of one object
+  bool is_left_out = false;
   int all = 0;
   int left_out = 0;
   int moved = 0;
@@ -64,7 +66,11 @@ bool border_has_moved(const BlockField& field, const Past& past, const MotionMod
     const bool is_inside = across >= kRingBlocks && down >= kRingBlocks;
     if (across < 0 || down < 0 || is_inside || past.is_burned_in(i)) continue;
     const uint32_t object = past.object_of(field.origin_of(i));
-    if (object != 0 && borders_of(object, field, past) <= kMostOfObject) {
+    if (object != 0 && object != asked) {
+      asked = object;
+      is_left_out = borders_of(object, field, past) <= kMostOfObject;
+    }
+    if (object != 0 && is_left_out) {
       ++left_out;
       continue;
     }
@@ -75,10 +81,10 @@ bool border_has_moved(const BlockField& field, const Past& past, const MotionMod
     const int if_moved = field.difference_if_moved(i, moved_px);
     if (if_moved < 0) continue;
     const int at_rest = field.difference_if_moved(i, {0, 0});
-    // Between pixels, noise is less: then the contrary is as good.
-    const int if_contrary = field.difference_if_moved(i, -moved_px);
     ++all;
-    moved += std::min(at_rest, if_contrary) - if_moved > clearly;
+    // Between pixels, noise is less: then the contrary is as good.
+    moved += at_rest - if_moved > clearly &&
+             field.difference_if_moved(i, -moved_px) - if_moved > clearly;
     rest += if_moved - at_rest > clearly;
   }
   return all > left_out && moved - rest > kRingShare * all;
