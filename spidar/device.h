@@ -95,8 +95,9 @@ struct MotorVolts {
 
 /// Whether any motor gets something.
 inline bool pulls(const MotorVolts& volts) noexcept {
-  for (const double volt : volts.volt)
+  for (const double volt : volts.volt) {
     if (volt != 0) return true;
+  }
   return false;
 }
 

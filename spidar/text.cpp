@@ -48,10 +48,11 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const Character character = first_of(text);
     const size_t length = character.length > 0 ? character.length : 1;
-    if (character.length > 0 && is_harmless(character.code))
+    if (character.length > 0 && is_harmless(character.code)) {
       printed += text.substr(0, length);
-    else
+    } else {
       printed += '?';
+    }
     text.remove_prefix(length);
   }
   return printed;

@@ -25,20 +25,23 @@ std::string read_regular_file(const std::string& path, size_t most_bytes) {
     }
   } const file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   struct stat status {};
-  if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
+  if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) {
     throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
+  }
   if (!S_ISREG(status.st_mode)) throw std::runtime_error("it is not a regular file");
   std::string text;
   char part[1 << 14];
   while (true) {
     const ssize_t got = read(file.descriptor, part, sizeof part);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0)
+    if (got < 0) {
       throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
+    }
     if (got == 0) return text;
     text.append(part, static_cast<size_t>(got));
-    if (text.size() > most_bytes)
+    if (text.size() > most_bytes) {
       throw std::runtime_error("it has more than " + std::to_string(most_bytes >> 20) + " MiB");
+    }
   }
 }
 
@@ -63,8 +66,9 @@ void keep_permissions(int file, const std::filesystem::path& path) {
   const ssize_t bytes = getxattr(path.c_str(), kAcl, nullptr, 0);
   if (bytes <= 0) return;
   std::vector<char> acl(static_cast<size_t>(bytes));
-  if (getxattr(path.c_str(), kAcl, acl.data(), acl.size()) == bytes)
+  if (getxattr(path.c_str(), kAcl, acl.data(), acl.size()) == bytes) {
     fsetxattr(file, kAcl, acl.data(), acl.size(), 0);
+  }
 }
 
 namespace {
@@ -89,8 +93,9 @@ void replace_file(const std::filesystem::path& named_file, const std::string& te
     throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
   };
   struct stat named {};
-  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode))
+  if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode)) {
     throw std::runtime_error(file.string() + ": cannot be written: it is no regular file");
+  }
   const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0) fail();
   keep_permissions(opened, file);

@@ -146,8 +146,9 @@ void ForceRenderer::reset() {
 
 void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   Chosen choice;
-  if (settings_.motion != MotionKind::kMean && frame.width != 0)
+  if (settings_.motion != MotionKind::kMean && frame.width != 0) {
     choice = choice_.choose(choice_frame(frame, turn));
+  }
   frame.choice = choice;
   frame.choice.object = nullptr;
   if (frame.picture == PictureKind::kFirst) {

@@ -35,8 +35,9 @@ constexpr const char* kAllWords =
 /// What a person typed, as a message can show it.
 std::string quote(std::string_view text) {
   std::string shown(text.substr(0, kMostQuoted));
-  for (char& c : shown)
+  for (char& c : shown) {
     if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  }
   return '"' + shown + (text.size() > kMostQuoted ? "…" : "") + '"';
 }
 
@@ -291,8 +292,9 @@ std::string rule_text(const FeelRule& rule) {
       text += "largest";
       break;
     case FeelKind::kFurthest:
-      for (const Direction& direction : kDirections)
+      for (const Direction& direction : kDirections) {
         if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
+      }
       break;
     case FeelKind::kBox:
       text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";

@@ -50,8 +50,9 @@ class Walk {
   void add_candidate(const Vector2i& candidate) {
     const Vector2i v = inside(candidate);
     const auto end = candidates_.begin() + count_;
-    if (std::find(candidates_.begin(), end, v) == end)
+    if (std::find(candidates_.begin(), end, v) == end) {
       candidates_[static_cast<size_t>(count_++)] = v;
+    }
   }
 
   void try_candidates() {
@@ -212,8 +213,9 @@ void AreaSums::read(const PaddedImage& picture) {
     std::copy(column_.begin(), column_.end(), sums);
     // Sums two columns, then four, eight and sixteen; nothing asks for those that do not fit in.
     for (size_t n = 1; n < kBlock_px; n *= 2) {
-      for (size_t x = 0; x + n < width_; ++x)
+      for (size_t x = 0; x + n < width_; ++x) {
         sums[x] = static_cast<uint16_t>(sums[x] + sums[x + n]);
+      }
     }
     const uint8_t* const above = row(y);
     for (size_t x = 0; x < width_; ++x) column_[x] = static_cast<uint16_t>(column_[x] - above[x]);

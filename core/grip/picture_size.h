@@ -16,8 +16,9 @@ namespace spidar {
 inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < geometry.count; ++i)
+  for (int i = 0; i < geometry.count; ++i) {
     half_m = half_m.cwiseMax(kReach * geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
+  }
   return half_m;
 }
 

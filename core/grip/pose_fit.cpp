@@ -158,8 +158,9 @@ PoseFit PoseFitter::beside(const StringVector& lengths_m, const PoseFit& fit,
     const PoseFit other = levenberg_marquardt(lengths_m, start, left_out);
     iterations += other.iterations;
     const bool distinct = model_.twist(fit.pose, other.pose).norm() > kSamePose_m;
-    if (other.converged && distinct && (!best.converged || other.residual_m < best.residual_m))
+    if (other.converged && distinct && (!best.converged || other.residual_m < best.residual_m)) {
       best = other;
+    }
   }
   best.iterations = iterations;
   return best;

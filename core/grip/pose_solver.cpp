@@ -50,16 +50,19 @@ constexpr double kWayToTrust_m = 5e-3;
 
 PoseSolver::PoseSolver(const StringGeometry& geometry, double max_residual_m)
     : geometry_(geometry), fitter_(geometry), max_residual_m_(max_residual_m) {
-  if (geometry.count < 6)
+  if (geometry.count < 6) {
     throw std::invalid_argument("a pose has six unknowns and needs at least six strings, not " +
                                 std::to_string(geometry.count));
-  if (!(geometry.grip_radius_m() > 0))
+  }
+  if (!(geometry.grip_radius_m() > 0)) {
     throw std::invalid_argument(
         "strings that all meet in the grip's origin do not tell how it is "
         "turned: at least one must be tied away from it");
-  if (!(max_residual_m > 0))
+  }
+  if (!(max_residual_m > 0)) {
     throw std::invalid_argument("the largest residual must be positive, not " +
                                 std::to_string(max_residual_m) + " m");
+  }
 }
 
 void PoseSolver::search_from(const Pose& pose) noexcept {
@@ -77,8 +80,9 @@ void PoseSolver::reset(const Pose& pose) noexcept {
 
 bool PoseSolver::are_lengths(const StringVector& lengths_m) const noexcept {
   bool good = true;
-  for (int i = 0; i < geometry_.count; ++i)
+  for (int i = 0; i < geometry_.count; ++i) {
     good &= lengths_m[i] >= 0 && lengths_m[i] <= std::numeric_limits<double>::max();
+  }
   return good;
 }
 
@@ -211,8 +215,9 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   }
   if (one < 0 || other < 0) return false;  // no more than one is out: seven fit
   PoseFit fit{result.pose, 0, 0, false};
-  for (int round = 0; round < kRounds && !fit.converged; ++round)
+  for (int round = 0; round < kRounds && !fit.converged; ++round) {
     fit = fitter_.gauss_newton(lengths_m, fit.pose, one, other);
+  }
   // When the six do not converge, a pose that was tracked stands; one that was searched for is
   // taken for wrong.
   if (!fit.converged) return !tracked;
@@ -229,8 +234,9 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
 // the lengths fit: what is as near as a hand can have moved the grip will do.
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
   PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
-  if (!fit.converged)
+  if (!fit.converged) {
     fit.converged = fitter_.model().twist(expected, fit.pose).norm() <= kImplausible_m;
+  }
   const PoseStatus status = is_good(fit) ? PoseStatus::kSolved : PoseStatus::kNotConverged;
   return {status == PoseStatus::kSolved ? fit.pose : last_, fit.residual_m, fit.iterations,
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};
@@ -264,8 +270,9 @@ PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
   const Pose expected = tracking_ ? fitter_.model().moved(last_, motion_) : last_;
   PoseResult result = follow(lengths_m, expected);
   if (tracking_) result = unless_implausible(lengths_m, expected, result);
-  if (result.status == PoseStatus::kSolved && hides_dead_encoder(lengths_m, result, true))
+  if (result.status == PoseStatus::kSolved && hides_dead_encoder(lengths_m, result, true)) {
     result = rejected(PoseStatus::kAmbiguous, result);
+  }
   if (result.status != PoseStatus::kSolved) {
     tracking_ = false;
     return result;

@@ -13,8 +13,9 @@ double StringGeometry::grip_radius_m() const {
 StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose) {
   const Eigen::Matrix3d R = pose.orientation.toRotationMatrix();
   StringVector lengths = StringVector::Zero();
-  for (int i = 0; i < geometry.count; ++i)
+  for (int i = 0; i < geometry.count; ++i) {
     lengths[i] = (geometry.exit_m[i] - pose.position_m - R * geometry.grip_m[i]).norm();
+  }
   return lengths;
 }
 

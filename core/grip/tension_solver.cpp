@@ -119,8 +119,9 @@ TensionProblem with_eight_strings(const TensionProblem& p) {
 
 StringVector tension_at_rest(const TensionProblem& p) {
   StringVector t = StringVector::Zero();
-  for (int i = 0; i < std::min(p.count, kStrings); ++i)
+  for (int i = 0; i < std::min(p.count, kStrings); ++i) {
     if (std::isfinite(p.t_min_N[i])) t[i] = p.t_min_N[i];
+  }
   return t;
 }
 
@@ -151,8 +152,9 @@ Step newton_step(const TensionObjective& objective, const Iterate& x) {
   double damping = 0;
   while (
       !solve_ldlt(step.count, objective.Q, damping, step.index, x.gradient.data(), step.length) &&
-      damping < 1)
+      damping < 1) {
     damping = damping > 0 ? 4 * damping : kLeastDamping;
+  }
   return step;
 }
 
@@ -199,11 +201,13 @@ void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
 
 unsigned strings_to_release(const Iterate& x, const StringVector& violation, double fraction) {
   double largest = 0;
-  for (int i = 0; i < kStrings; ++i)
+  for (int i = 0; i < kStrings; ++i) {
     if (!(x.free >> i & 1)) largest = std::max(largest, violation[i]);
+  }
   unsigned released = 0;
-  for (int i = 0; i < kStrings; ++i)
+  for (int i = 0; i < kStrings; ++i) {
     if (violation[i] > 0 && violation[i] >= fraction * largest) released |= 1u << i;
+  }
   return released & ~x.free;
 }
 

@@ -36,8 +36,9 @@ void Cadence::remember(const Shown& shown) {
 }
 
 bool Cadence::knows_repeats() const {
-  for (size_t i = 0; i < shown_.size(); ++i)
+  for (size_t i = 0; i < shown_.size(); ++i) {
     if (shown_[i].frames > 1) return true;
+  }
   return false;
 }
 

@@ -21,8 +21,9 @@ void copy_row(const ImageView& frame, int x, int y, int columns, uint8_t* to) {
     constexpr int kLanes = 16;
     const auto copy = [&](int k) { cv::v_store(to + k, reader.load(from + k * reader.kBytes)); };
     if (columns < kLanes) {
-      for (int k = 0; k < columns; ++k)
+      for (int k = 0; k < columns; ++k) {
         to[k] = static_cast<uint8_t>(reader.at(from + k * reader.kBytes));
+      }
     } else {
       for (int k = 0; k + kLanes <= columns; k += kLanes) copy(k);
       copy(columns - kLanes);  // the rest, overlapping pixels already copied

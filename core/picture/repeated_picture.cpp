@@ -36,8 +36,9 @@ class LargestMean {
   void add(float value) {
     if (value <= largest_[kChangedBlocks - 1]) return;
     size_t position = kChangedBlocks - 1;
-    for (; position > 0 && largest_[position - 1] < value; --position)
+    for (; position > 0 && largest_[position - 1] < value; --position) {
       largest_[position] = largest_[position - 1];
+    }
     largest_[position] = value;
   }
 

@@ -29,8 +29,9 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
   double passed_s = 0;
-  for (size_t age = 0; age < kSlope; ++age)
+  for (size_t age = 0; age < kSlope; ++age) {
     passed_s += age < dt_s_.size() ? dt_s_[age] : path.tick_s;
+  }
   const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(kSlope);
   const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
   const double out_m_s = then_m_s.dot(direction);

@@ -61,12 +61,13 @@ static void set_properties(GstElement* motion, const char* properties) {
     gchar* value = strchr(*line, '=');
     if (!value) continue;
     *value++ = '\0';
-    if (strcmp(*line, "preset") == 0)
+    if (strcmp(*line, "preset") == 0) {
       gst_preset_load_preset(GST_PRESET(motion), value);
-    else if (g_object_class_find_property(G_OBJECT_GET_CLASS(motion), *line))
+    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(motion), *line)) {
       gst_util_set_object_arg(G_OBJECT(motion), *line, value);
-    else
+    } else {
       GST_WARNING_OBJECT(motion, "spidarmotion has no property %s", *line);
+    }
   }
   g_strfreev(lines);
 }
@@ -88,8 +89,9 @@ static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstM
   gboolean simulated = FALSE;
   if (gst_structure_has_name(told, "spidar-device") &&
       gst_structure_get_boolean(told, "simulated", &simulated) && simulated &&
-      !is_set(self->properties, "overlay"))
+      !is_set(self->properties, "overlay")) {
     gst_util_set_object_arg(G_OBJECT(motion), "overlay", "curve");
+  }
 }
 
 /// The video continues: an error of the device becomes a warning in the player. Players may hide
@@ -101,12 +103,13 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   }
   GError* error = nullptr;
   gchar* details = nullptr;
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
     gst_message_parse_error(message, &error, &details);
-  else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING)
+  } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
     gst_message_parse_warning(message, &error, &details);
-  else
+  } else {
     gst_message_parse_info(message, &error, &details);
+  }
   const bool refused = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
   constexpr const char* kWithout = "The video goes on without force.";
   g_printerr("spidar-feel: %s%s%s\n", error->message, refused ? ". " : "", refused ? kWithout : "");
@@ -138,8 +141,9 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   const auto kinds = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_WARNING |
                                                  GST_MESSAGE_INFO | GST_MESSAGE_ELEMENT);
   while (GstMessage* message = gst_bus_pop_filtered(bus.get(), kinds)) {
-    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT)
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
       show_without_device(self, motion.get(), message);
+    }
     pass_on(self, message);
     gst_message_unref(message);
   }
@@ -180,8 +184,9 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
   auto* motion = static_cast<GstElement*>(g_atomic_pointer_get(&self->motion));
   const bool is_event = (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0;
-  if (is_event && GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_CAPS)
+  if (is_event && GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_CAPS) {
     return GST_PAD_PROBE_OK;
+  }
   if (motion && !has(self, motion)) replace_element(self, self->middle, motion);
   return GST_PAD_PROBE_OK;
 }
@@ -208,10 +213,11 @@ static GstFlowReturn chain_list(GstPad* pad, GstObject* parent, GstBufferList* l
 
 static void begin_to_feel(GstSpidarFeelBin* self) {
   if (self->motion || is_felt_already(self) || !take_device(self)) return;
-  if (Ref<GstElement> motion = open_motion(self))
+  if (Ref<GstElement> motion = open_motion(self)) {
     g_atomic_pointer_set(&self->motion, motion.release());
-  else
+  } else {
     leave_device(self);
+  }
 }
 
 /// Called while the pads of all elements are inactive.

@@ -52,10 +52,11 @@ void check_device(GObject* element) {
   const std::string device = string_property(element, "device");
   const std::string profile = string_property(element, "profile");
   try {
-    if (device != "none" && device != kAutoDevice)
+    if (device != "none" && device != kAutoDevice) {
       make_grip(device, profile_for(device, profile));
-    else if (!profile.empty())
+    } else if (!profile.empty()) {
       load_profile(profile);
+    }
   } catch (const std::exception& error) {
     throw PropertyError(error.what());
   }
@@ -139,18 +140,21 @@ Options parse(int argc, char** argv) {
   if (follow < argc && std::strcmp(argv[follow], "--follow") == 0) {
     if (follow + 1 < argc) options.followed = argv[follow + 1];
     const int wrong = is_property(options.followed) ? follow + 1 : follow + 2;
-    if (wrong < argc)
+    if (wrong < argc) {
       fail(kUsage,
            std::string("--follow takes one NAME, and properties come before it: ") + argv[wrong]);
+    }
     return options;
   }
-  if (!options.properties.empty() && !separated)
+  if (!options.properties.empty() && !separated) {
     fail(kUsage, "write -- between the properties and the program: spidar-feel " +
                      options.properties.front() + " -- FILM");
+  }
   if (separated) ++at;
   if (at == argc) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
-  if (argv[at][0] == '-')
+  if (argv[at][0] == '-') {
     fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
+  }
   options.program = argv + at;
   return options;
 }
@@ -160,8 +164,9 @@ Options parse(int argc, char** argv) {
 std::string plugin_folder() {
   std::error_code error;
   const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {beside, spidar::installed(SPIDAR_PLUGIN_DIR)})
+  for (const fs::path& folder : {beside, spidar::installed(SPIDAR_PLUGIN_DIR)}) {
     if (fs::exists(folder / "libgstspidarfeel.so", error)) return folder.string();
+  }
   return {};
 }
 
@@ -169,8 +174,9 @@ std::string plugin_folder() {
 bool has_plugins() {
   for (const char* name : {"spidar", "spidarfeel"}) {
     const spidar::Ref<GstPlugin> plugin(gst_registry_find_plugin(gst_registry_get(), name));
-    if (!plugin || std::strcmp(gst_plugin_get_version(plugin.get()), PACKAGE_VERSION) != 0)
+    if (!plugin || std::strcmp(gst_plugin_get_version(plugin.get()), PACKAGE_VERSION) != 0) {
       return false;
+    }
   }
   return true;
 }
@@ -201,12 +207,13 @@ void find_plugins() {
   if (has_plugins()) return;
   const std::string folder = plugin_folder();
   if (!folder.empty()) search_first(folder);
-  if (!has_plugins())
+  if (!has_plugins()) {
     fail(
         kCannotRun,
         std::string(
             "GStreamer does not find this version of the plugins of gst-spidar, libgstspidar.so ") +
             "and libgstspidarfeel.so; name their folder in " + plugin_path_variable());
+  }
 }
 
 void check(const std::vector<std::string>& properties) {
@@ -253,9 +260,10 @@ bool is_film(const std::string& word) {
 /// Plays films with the player of GStreamer itself.
 void run_films(char** films) {
   for (char** film = films; *film; ++film) {
-    if (is_property(*film))
+    if (is_property(*film)) {
       fail(kUsage, std::string("properties come before the film: spidar-feel ") + *film + " -- " +
                        films[0]);
+    }
   }
   constexpr const char* kPlayer = "gst-play-1.0";
   std::vector<char*> words{const_cast<char*>(kPlayer)};
@@ -263,12 +271,13 @@ void run_films(char** films) {
   words.push_back(nullptr);
   execvp(kPlayer, words.data());
   const int error = errno;
-  if (error == ENOENT)
+  if (error == ENOENT) {
     fail(kNoProgram,
          std::string(kPlayer) +
              ", which plays films, is not installed: on Debian and Ubuntu it is in the package "
              "gstreamer1.0-plugins-base-apps; or name another player: spidar-feel totem " +
              films[0]);
+  }
   fail(kCannotRun, std::string(kPlayer) + ": " + std::strerror(error));
 }
 
@@ -276,8 +285,9 @@ void run_films(char** films) {
 std::string device_of(const Options& options) {
   const std::string begin = "device=";
   std::string device;
-  for (const std::string& property : options.properties)
+  for (const std::string& property : options.properties) {
     if (property.rfind(begin, 0) == 0) device = property.substr(begin.size());
+  }
   return device;
 }
 
@@ -292,12 +302,13 @@ bool is_without_gstreamer(const std::string& program) {
 /// Says what would otherwise be missed.
 void warn_of_nothing_felt(const Options& options) {
   if (device_of(options) == "none") return;  // nothing is to be felt
-  if (is_without_gstreamer(options.program[0]))
+  if (is_without_gstreamer(options.program[0])) {
     std::fprintf(
         stderr,
         "spidar-feel: %s does not use GStreamer, so nothing of it is felt: follow VLC or mpv with "
         "spidar-feel --follow, or play the film with spidar-feel FILM\n",
         options.program[0]);
+  }
 }
 
 }  // namespace
@@ -305,8 +316,9 @@ void warn_of_nothing_felt(const Options& options) {
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
   Options options = parse(argc, argv);
-  if (device_of(options).empty())
+  if (device_of(options).empty()) {
     options.properties.insert(options.properties.begin(), "device=auto");
+  }
   find_plugins();
   check(options.properties);
   if (!options.program) return spidar::follow_player(options.followed, options.properties);
@@ -316,8 +328,9 @@ int main(int argc, char** argv) {
   execvp(options.program[0], options.program);
   const int error = errno;
   std::error_code none;
-  if (fs::is_directory(options.program[0], none))
+  if (fs::is_directory(options.program[0], none)) {
     fail(kCannotRun, std::string(options.program[0]) + " is a folder; name a film in it");
+  }
   fail(error == ENOENT ? kNoProgram : kCannotRun,
        std::string(options.program[0]) + ": " + std::strerror(error));
 }

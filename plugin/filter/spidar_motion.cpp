@@ -207,8 +207,9 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
 static void find_presets() {
   const std::filesystem::path folder = spidar::installed(SPIDAR_PRESET_DIR);
   std::error_code error;
-  if (!gst_preset_get_app_dir() && std::filesystem::exists(folder, error))
+  if (!gst_preset_get_app_dir() && std::filesystem::exists(folder, error)) {
     gst_preset_set_app_dir(folder.c_str());
+  }
 }
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,

@@ -290,8 +290,9 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   const spidar::LineWriter::Status trace = state.trace.close();
   // Reported here, because messages during the change to NULL are discarded.
   state.warnings.check_trace(trace.error);
-  if (trace.error == 0)
+  if (trace.error == 0) {
     spidar::warn_of_missing_rows(GST_ELEMENT(trans), "The trace", trace.dropped);
+  }
   state.warnings.device().end_haptic_trace(state.output.session());
   return TRUE;
 }

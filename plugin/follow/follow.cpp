@@ -44,10 +44,11 @@ class Follower {
     auto& self = *static_cast<Follower*>(user);
     if (self.is_gone_) self.let_go();
     const int64_t now_ns = monotonic_now_ns();
-    if (self.player_)
+    if (self.player_) {
       self.follow(now_ns);
-    else if (now_ns - self.searched_ns_ >= kSearch_ns)
+    } else if (now_ns - self.searched_ns_ >= kSearch_ns) {
       self.search(now_ns);
+    }
     return G_SOURCE_CONTINUE;
   }
 
@@ -102,12 +103,14 @@ class Follower {
   void take_state(const PlayerState& state) {
     const bool plays = state.status == PlayerState::Status::kPlaying;
     const bool begins = plays && state_.status != state.status;
-    if (plays && filter_.has_begun() && state.rate != state_.rate)
+    if (plays && filter_.has_begun() && state.rate != state_.rate) {
       filter_.change_rate(monotonic_now_ns(), state.rate);
+    }
     state_ = state;
     if (begins) is_beginning_ = true;
-    if (begins && state.uri.empty())
+    if (begins && state.uri.empty()) {
       tell(short_name(player_->bus_name()) + " does not say which file it plays");
+    }
     if (!plays) {
       is_beginning_ = false;
       filter_ = PositionFilter();

@@ -58,8 +58,9 @@ GstElement* parse(const char* line) {
 /// The first stream that is a haptic track is felt.
 void link_track(GstElement*, GstPad* pad, gpointer decode) {
   const Ref<GstPad> sink(gst_element_get_static_pad(GST_ELEMENT(decode), "sink"));
-  if (!gst_pad_is_linked(sink.get()) && kind_of(pad) == StreamKind::kHapticTrack)
+  if (!gst_pad_is_linked(sink.get()) && kind_of(pad) == StreamKind::kHapticTrack) {
     gst_pad_link(pad, sink.get());
+  }
 }
 
 void print_missing(GstMessage* message) {
@@ -115,10 +116,11 @@ FollowedFilm::FollowedFilm(const std::string& uri, const std::vector<std::string
   } catch (const std::runtime_error& error) {
     tell(std::string(error.what()) + "; the film is analysed");
   }
-  if (track.path.empty())
+  if (track.path.empty()) {
     build_film(uri);
-  else
+  } else {
     build_track(track.path, track.later_ns);
+  }
   set_properties(properties);
   // The base time is set by hand.
   gst_element_set_start_time(pipeline_.get(), GST_CLOCK_TIME_NONE);
@@ -219,8 +221,9 @@ void FollowedFilm::set_base_time(int64_t base_ns) {
   gst_element_set_base_time(pipeline_.get(), base);
   GstIterator* const all = gst_bin_iterate_recurse(GST_BIN(pipeline_.get()));
   // Elements that come meanwhile get it from their bin.
-  while (gst_iterator_foreach(all, give_base_time, &base) == GST_ITERATOR_RESYNC)
+  while (gst_iterator_foreach(all, give_base_time, &base) == GST_ITERATOR_RESYNC) {
     gst_iterator_resync(all);
+  }
   gst_iterator_free(all);
 }
 
@@ -250,8 +253,9 @@ void FollowedFilm::seek(int64_t position_ns, double rate) {
   rate_ = rate;
   seek_began_ns_ = monotonic_now_ns();
   if (gst_element_seek(pipeline_.get(), rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
-                       std::max<int64_t>(position_ns, 0), GST_SEEK_TYPE_NONE, 0))
+                       std::max<int64_t>(position_ns, 0), GST_SEEK_TYPE_NONE, 0)) {
     return;
+  }
   tell("this film cannot be entered at another place");
   failed_ = true;
 }
@@ -259,8 +263,9 @@ void FollowedFilm::seek(int64_t position_ns, double rate) {
 void FollowedFilm::follow(int64_t now_ns, int64_t position_ns, double rate) {
   if (!ready_) return;
   const int64_t error_ns = position_ns - position_at(now_ns);
-  if (rate != rate_ || std::abs(error_ns) > kNear_ns)
+  if (rate != rate_ || std::abs(error_ns) > kNear_ns) {
     return seek(position_ns + std::llround(static_cast<double>(seek_took_ns_) * rate), rate);
+  }
   if (!playing_) settled_ns_ = now_ns + kSettles_ns;
   if (playing_ && std::abs(error_ns) > kSmall_ns) pause();
   if (!playing_) return play(now_ns, position_ns);

@@ -63,8 +63,9 @@ PlayerState state_of(GVariant* properties) {
   // As far as mpv goes; what is not a rate counts as that of ordinary playback.
   constexpr double kLeast = 0.01, kMost = 100;
   double rate = 0;
-  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kLeast && rate <= kMost)
+  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kLeast && rate <= kMost) {
     state.rate = rate;
+  }
   const Variant metadata(g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
   if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text)) state.uri = text;
   return state;
@@ -179,15 +180,17 @@ void MprisPlayer::take_position(GObject* bus, GAsyncResult* result, gpointer use
   GVariant* inner = nullptr;
   g_variant_get(reply, "(v)", &inner);
   const Variant position(inner);
-  if (g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64))
+  if (g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64)) {
     self.told_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));
+  }
 }
 
 void MprisPlayer::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
-  if (const auto state = state_in(answer.reply.get()))
+  if (const auto state = state_in(answer.reply.get())) {
     static_cast<MprisPlayer*>(user)->told_.state(*state);
+  }
 }
 
 void MprisPlayer::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,

@@ -50,8 +50,9 @@ void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
   const bool jumped = std::abs(late_ns) > kLatest_ns;
   // One alone may be of a moment in which the player, or this process, was held up.
-  if (jumped && (jumped_ || late_ns < 0 || count_ == 1))
+  if (jumped && (jumped_ || late_ns < 0 || count_ == 1)) {
     return reset_after_jump(now_ns, position_ns);
+  }
   jumped_ = jumped;
   if (jumped) return;
   if (std::exchange(is_goal_, false)) count_ = 0;

@@ -19,8 +19,9 @@ template <typename Object>
 std::vector<Ref<GstObject>> bins_around(Object* object) {
   std::vector<Ref<GstObject>> bins;
   for (GstObject* bin = gst_object_get_parent(GST_OBJECT(object)); bin;
-       bin = gst_object_get_parent(bin))
+       bin = gst_object_get_parent(bin)) {
     bins.emplace_back(bin);
+  }
   return bins;
 }
 

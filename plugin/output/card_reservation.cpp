@@ -64,8 +64,9 @@ std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& re
                                [](gpointer path) { delete static_cast<std::string*>(path); });
   if (taken->request_name(kDoNotQueue, refused)) return taken;
   if (refused.empty() && taken->is_given_away(refused) &&
-      taken->request_name(kDoNotQueue | kReplace, refused))
+      taken->request_name(kDoNotQueue | kReplace, refused)) {
     return taken;
+  }
   if (refused.empty()) refused = "its owner keeps it";
   return nullptr;
 }

@@ -89,9 +89,10 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   const Grip& grip = session->grip();
   post("opened", grip.name(), chosen.empty() ? session->opened() : chosen);
   const std::string error = session->vibration_error();
-  if (!error.empty())
+  if (!error.empty()) {
     GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_READ_WRITE, ("%s", error.c_str()),
                         ("A file that can be read and written there is enough."));
+  }
   const GripAbilities can = grip.abilities();
   // Most devices have no torque or no force towards the viewer: their pages say so.
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
@@ -105,10 +106,11 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   text.pop_back();
   std::string advice;
   if (!chosen.empty()) advice = "spidarctl list names what is plugged in; device= chooses one.";
-  if (force_feedback)
+  if (force_feedback) {
     advice += std::string(advice.empty() ? "" : " ") +
               "device=ff:PATH,gain=PERCENT sets how much of its strength is used, and spidarctl "
               "selftest ff tests its directions.";
+  }
   post_information(element_, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_SETTINGS, text, advice);
 }
 
@@ -134,8 +136,9 @@ void DeviceWarnings::end_haptic_trace(HapticSession* session) {
   session->drain_trace();
   check_haptic_trace(session);
   const TraceStatus status = session->trace_status();
-  if (status.error == 0)
+  if (status.error == 0) {
     warn_of_missing_rows(element_, "The haptic trace", status.lost_rows + status.waiting_rows);
+  }
 }
 
 void DeviceWarnings::check_strings(const LoopSnapshot& loop) {

@@ -97,10 +97,11 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
   simulated = nullptr;
   if (spec != "sim") return make_grip(spec, profile);
   std::unique_ptr<StringDevice> device;
-  if (threaded)
+  if (threaded) {
     device = make_device(spec, profile);
-  else
+  } else {
     device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+  }
   simulated = dynamic_cast<SimulatedDevice*>(device.get());
   return std::make_unique<StringGrip>(profile, std::move(device));
 }
@@ -116,8 +117,9 @@ std::unique_ptr<CardReservation> reserve(GstElement* element, const std::string&
   if (!card) return nullptr;
   std::string refused;
   std::unique_ptr<CardReservation> taken = CardReservation::take(*card, refused);
-  if (!refused.empty())
+  if (!refused.empty()) {
     GST_INFO_OBJECT(element, "the sound server keeps %s: %s", device.c_str(), refused.c_str());
+  }
   return taken;
 }
 

@@ -53,8 +53,9 @@ template <typename Enum>
 GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
   if (const GType type = g_type_from_name(name)) return type;
   auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type keeps them
-  for (size_t i = 0; i < choices.size(); ++i)
+  for (size_t i = 0; i < choices.size(); ++i) {
     values[i] = {static_cast<int>(choices[i].value), choices[i].meaning, choices[i].nick};
+  }
   const GType type = g_enum_register_static(name, values);
   gst_type_mark_as_plugin_api(type, GST_PLUGIN_API_FLAG_IGNORE_ENUM_MEMBERS);
   return type;
@@ -169,8 +170,9 @@ class PropertyTable {
   void install(GObjectClass* object_class) const {
     const Settings defaults;
     guint id = 0;
-    for (const Property<Settings>& row : rows_)
+    for (const Property<Settings>& row : rows_) {
       g_object_class_install_property(object_class, ++id, row.spec(defaults));
+    }
   }
 
   /// Both return false for an id that is not a setting: `stats`, or unknown.
@@ -199,8 +201,9 @@ struct PropertyEffect {
 template <typename Element, size_t kCount>
 void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* element,
                      const GParamSpec* spec, const GValue* value) {
-  for (const PropertyEffect<Element>& effect : effects)
+  for (const PropertyEffect<Element>& effect : effects) {
     if (std::strcmp(effect.property, spec->name) == 0) effect.follow(element, value);
+  }
 }
 
 /// Whether the element has read the property already. Object lock.
@@ -236,8 +239,9 @@ void set_property(const PropertyTable<Settings>& table, Element* element,
   if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(element, id, spec);
   if (!late) follow_property(effects, element, spec, value);
   in_order.unlock();
-  if (late && g_param_values_cmp(spec, &before, value) != 0)
+  if (late && g_param_values_cmp(spec, &before, value) != 0) {
     warn_of_late(GST_ELEMENT(element), spec);
+  }
   g_value_unset(&before);
 }
 

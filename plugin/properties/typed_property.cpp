@@ -24,8 +24,9 @@ std::string range(const char* kind, Number least, Number most) {
 
 std::string one_of(GEnumClass* known) {
   std::string names;
-  for (guint i = 0; i < known->n_values; ++i)
+  for (guint i = 0; i < known->n_values; ++i) {
     names += (i == 0 ? "" : ", ") + std::string(known->values[i].value_nick);
+  }
   return "one of " + names;
 }
 
@@ -72,12 +73,14 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
   const std::string name = text.substr(0, equals);
   property_ = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
   const bool is_property = property_ && (property_->flags & G_PARAM_WRITABLE);
-  if (!is_property && equals == std::string::npos)
+  if (!is_property && equals == std::string::npos) {
     throw PropertyError(text + ": is not PROPERTY=VALUE, such as max-force=2");
-  if (!is_property)
+  }
+  if (!is_property) {
     throw PropertyError("spidarmotion has no property \"" + name + "\" that can be set" +
                         meant(name, names_of_properties(element)) +
                         "; gst-inspect-1.0 spidarmotion lists them");
+  }
   if (equals == std::string::npos) {
     throw PropertyError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
                         values_of(property_) + unit(property_));

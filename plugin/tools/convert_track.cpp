@@ -166,8 +166,9 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
   std::array<double, 2> gains{1, 1};
   for (const size_t kind : {size_t{0}, size_t{1}}) {
     double peak = 0;
-    for (size_t i = kind * kForces; i < (kind + 1) * kForces; ++i)
+    for (size_t i = kind * kForces; i < (kind + 1) * kForces; ++i) {
       peak = std::max(peak, summary.channels[i].peak);
+    }
     gains[kind] = options.gain.value_or(peak > 0 ? 1 / peak : 1);
   }
   std::vector<std::unique_ptr<PartFile>> parts;
@@ -207,8 +208,9 @@ TrackCondition read_axes(const std::string& from, const SampleSource::Take& take
               << " taken back\n";
     const std::vector<TrackSample> samples = read_funscript(text, channel);
     if (all.size() < samples.size()) all.resize(samples.size());
-    for (size_t i = 0; i < samples.size(); ++i)
+    for (size_t i = 0; i < samples.size(); ++i) {
       all[i][channel] = static_cast<float>(samples[i][channel] / gain);
+    }
   }
   for (const TrackSample& sample : all) take(sample);
   return condition;
@@ -228,8 +230,9 @@ int convert_track(const ConvertOptions& options) {
   check_format(to);
   const bool is_all = options.axis == kAllAxes;
   std::unique_ptr<PartFile> part;
-  if (!is_all || !ends_with(to, ".funscript"))
+  if (!is_all || !ends_with(to, ".funscript")) {
     part = std::make_unique<PartFile>(to, PartFile::Replaces{options.force, "spidartrack convert"});
+  }
   SampleFile samples(to);
   Summariser summariser;
   const SampleSource::Take take = [&](const TrackSample& sample) {

@@ -56,8 +56,9 @@ class ExportedFilm {
       : film_(options.film),
         replaces_{options.force, kMaker},
         condition_(read_track(film_, [this](const TrackSample& sample) { page_.add(sample); })) {
-    if (condition_.film.empty())
+    if (condition_.film.empty()) {
       throw UsageError(film_ + ": is a track; give the film that it is for");
+    }
     expect_own_track(condition_);
     unplayed_ = why_no_browser(film_);
     place_arrow();
@@ -175,8 +176,9 @@ int export_film(const ExportOptions& options) {
   const std::string& to = options.to;
   std::error_code none;
   const bool is_folder = !to.empty() && (to.back() == '/' || fs::is_directory(to, none));
-  if (!is_folder && !ends_with(to, ".html"))
+  if (!is_folder && !ends_with(to, ".html")) {
     throw UsageError(to + ": is to end in .html, or in / as a folder does");
+  }
   if (is_folder && options.embed) throw UsageError("--embed is for a page, not for a folder");
   if (is_folder) {
     ExportedFilm(options).write_folder(to);
@@ -184,10 +186,11 @@ int export_film(const ExportOptions& options) {
   }
   PartFile page(to, {options.force, kMaker});
   ExportedFilm film(options);
-  if (options.embed)
+  if (options.embed) {
     film.write_all_in_one(page);
-  else
+  } else {
     film.write_page(page);
+  }
   return kDone;
 }
 

@@ -85,8 +85,9 @@ void QuietEnd::begin(GstElement* pipeline) {
   if (!encoder) return;
   const Ref<GstPad> sink(gst_element_get_static_pad(encoder.get(), "sink"));
   const Ref<GstPad> src(gst_element_get_static_pad(encoder.get(), "src"));
-  for (GstPad* const pad : {sink.get(), src.get()})
+  for (GstPad* const pad : {sink.get(), src.get()}) {
     gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, pass, this, nullptr);
+  }
 }
 
 GstPadProbeReturn QuietEnd::pass(GstPad* pad, GstPadProbeInfo* info, gpointer user) {

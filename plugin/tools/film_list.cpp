@@ -65,8 +65,9 @@ class FilmSearch {
   /// Parts of a sentence.
   std::vector<std::string> left_out() const {
     std::vector<std::string> parts = unreadable_;
-    for (const auto& [what, files] : passed_over_)
+    for (const auto& [what, files] : passed_over_) {
       parts.push_back(std::to_string(files) + " " + what + (files == 1 ? "" : "s"));
+    }
     size_t count = 0;
     std::vector<std::pair<size_t, std::string>> ends;
     for (const auto& [end, files] : others_) {
@@ -146,8 +147,9 @@ FilmList list_films(const std::vector<std::string>& names) {
       continue;
     }
     const FilmSearch search(name);
-    for (const std::string& part : search.left_out())
+    for (const std::string& part : search.left_out()) {
       list.left_out += (list.left_out.empty() ? "" : "; ") + part;
+    }
     if (search.found().empty()) {
       throw std::runtime_error(name + ": this folder has no film (names that end in .mkv, .mp4 …)" +
                                (list.left_out.empty() ? "" : "; left out: " + list.left_out));

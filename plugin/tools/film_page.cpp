@@ -81,8 +81,9 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
     if (box.is_known() && next != boxes.end() && next->is_known()) {
       const double share = (now_ns - static_cast<double>(box.stream_ns)) /
                            static_cast<double>(next->stream_ns - box.stream_ns);
-      for (size_t i = 0; i < box.edges.size(); ++i)
+      for (size_t i = 0; i < box.edges.size(); ++i) {
         box.edges[i] += share * (next->edges[i] - box.edges[i]);
+      }
     }
     for (size_t i = 0; i < box.edges.size(); ++i) edges_[i].push_back(2 * box.edges[i] - 1);
   }
@@ -106,13 +107,15 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
   // As exact as a hand can feel, or as there is room for in a long film.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
     track["force"] = Json::array();
-    for (const std::vector<double>& force_N : force_N_)
+    for (const std::vector<double>& force_N : force_N_) {
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
+    }
     track["box"] = Json::array();
     // Two edges that are off by so much each, and rounded, are a box no longer.
     track["least"] = edges_off + 0.5 / kSteps;
-    for (const std::vector<double>& edge : edges_)
+    for (const std::vector<double>& edge : edges_) {
       if (edges_off < kMostOff) track["box"].push_back(curve_text(edge, edges_off, 1));
+    }
     edges_off *= kCoarser;
     html.text = page;
     html.text.replace(at, place.size(), script_json(track));

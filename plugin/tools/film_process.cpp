@@ -267,10 +267,11 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
   answers.close_end();
   Json last = {{"error", "the process that read it ended without a result"}};
   answers.read([&](const Json& answer) {
-    if (answer.contains("percent"))
+    if (answer.contains("percent")) {
       tell(answer["percent"]);
-    else
+    } else {
       last = answer;
+    }
   });
   await_end(process);
   if (last.contains("error")) throw std::runtime_error(last["error"].get<std::string>());
@@ -357,8 +358,9 @@ int run_film_process(int argc, char** argv) {
   const std::string film = argv[kFilm], track = argv[kTrack];
   RecordProperties properties;
   properties.settings = argv[kSettings];
-  for (int i = kProperties; i + 1 < argc; i += 2)
+  for (int i = kProperties; i + 1 < argc; i += 2) {
     properties.values.emplace_back(argv[i], argv[i + 1]);
+  }
   try {
     gst_init(nullptr, nullptr);
     std::string recorded = track;

@@ -10,8 +10,9 @@
 namespace spidar {
 
 void set_properties(GstElement* motion, const RecordProperties& properties) {
-  for (const auto& [name, value] : properties.values)
+  for (const auto& [name, value] : properties.values) {
     gst_util_set_object_arg(G_OBJECT(motion), name.c_str(), value.c_str());
+  }
 }
 
 FilmProgress::FilmProgress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}

@@ -102,8 +102,9 @@ class FilmBatch {
     if (!options_.left_out.empty()) report_.tell("left out: " + options_.left_out);
     std::vector<std::thread> workers;
     try {
-      for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i)
+      for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i) {
         workers.emplace_back([this] { work(); });
+      }
     } catch (const std::system_error&) {
       // The system gives no more threads: those that there are take longer.
     }

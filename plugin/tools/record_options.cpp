@@ -28,9 +28,11 @@ std::vector<std::string> names_of_analysis(GstElement* element) {
   const std::unique_ptr<GParamSpec*, void (*)(gpointer)> all(
       g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count), g_free);
   std::vector<std::string> names;
-  for (guint i = 0; i < count; ++i)
-    if (g_param_spec_get_qdata(all.get()[i], analysis_mark()))
+  for (guint i = 0; i < count; ++i) {
+    if (g_param_spec_get_qdata(all.get()[i], analysis_mark())) {
       names.emplace_back(g_param_spec_get_name(all.get()[i]));
+    }
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -39,8 +41,9 @@ std::vector<std::string> names_of_analysis(GstElement* element) {
 std::string why_refused(const TypedProperty& property, const std::vector<std::string>& of_analysis,
                         size_t films) {
   const std::string name = property.name();
-  if (name == "touch")
+  if (name == "touch") {
     return "what is touched depends on the hand, and a track is the same for all";
+  }
   if (name == "pointer" &&
       (property.canonical_value() == "grip" || property.canonical_value() == "mouse")) {
     return "a track has neither a hand nor a mouse: pointer=X,Y";
@@ -75,8 +78,9 @@ std::vector<std::string> without_presets(GstElement* element,
     }
     load_preset(element, *preset);
     for (const std::string& name : of_analysis) {
-      if (name == "feel" || name == "pointer" || name == "max-force")
+      if (name == "feel" || name == "pointer" || name == "max-force") {
         continue;  // no preset has them
+      }
       GValue value = G_VALUE_INIT;
       g_object_get_property(G_OBJECT(element), name.c_str(), &value);
       gchar* const text = gst_value_serialize(&value);

@@ -54,8 +54,9 @@ class FilmFile : private FileBytes {
       const std::string head = read(at, 16);
       const std::string type = head.size() < 8 ? "" : head.substr(4, 4);
       const bool is_complete = has_index && has_pictures;
-      if (!is_box(type) && is_complete && !(head.size() < 8 && has_fragments))
+      if (!is_box(type) && is_complete && !(head.size() < 8 && has_fragments)) {
         return FilmEnd::kAppended;
+      }
       if (head.size() < 8) return FilmEnd::kCutOff;
       uint64_t length = big_endian(head, 0, 4);
       if (length == 1 && head.size() == 16) length = big_endian(head, 8, 8);
@@ -143,8 +144,9 @@ FileLength length_of_wav(FileBytes& file) {
       FileLength length;
       length.by_samples = true;
       length.there_ns = time_ns(there / sample_bytes, rate_Hz);
-      if (!is_unknown_size(promised))
+      if (!is_unknown_size(promised)) {
         length.promised_ns = time_ns(promised / sample_bytes, rate_Hz);
+      }
       return length;
     }
     at += 8 + promised + promised % 2;
@@ -161,8 +163,9 @@ FileLength length_of_flac(FileBytes& file) {
   length.by_samples = true;
   length.there_ns = time_ns(*flac.end - flac.begin, flac.rate_Hz);
   length.is_cut_off = flac.is_cut_off;
-  if (flac.is_cut_off && flac.promised > *flac.end)
+  if (flac.is_cut_off && flac.promised > *flac.end) {
     length.promised_ns = time_ns(flac.promised - flac.begin, flac.rate_Hz);
+  }
   return length;
 }
 

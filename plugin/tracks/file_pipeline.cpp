@@ -35,8 +35,9 @@ std::string text_of(GstMessage* message, const std::string& missing = "") {
       g_error_matches(error, GST_CORE_ERROR, GST_CORE_ERROR_MISSING_PLUGIN) ||
       g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_CODEC_NOT_FOUND);
   if (is_missing && !missing.empty()) text = "a plug-in of GStreamer is missing: " + missing;
-  if (g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_TYPE_NOT_FOUND))
+  if (g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_TYPE_NOT_FOUND)) {
     text = "it is damaged, or of a format that GStreamer does not know";
+  }
   g_error_free(error);
   return text;
 }
@@ -49,8 +50,9 @@ FilePipeline::FilePipeline(const std::string& line, const std::string& path,
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) throw std::runtime_error("there is no such file");
-  if (!std::filesystem::is_regular_file(status))
+  if (!std::filesystem::is_regular_file(status)) {
     throw std::runtime_error("it is not a regular file");
+  }
   GError* error = nullptr;
   pipeline_.reset(gst_parse_launch(line.c_str(), &error));
   if (error) {
@@ -119,8 +121,9 @@ void FilePipeline::hear_errors(std::function<void(const std::string&)> take) {
 }
 
 GstBusSyncReply FilePipeline::handle(GstBus*, GstMessage* message, gpointer user) {
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR)
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
     static_cast<FilePipeline*>(user)->take_error_(text_of(message));
+  }
   return GST_BUS_PASS;
 }
 

@@ -22,8 +22,9 @@ using Bytes = std::pair<const uint8_t*, size_t>;
 
 Bytes after_last_start_code(const uint8_t* data, size_t size) {
   for (size_t i = size; i >= 4; --i) {
-    if (data[i - 4] == 0 && data[i - 3] == 0 && data[i - 2] == 1)
+    if (data[i - 4] == 0 && data[i - 3] == 0 && data[i - 2] == 1) {
       return {data + i - 1, size - i + 1};
+    }
   }
   return {data, size};
 }

@@ -77,8 +77,9 @@ std::optional<Frame> frame_at(const std::string& bytes, size_t from, const Strea
   const unsigned size_code = byte(2) >> 4U, rate_code = byte(2) & 0xfU,
                  channel_code = byte(3) >> 4U;
   const uint64_t channels = channel_code < 8 ? channel_code + 1 : 2;
-  if (size_code == 0 || rate_code == 15 || channel_code > 10 || channels != info.channels)
+  if (size_code == 0 || rate_code == 15 || channel_code > 10 || channels != info.channels) {
     return std::nullopt;
+  }
   size_t at = from + 4;
   const std::optional<uint64_t> number = coded_number(bytes, at);
   const size_t more_bytes = size_code == 6 ? 1 : size_code == 7 ? 2 : 0;
@@ -127,8 +128,9 @@ FlacLength flac_length(FileBytes& file) {
   constexpr uint64_t kEnd = uint64_t{1} << 18U;
   const uint64_t from = file.size() > first + kEnd ? file.size() - kEnd : first;
   const std::string end = file.read(from, kEnd);
-  if (const auto frame = frame_at(file.read(first, kLongestHead + 1), 0, *info))
+  if (const auto frame = frame_at(file.read(first, kLongestHead + 1), 0, *info)) {
     length.begin = frame->begin;
+  }
   for (size_t at = end.size(); at-- > 0;) {
     const std::optional<Frame> frame = frame_at(end, at, *info);
     const std::optional<size_t> after = frame ? end_of_frame(end, at) : std::nullopt;

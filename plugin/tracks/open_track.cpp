@@ -85,8 +85,9 @@ class TrackOfFile : public OpenTrack {
     if (const std::string error = blocks_->error(); !error.empty()) {
       throw std::runtime_error(error);
     }
-    if (is_chosen_ && !only_notes_ && first_ns_ == INT64_MAX)
+    if (is_chosen_ && !only_notes_ && first_ns_ == INT64_MAX) {
       throw std::runtime_error("there are no samples in it.");
+    }
     read_tags(pad_.get(), notes_);
     bytes_ = file_bytes();
     length_ = file_length(path_);

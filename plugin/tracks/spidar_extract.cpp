@@ -270,8 +270,9 @@ static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
                                                             GstStateChange transition) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    for (gint* value : {&self->without_meta, &self->warned, &self->told})
+    for (gint* value : {&self->without_meta, &self->warned, &self->told}) {
       g_atomic_int_set(value, 0);
+    }
   }
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_extract_parent_class)->change_state(element, transition);

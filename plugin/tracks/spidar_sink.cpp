@@ -238,8 +238,9 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
 /// A stream of other sound, whose source does not ask first what is accepted, gets as far as
 /// set_caps(): the sentence there explains more than a failed negotiation.
 static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
-  if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS)
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) {
     return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->query(sink, query);
+  }
   gst_query_set_accept_caps_result(query, TRUE);
   return TRUE;
 }
@@ -275,8 +276,9 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   self->state->faults = self->state->input.faults();
   self->state->samples = self->state->input.samples();
   GST_OBJECT_UNLOCK(self);
-  if (g_atomic_int_exchange(&self->state->wants_no_sync, FALSE))
+  if (g_atomic_int_exchange(&self->state->wants_no_sync, FALSE)) {
     self->state->track_warnings.tell_of_sync();
+  }
   if (is_felt) self->state->track_warnings.check(self->state->input.faults(), has_time);
   if (!is_felt) self->state->track_warnings.tell_of_mark();
   const spidar::OnDeviceError policy = properties.on_device_error;
@@ -374,14 +376,17 @@ static bool open_device(GstSpidarSink* self) {
 static GstStateChangeReturn gst_spidar_sink_change_state(GstElement* element,
                                                          GstStateChange transition) {
   GstSpidarSink* self = GST_SPIDAR_SINK(element);
-  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self))
+  if (transition == GST_STATE_CHANGE_NULL_TO_READY && !open_device(self)) {
     return GST_STATE_CHANGE_FAILURE;
-  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED)
+  }
+  if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     self->state->output.follower().set_playing(false);
+  }
   const GstStateChangeReturn result =
       GST_ELEMENT_CLASS(gst_spidar_sink_parent_class)->change_state(element, transition);
-  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE)
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && result != GST_STATE_CHANGE_FAILURE) {
     self->state->output.follower().set_playing(true);
+  }
   const bool closes =
       transition == GST_STATE_CHANGE_READY_TO_NULL ||
       (transition == GST_STATE_CHANGE_NULL_TO_READY && result == GST_STATE_CHANGE_FAILURE);

@@ -29,8 +29,9 @@ bool is_marked(const GstTagList* tags) {
     const guint count = gst_tag_list_get_tag_size(tags, tag);
     for (guint i = 0; i < count; ++i) {
       const gchar* text = nullptr;
-      if (gst_tag_list_peek_string_index(tags, tag, i, &text) && has_line(text, kTrackMark))
+      if (gst_tag_list_peek_string_index(tags, tag, i, &text) && has_line(text, kTrackMark)) {
         return true;
+      }
     }
   }
   return false;

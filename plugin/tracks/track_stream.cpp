@@ -166,8 +166,9 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
 }
 
 GstFlowReturn TrackStream::add_gap(GstClockTime pts) {
-  if (!begun_ || segment_.format != GST_FORMAT_TIME || segment_.rate < 0 || !is_time(pts))
+  if (!begun_ || segment_.format != GST_FORMAT_TIME || segment_.rate < 0 || !is_time(pts)) {
     return GST_FLOW_OK;
+  }
   const int64_t time_ns = running_ns(pts);
   if (time_ns < 0 || time_ns - last_frame_ns_ > kLongestSilence_ns) return GST_FLOW_OK;
   sampler_.add({time_ns, 0, Wrench(), false});

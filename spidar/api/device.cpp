@@ -36,10 +36,12 @@ constexpr int64_t kHold_ns = std::chrono::nanoseconds(Device::kHold).count();
 static_assert(kHold_ns <= spidar::WrenchTimeline::kLongestHold_ns, "longer than any frame is held");
 
 spidar::Profile profile_for(const std::string& device, const std::string& profile) {
-  for (const std::string& name : {device, profile})
-    if (name.find('\0') != std::string::npos)
+  for (const std::string& name : {device, profile}) {
+    if (name.find('\0') != std::string::npos) {
       throw std::invalid_argument("a name has a NUL in it, behind \"" + std::string(name.c_str()) +
                                   "\"");
+    }
+  }
   if (device == "none") throw std::runtime_error("\"none\" cannot be opened");
   spidar::Profile found = spidar::profile_for(device, profile);
   // That of its own drives.
@@ -61,10 +63,11 @@ thread_local bool calls_back = false;
 
 /// The haptic thread waits for nobody, and what waits for a callback to end would wait for itself.
 void require_no_callback() {
-  if (calls_back)
+  if (calls_back) {
     throw std::logic_error(
         "not within a callback, which must not wait; return the wrench from it, and do this in "
         "another thread");
+  }
 }
 
 /// The device and what drives it.
@@ -87,12 +90,14 @@ struct DeviceRange {
     const bool has_strings = grip.traits().has_strings;
     giver = has_strings ? profile.name : device;
     largest_force_N = std::floor(10 * std::max(spidar::kAnyForce_N, can.largest_force_N)) / 10;
-    if (has_strings)
+    if (has_strings) {
       largest_torque_Nm = std::floor(1000 * spidar::largest_torque_Nm(profile)) / 1000;
+    }
     const Eigen::Vector3d half_m =
         spidar::half_room_m(spidar::with_room(profile.geometry, can.half_room_m));
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
       if (can.position[static_cast<size_t>(axis)]) workspace_m[axis] = 2 * half_m[axis];
+    }
     if (can.force[2]) surface.half_size_m = workspace_m.head<2>() / 2;
     surface.most_stiffness_N_m =
         has_strings ? spidar::most_stiffness_N_m(profile) : spidar::kUnmeasuredStiffness_N_m;

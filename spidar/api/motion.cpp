@@ -61,9 +61,10 @@ struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
   /// Throws std::runtime_error in a copy.
   Locked<Analysis> alone() const {
     Analysis* const mine = analysis.get();
-    if (!mine)
+    if (!mine) {
       throw std::runtime_error(
           "this was made by the process that this one is a copy of (fork): make one in this one");
+    }
     return Locked(*mine);
   }
 

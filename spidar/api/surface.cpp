@@ -27,9 +27,10 @@ constexpr double kMostRelief_m = 0.03;
 }
 
 spidar::ContactSettings contact_of(const Surface& surface, const SurfaceRange& range) {
-  if (surface.stiffness_N_m > range.most_stiffness_N_m)
+  if (surface.stiffness_N_m > range.most_stiffness_N_m) {
     refuse("the stiffness of a surface", range.most_stiffness_N_m, "N/m on this device",
            surface.stiffness_N_m);
+  }
   spidar::ContactSettings contact;
   contact.stiffness_N_m = surface.stiffness_N_m;
   contact.delay_s = spidar::surface_delay_s(range.drive_lag_s);
@@ -44,8 +45,9 @@ spidar::ReliefSettings relief_of(const Surface& surface) {
   relief.relief_m = surface.relief_m;
   relief.floor_z_m = -0.5 * surface.relief_m;
   spidar::validate(relief);
-  if (surface.relief_m > kMostRelief_m)
+  if (surface.relief_m > kMostRelief_m) {
     refuse("the height of a relief", kMostRelief_m, "m", surface.relief_m);
+  }
   return relief;
 }
 
@@ -53,10 +55,11 @@ spidar::ReliefSettings relief_of(const Surface& surface) {
 
 bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
                          spidar::HapticLoop& loop) {
-  if (!(range.half_size_m.minCoeff() > 0))
+  if (!(range.half_size_m.minCoeff() > 0)) {
     throw std::invalid_argument(
         "this device has no surfaces: it takes no force towards the viewer; a SPIDAR with six "
         "strings or more does");
+  }
   const spidar::ContactSettings contact = contact_of(surface, range);
   const spidar::ReliefSettings relief = relief_of(surface);
   const spidar::ImageView picture = from_api(surface.picture);

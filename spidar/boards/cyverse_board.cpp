@@ -39,8 +39,9 @@ void CyverseBoard::open() {
 LinkFault CyverseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
                               int64_t deadline_ns) noexcept {
   DacDigits digits{};
-  for (size_t i = 0; i < digits.size(); ++i)
+  for (size_t i = 0; i < digits.size(); ++i) {
     digits[i] = static_cast<uint16_t>(dac_.digit(volts.volt[i]));
+  }
   Readout readout;
   const LinkFault fault = exchange(digits, readout, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
@@ -73,8 +74,9 @@ LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
   sh4::Reading reading;
   if (!sh4::decode_reading({in_.data(), transfer.received}, reading)) return LinkFault::kShort;
-  if (std::find(sent_.begin(), sent_.end(), reading.dac_echo) == sent_.end())
+  if (std::find(sent_.begin(), sent_.end(), reading.dac_echo) == sent_.end()) {
     return LinkFault::kWrongEcho;
+  }
   // Negated, because this board counts in the opposite direction to the Simple board (published).
   for (size_t i = 0; i < sh4::kChannels; ++i) readout.counter[i] = 0u - reading.counter[i];
   readout.inputs = reading.inputs;
@@ -116,10 +118,12 @@ LinkFault SimpleBoard::exchange(const DacDigits& digits, Readout& readout,
   const Transfer transfer = transport().exchange({set_dac_, latch_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
   usb_simple::Reading reading;
-  if (!usb_simple::decode_reading({in_.data(), transfer.received}, reading))
+  if (!usb_simple::decode_reading({in_.data(), transfer.received}, reading)) {
     return LinkFault::kShort;
-  for (size_t i = 0; i < usb_simple::kChannels; ++i)
+  }
+  for (size_t i = 0; i < usb_simple::kChannels; ++i) {
     readout.counter[i] = static_cast<uint32_t>(reading.counter[i]);
+  }
   readout.inputs = reading.inputs;
   readout.rotary = reading.rotary();
   return LinkFault::kNone;

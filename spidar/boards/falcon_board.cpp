@@ -40,10 +40,11 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
                       DeviceErrorCode::kSettings);
   }
   const std::vector<uint8_t> firmware(text.begin(), text.end());
-  if (firmware.empty() || firmware.size() > kMostFirmware)
+  if (firmware.empty() || firmware.size() > kMostFirmware) {
     throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
                           " bytes and is no firmware of a Falcon, which has some 8 kB",
                       DeviceErrorCode::kSettings);
+  }
   return firmware;
 }
 
@@ -70,8 +71,9 @@ LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline
   for (size_t filled = 0, sent = 0; filled < answer.size; sent = 1) {
     const Transfer transfer = sent ? transport_->exchange({}, in, deadline_ns)
                                    : transport_->exchange({bytes}, in, deadline_ns);
-    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort)
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) {
       return transfer.fault;
+    }
     if (transfer.received < ftdi::kStatusSize) return LinkFault::kShort;
     const size_t came = transfer.received - ftdi::kStatusSize;
     if (came > answer.size - filled) return LinkFault::kBabble;
@@ -107,8 +109,9 @@ LinkFault FalconBoard::greet_loader() noexcept {
     if (said == LinkFault::kGone) return said;
     // With a zero in front, its end does not fit.
     const size_t zero = answer[0] == 0 ? 1 : 0;
-    if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin()))
+    if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
       return set_line(falcon::kLoadLine);
+    }
     if (i + 1 == kHellos) fault = said == LinkFault::kNone ? LinkFault::kWrongReply : said;
   }
   return fault;
@@ -121,12 +124,15 @@ LinkFault FalconBoard::load(const std::vector<uint8_t>& firmware) noexcept {
   const auto send = [&](ByteView piece) {
     if (fault != LinkFault::kNone) return;
     fault = say(piece, {echo.data(), piece.size}, soon_ns());
-    if (fault == LinkFault::kNone && !std::equal(piece.data, piece.data + piece.size, echo.begin()))
+    if (fault == LinkFault::kNone &&
+        !std::equal(piece.data, piece.data + piece.size, echo.begin())) {
       fault = LinkFault::kWrongEcho;
+    }
   };
   send(falcon::kLoad);
-  for (size_t at = 0; at < firmware.size(); at += falcon::kPieceSize)
+  for (size_t at = 0; at < firmware.size(); at += falcon::kPieceSize) {
     send({firmware.data() + at, std::min(falcon::kPieceSize, firmware.size() - at)});
+  }
   return fault;
 }
 
@@ -169,8 +175,9 @@ std::array<int, 3> FalconBoard::digits_for(const Eigen::Vector3d& force_N) const
   Eigen::Vector3d wanted = falcon::kDigitsPerNm * (position_->jacobian.transpose() * force_N);
   const double most = wanted.cwiseAbs().maxCoeff();
   if (most > falcon::kMostDigit) wanted *= falcon::kMostDigit / most;
-  for (size_t i = 0; i < digits.size(); ++i)
+  for (size_t i = 0; i < digits.size(); ++i) {
     digits[i] = static_cast<int>(std::lround(wanted[static_cast<Eigen::Index>(i)]));
+  }
   return digits;
 }
 

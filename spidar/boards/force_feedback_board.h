@@ -64,8 +64,9 @@ class ForceFeedbackBoard final : public ForceBoard {
                     100 * effects_->gain());
       text += fraction;
     }
-    if (!found.constant)
+    if (!found.constant) {
       return text + ", rumble only: the strength of the force is felt, not its direction";
+    }
     text += force_axes_ > 1 ? ", force feedback on two axes" : ", force feedback on one axis";
     if (found.axes_by_id) text += ", as its USB ID says";
     if (force_axes_ < 2) text += ": forces up and down are not felt";

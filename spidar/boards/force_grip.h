@@ -72,9 +72,11 @@ class ForceGrip final : public Grip {
     const GripAbilities can = board_.abilities();
     ForceOutput output;
     output.on = command.power > 0;
-    for (int axis = 0; axis < 3; ++axis)
-      if (can.force[static_cast<size_t>(axis)])
+    for (int axis = 0; axis < 3; ++axis) {
+      if (can.force[static_cast<size_t>(axis)]) {
         output.force_N[axis] = command.power * command.wrench.force_N[axis];
+      }
+    }
     const double wanted_N = output.force_N.norm();
     if (wanted_N > can.largest_force_N) output.force_N *= can.largest_force_N / wanted_N;
     return output;
@@ -93,10 +95,11 @@ class ForceGrip final : public Grip {
       ++reading_.pose_errors;
       trust_.fail(fault, fault == PoseFault::kJump);
     }
-    if (trust_.trusted())
+    if (trust_.trusted()) {
       reading_.motion.see(reading_.pose, trust_.located_ns());
-    else
+    } else {
       reading_.motion.reset();
+    }
   }
   /// A stick is no hand: it snaps back, and its driver reports seldom.
   PoseFault judge(const ForceReading& answer, int64_t now_ns) const noexcept {

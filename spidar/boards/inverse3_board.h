@@ -35,18 +35,22 @@ class Inverse3Board final : public ForceBoard {
           return ask(inverse3::encode_query(text_), device_, deadline_ns);
         },
         *transport_);
-    if (fault == LinkFault::kGone)
+    if (fault == LinkFault::kGone) {
       refuse("Haply's service knows no Inverse3" + (wanted().empty() ? "" : " " + wanted()) +
                  ": plug it in, and wait until its light is steady",
              DeviceErrorCode::kAbsent);
-    if (fault != LinkFault::kNone)
+    }
+    if (fault != LinkFault::kNone) {
       refuse(std::string("Haply's service does not answer as it should: ") + to_string(fault) +
              "; version 3.1 or later is needed");
-    if (!device_.powered)
+    }
+    if (!device_.powered) {
       refuse("the Inverse3 " + device_.id + " has no power: connect its supply");
-    if (!device_.calibrated)
+    }
+    if (!device_.calibrated) {
       refuse("the Inverse3 " + device_.id +
              " is not calibrated: put its handle into the inkwell until its light is steady");
+    }
     opened_ = true;
     // Without the preset, positions would be elsewhere.
     const LinkFault start = open_exchange(
@@ -54,9 +58,10 @@ class Inverse3Board final : public ForceBoard {
           return ask(inverse3::encode_start(device_, text_), now_, deadline_ns);
         },
         *transport_);
-    if (start != LinkFault::kNone)
+    if (start != LinkFault::kNone) {
       refuse(std::string("Haply's service does not answer the beginning of a session: ") +
              to_string(start) + "; restart it");
+    }
   }
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
                   int64_t deadline_ns) noexcept override {
@@ -72,8 +77,9 @@ class Inverse3Board final : public ForceBoard {
   }
   void recover() noexcept override { transport_->recover(); }
   void close() noexcept override {
-    if (opened_)
+    if (opened_) {
       ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_, soon_ns());
+    }
     opened_ = false;
     transport_->close();
   }
@@ -108,8 +114,9 @@ class Inverse3Board final : public ForceBoard {
     const Transfer transfer = transport_->exchange({{text_.data(), length}},
                                                    {answer_.data(), answer_.size()}, deadline_ns);
     // An answer is as long as it is.
-    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort)
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) {
       return transfer.fault;
+    }
     const ByteView text(answer_.data(), transfer.received);
     switch (inverse3::decode_state(text, wanted(), state)) {
       case inverse3::Answer::kState:

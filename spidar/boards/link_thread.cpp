@@ -52,8 +52,9 @@ void LinkThread<Output, Reading>::open() {
   board_->open();
   try {
     if (settings_.guardian) {
-      for (const LastWill& will : board_->last_wills())
+      for (const LastWill& will : board_->last_wills()) {
         guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));
+      }
     }
     zero_counts();
     last_ = {};
@@ -232,8 +233,9 @@ bool LinkThread<Output, Reading>::put_out_zero() noexcept {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
     // After a counter jump or a strange answer the board has received the output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
-        fault == LinkFault::kWrongReply)
+        fault == LinkFault::kWrongReply) {
       return true;
+    }
     if (fault == LinkFault::kGone) break;
     board_->recover();
   }
@@ -249,16 +251,18 @@ void LinkThread<Output, Reading>::close() noexcept {
   if (unguarded_ != LinkFault::kNone) board_->expect_reopening();
   board_->close();
   // The guardians keep trying for a while, and stop at once when the board is gone.
-  if (!zero)
+  if (!zero) {
     for (const auto& guardian : guardians_) guardian->carry_out();
+  }
   guardians_.clear();
 }
 
 template <typename Output, typename Reading>
 LinkHealth LinkThread<Output, Reading>::health() const noexcept {
   LinkHealth health;
-  for (size_t i = 0; i < kLinkFaults; ++i)
+  for (size_t i = 0; i < kLinkFaults; ++i) {
     health.faults[i] = faults_[i].load(std::memory_order_relaxed);
+  }
   health.last_fault = last_fault_.load(std::memory_order_relaxed);
   health.late_replies = late_.load(std::memory_order_relaxed);
   health.round_trip_median_ns = round_trip_.quantile_ns(0.5);

@@ -30,8 +30,9 @@ class SoundBoard final : public ForceBoard {
     abilities_.rate_Hz = std::min(1000 / sound::kBlock_ms, settings_.carrier_Hz);
     for (size_t axis = 0; axis < 3; ++axis) {
       abilities_.force[axis] = false;
-      for (const Eigen::Vector3d& direction : settings_.direction)
+      for (const Eigen::Vector3d& direction : settings_.direction) {
         if (direction[static_cast<Eigen::Index>(axis)] != 0) abilities_.force[axis] = true;
+      }
     }
   }
 
@@ -64,9 +65,10 @@ class SoundBoard final : public ForceBoard {
         settings_.channels, settings_.channels > 1 ? "s" : "", settings_.carrier_Hz,
         100 * settings_.gain);
     const int64_t lag_ns = lag_ns_;
-    if (lag_ns > 0)  // known once it plays
+    if (lag_ns > 0) {  // known once it plays
       std::snprintf(text + length, sizeof text - static_cast<size_t>(length),
                     ", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
+    }
     return text;
   }
   std::string warning() const override {

@@ -72,10 +72,11 @@ bool StickEffects::thread_runs() const {
 }
 
 void StickEffects::open() {
-  if (thread_runs())
+  if (thread_runs()) {
     throw DeviceError(
         name_ + ": its driver has not returned from a call yet; plug the device in again",
         DeviceErrorCode::kBusy);
+  }
   transport_->open();
   try {
     const LinkFault fault = open_exchange(
@@ -121,25 +122,28 @@ void StickEffects::start_updates() {
 
 void StickEffects::begin_effects() {
   const std::string device = name_ + ": \"" + description_.name.data() + "\" ";
-  if (!description_.constant && !description_.rumble)
+  if (!description_.constant && !description_.rumble) {
     throw DeviceError(
         device +
             "has no force feedback (neither FF_CONSTANT nor FF_RUMBLE); spidarctl list "
             "names devices that have",
         DeviceErrorCode::kSettings);
-  if (description_.effects == 0)
+  }
+  if (description_.effects == 0) {
     throw DeviceError(device + "has no room for an effect; another driver may help");
+  }
   const bool both = description_.constant && description_.axes > 1 && description_.effects > 1;
   effect_count_ = both ? 2 : 1;
   effects_ = {};
   for (size_t i = 0; i < effect_count_; ++i) {
     Transfer transfer = upload(i, 0);
     if (transfer.fault == LinkFault::kNone) transfer = play(i);
-    if (transfer.fault != LinkFault::kNone)
+    if (transfer.fault != LinkFault::kNone) {
       throw DeviceError(device + "does not take an effect: " + reason(transfer),
                         transfer.error == ENOMEM || transfer.error == ENOSPC
                             ? DeviceErrorCode::kBusy
                             : DeviceErrorCode::kFailed);
+    }
   }
 }
 
@@ -158,10 +162,12 @@ LinkFault StickEffects::take_settings() noexcept {
   LinkFault fault = LinkFault::kNone;
   // Also when these fail, because they may have arrived nevertheless.
   settings_changed_ = true;
-  if (description_.gain)
+  if (description_.gain) {
     fault = send(ff::encode_gain(static_cast<int>(std::lround(ff::kFullGain * gain())))).fault;
-  if (fault == LinkFault::kNone && description_.autocentre)
+  }
+  if (fault == LinkFault::kNone && description_.autocentre) {
     fault = send(ff::encode_autocentre(0)).fault;
+  }
   has_settings_ = fault == LinkFault::kNone;
   return fault;
 }
@@ -170,8 +176,9 @@ std::vector<ff::EventBytes> StickEffects::former_settings() const {
   std::vector<ff::EventBytes> events;
   if (description_.gain && gain() < 1) events.push_back(ff::encode_gain(ff::kFullGain));
   if (!description_.autocentre || !description_.starts_centred) return events;
-  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms)
+  for (int ms = kUpdate_ms; ms <= kCentring_ms; ms += kUpdate_ms) {
     events.push_back(ff::encode_autocentre(ff::kFullGain * ms / kCentring_ms));
+  }
   return events;
 }
 
@@ -211,9 +218,10 @@ int StickEffects::wanted_level(size_t effect) const noexcept {
   if (!std::isfinite(right) || !std::isfinite(up)) return 0;
   // A driver without a gain gets smaller levels instead.
   const double fraction_used = description_.gain ? 1 : gain();
-  if (!description_.constant)
+  if (!description_.constant) {
     return static_cast<int>(
         std::lround(fraction_used * ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
+  }
   // A force that is too strong keeps its direction.
   const double largest =
       effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
@@ -300,10 +308,11 @@ void StickEffects::close(bool reopening) noexcept {
   }
   stop_ = true;
   const auto limit = std::chrono::milliseconds(kCentring_ms + kHang_ms);
-  if (ended_.wait_for(limit) == std::future_status::ready)
+  if (ended_.wait_for(limit) == std::future_status::ready) {
     thread_.join();
-  else
+  } else {
     thread_.detach();
+  }
 }
 
 void StickEffects::end_effects() noexcept {
@@ -315,8 +324,9 @@ void StickEffects::end_effects() noexcept {
     rests = rests && (stopped || (effects_[i].level == 0 && effects_[i].known));
   }
   // More gain would make an effect stronger that has not been stopped; it ends by itself.
-  if (!rests && !reopening_ && updates_ == Updates::kOwnThread)
+  if (!rests && !reopening_ && updates_ == Updates::kOwnThread) {
     sleep_until_ns(monotonic_now_ns() + ff::kEffect_ms * kMs);
+  }
   if (!reopening_) return_settings();
   effect_count_ = 0;
   transport_->close();
@@ -328,9 +338,11 @@ std::vector<LastWill> StickEffects::last_wills() const {
   std::vector<LastWill> will = wills(*transport_, {first, last});
   static_assert(1 + kCentring_ms / kUpdate_ms <= LastWill::kMaxSettings);
   static_assert(kUpdate_ms == kSetting_ms);
-  for (LastWill& last_will : will)
-    for (const ff::EventBytes& event : former_settings_)
+  for (LastWill& last_will : will) {
+    for (const ff::EventBytes& event : former_settings_) {
       last_will.setting[last_will.settings++] = event_of(event);
+    }
+  }
   return will;
 }
 

@@ -77,13 +77,14 @@ void UartBoard::open() {
       find_all(patience_ns);
       if (motors_ >= strings_) break;
     }
-    if (motors_ < strings_ || motors_ > kMaxStrings)
+    if (motors_ < strings_ || motors_ > kMaxStrings) {
       throw DeviceError(
           name_ + ": " + std::to_string(stations_.size()) + " motor boards answer, with " +
               std::to_string(motors_) + " motors; the profile has " + std::to_string(strings_) +
               " strings: name the lines of all boards (uart:PATH,PATH), and check their "
               "supply",
           stations_.empty() ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed);
+    }
     require_same_stations();
     std::array<uint32_t, kMaxStrings> raw{};
     LinkFault fault = LinkFault::kTimeout;
@@ -102,8 +103,9 @@ void UartBoard::open() {
 LinkFault UartBoard::exchange(const Station& station, const MotorVolts& volts,
                               uart_motor::Reading& reading, int64_t deadline_ns) noexcept {
   std::array<int, uart_motor::kMaxMotors> digits{};
-  for (size_t i = 0; i < station.info.motors; ++i)
+  for (size_t i = 0; i < station.info.motors; ++i) {
     digits[i] = dac_.digit(volts.volt[station.first + i]);
+  }
   const size_t length = uart_motor::encode_current(station.id, station.info, digits, out_);
   const size_t reply = uart_motor::current_reply_length(station.info.motors, station.info.forces);
   const Transfer transfer =
@@ -149,10 +151,11 @@ void UartBoard::close() noexcept {
 
 std::string UartBoard::description() const {
   std::string text = "UART motor boards:";
-  for (const Station& station : stations_)
+  for (const Station& station : stations_) {
     text += (text.back() == ':' ? " number " : ", number ") + std::to_string(station.id) +
             " of model " + std::to_string(station.info.model) + " with " +
             std::to_string(station.info.motors) + " motors";
+  }
   return text;
 }
 

@@ -28,9 +28,11 @@ DeviceIdentity UsbSearch::Candidate::identity() const {
 /// All devices of these kinds, those with the path or serial number in the id first.
 std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
   std::vector<Candidate> all;
-  for (const BoardKind* kind : kinds_)
-    for (UsbDeviceInfo& device : list_usb_devices(kind->usb.vendor, kind->usb.product))
+  for (const BoardKind* kind : kinds_) {
+    for (UsbDeviceInfo& device : list_usb_devices(kind->usb.vendor, kind->usb.product)) {
       all.push_back({kind, std::move(device)});
+    }
+  }
   std::stable_partition(all.begin(), all.end(),
                         [this](const Candidate& one) { return is_named(one); });
   return all;
@@ -43,15 +45,17 @@ bool UsbSearch::is_named(const Candidate& candidate) const {
 /// At least one: those with the path or serial number in the id; without one, all of them.
 std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   std::vector<Candidate> found = plugged_in();
-  if (!found.empty() && is_named(found.front()))
+  if (!found.empty() && is_named(found.front())) {
     found.erase(std::find_if_not(found.begin(), found.end(),
                                  [this](const Candidate& one) { return is_named(one); }),
                 found.end());
+  }
   if (found.empty()) {
     std::string names;
-    for (const BoardKind* kind : kinds_)
+    for (const BoardKind* kind : kinds_) {
       names += (names.empty() ? "no " : " or ") + std::string(kind->title) + " (" +
                kind->usb.text() + ")";
+    }
     throw DeviceError(name_ + ": " + names + " is plugged in", DeviceErrorCode::kAbsent);
   }
   return found;
@@ -152,13 +156,14 @@ void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
   for (Kind& kind : kinds_) {
     if (kind.known != candidate.kind) continue;
     if (kind.known->has_strings() && profile_board_ != "unknown" &&
-        profile_board_ != kind.known->profile_board)
+        profile_board_ != kind.known->profile_board) {
       throw DeviceError(name_ + ": the board at " + candidate.device.path + " is a " +
                             kind.known->title + ", and profile \"" + profile_name_ +
                             "\" is for boards of the kind " + profile_board_ +
                             "; spidarctl info usb:" + candidate.device.path +
                             " lists the profiles that fit",
                         DeviceErrorCode::kSettings);
+    }
     kind.transport->select(candidate.device);
     kind.board->open();
     used_ = &kind;

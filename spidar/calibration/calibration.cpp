@@ -54,9 +54,10 @@ struct Fit {
 
   void look_at_errors(double floor_m) {
     errors_m.resize(static_cast<Eigen::Index>(lengths_m.size()), model.strings());
-    for (size_t k = 0; k < lengths_m.size(); ++k)
+    for (size_t k = 0; k < lengths_m.size(); ++k) {
       errors_m.row(static_cast<Eigen::Index>(k)) =
           model.length_errors_m(bundle.parameters, lengths_m[k], bundle.poses[k], nullptr);
+    }
     norms_m = errors_m.rowwise().norm();
     sigma_m = robust_sigma_m(norms_m, redundant(), model.size(), floor_m);
     weights = (kHuber * sigma_m / norms_m.array().max(kHuber * sigma_m)).matrix();
@@ -177,14 +178,15 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
   describe_motion(fit.bundle.poses, result);
   const double sd_m = fit.noise_m(rounding_m) * largest_sd(fit);
   const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();
-  if (contradicts(fit, outliers))
+  if (contradicts(fit, outliers)) {
     result.status = CalibrationStatus::kContradiction;
-  else if (!(sd_m <= kMaxCalibrationSd_m))
+  } else if (!(sd_m <= kMaxCalibrationSd_m)) {
     result.status = CalibrationStatus::kUndetermined;
-  else if (!(sd_m * correlation_factor(fit) <= kMaxCalibrationSd_m))
+  } else if (!(sd_m * correlation_factor(fit) <= kMaxCalibrationSd_m)) {
     result.status = CalibrationStatus::kContradiction;
-  else
+  } else {
     result.status = CalibrationStatus::kSolved;
+  }
   return result;
 }
 
@@ -200,11 +202,12 @@ CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples
     const double m_per_count = profile.drives[static_cast<size_t>(i)].metres_per_count;
     const Eigen::VectorXd held = counts.col(i);
     const double range_m = (held.maxCoeff() - held.minCoeff()) * m_per_count;
-    if (range_m > kMaxHeldRange_m)
+    if (range_m > kMaxHeldRange_m) {
       throw std::invalid_argument(
           "calibration: the grip was not held still: the length of string " + as_text(i) +
           " changed by " + as_text(1e3 * range_m) + " mm, must be less than " +
           as_text(1e3 * kMaxHeldRange_m) + " mm");
+    }
     squares_m2 += (m_per_count * (held.array() - held.mean())).square().mean();
   }
   const Eigen::VectorXd mean = counts.colwise().mean();
@@ -229,8 +232,9 @@ void replace_provenance(const std::string& field, const std::string& how, const 
 
 Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
                            const std::string& how) {
-  if (result.status != CalibrationStatus::kSolved)
+  if (result.status != CalibrationStatus::kSolved) {
     throw std::invalid_argument("calibration: a result that is not solved makes no profile");
+  }
   Profile calibrated = profile;
   calibrated.geometry.exit_m = result.exit_m;
   const auto count = static_cast<size_t>(profile.geometry.count);
@@ -242,10 +246,12 @@ Profile calibrated_profile(const Profile& profile, const CalibrationResult& resu
   const std::string note =
       as_text(result.samples) + " samples, residual " + as_text(1e6 * result.residual_m) + " um";
   replace_provenance("home_offset_m", how, note, calibrated.provenance);
-  if (result.estimated.free_scale)
+  if (result.estimated.free_scale) {
     replace_provenance("metres_per_count", how, note, calibrated.provenance);
-  if (result.estimated.free_exits)
+  }
+  if (result.estimated.free_exits) {
     replace_provenance("geometry", how, "exits; " + note, calibrated.provenance);
+  }
   calibrated.calibration = CalibrationRecord{result.samples, result.residual_m};
   return calibrated;
 }

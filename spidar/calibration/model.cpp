@@ -23,8 +23,9 @@ Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
   for (int i = 0; i < geometry.count; ++i) {
     const Eigen::Vector3d& e = geometry.exit_m[static_cast<size_t>(i)];
     rigid.block<3, 3>(0, 3 * i).setIdentity();
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
       rigid.block<1, 3>(3 + axis, 3 * i) = Eigen::Vector3d::Unit(axis).cross(e).transpose();
+    }
   }
   return singular_values(rigid).directions.rightCols(rows - 6);
 }
@@ -49,8 +50,9 @@ StringGeometry CalibrationModel::geometry(const Eigen::VectorXd& parameters) con
   StringGeometry moved = geometry_;
   if (exit_directions_.cols() == 0) return moved;
   const Eigen::VectorXd displacement = exit_directions_ * parameters.tail(exit_directions_.cols());
-  for (int i = 0; i < moved.count; ++i)
+  for (int i = 0; i < moved.count; ++i) {
     moved.exit_m[static_cast<size_t>(i)] += displacement.segment<3>(3 * i);
+  }
   return moved;
 }
 
@@ -86,10 +88,12 @@ Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& paramet
   by_parameter.setZero(n, size());
   by_parameter.leftCols(n).diagonal().setConstant(-1);
   if (scale_at_ >= 0) by_parameter.col(scale_at_) = -paid_out_m.head(n) / mean_length_m_;
-  if (exit_directions_.cols() > 0)
-    for (int i = 0; i < n; ++i)
+  if (exit_directions_.cols() > 0) {
+    for (int i = 0; i < n; ++i) {
       by_parameter.row(i).tail(exit_directions_.cols()) =
           W.col(i).head<3>().transpose() * exit_directions_.middleRows<3>(3 * i);
+    }
+  }
   return error_m;
 }
 
@@ -139,8 +143,9 @@ class SampleErrors final : public ceres::CostFunction {
       derivatives.by_twist.rightCols<3>() *= 2;
       Eigen::Map<Rows>(jacobians[0], n, kPoseSize) = derivatives.by_twist * minus / unit_m_;
     }
-    if (jacobians[1])
+    if (jacobians[1]) {
       Eigen::Map<Rows>(jacobians[1], n, model_.size()) = derivatives.by_parameter / unit_m_;
+    }
     return true;
   }
 
@@ -192,8 +197,9 @@ Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVe
   const StringGeometry geometry = model.geometry(start.parameters);
   const StringVector zero_m = string_lengths_m(geometry, {}) - centre_m;
   PoseSolver solver(geometry, std::numeric_limits<double>::infinity());
-  for (const StringVector& lengths_m : paid_out_m)
+  for (const StringVector& lengths_m : paid_out_m) {
     start.poses.push_back(solver.solve(zero_m + lengths_m).pose);
+  }
   return start;
 }
 

@@ -27,29 +27,36 @@ constexpr double kMaxAveraged = 4;
 
 void check_samples(const Profile& profile, const CountSamples& counts, int min_strings) {
   const int strings = profile.geometry.count;
-  if (strings < min_strings)
+  if (strings < min_strings) {
     throw std::invalid_argument("calibration: profile \"" + profile.name + "\" has " +
                                 as_text(strings) + " strings, must have at least " +
                                 as_text(min_strings) +
                                 ": a pose takes six, only those beyond tell anything");
-  if (counts.cols() != strings)
+  }
+  if (counts.cols() != strings) {
     throw std::invalid_argument("calibration: samples have counts of " + as_text(counts.cols()) +
                                 " strings, must have " + as_text(strings) + " as profile \"" +
                                 profile.name + "\"");
-  if (counts.rows() < kMinCalibrationSamples)
+  }
+  if (counts.rows() < kMinCalibrationSamples) {
     throw std::invalid_argument("calibration: " + as_text(counts.rows()) +
                                 " samples, must be at least " + as_text(kMinCalibrationSamples));
-  for (Eigen::Index k = 0; k < counts.rows(); ++k)
-    for (Eigen::Index i = 0; i < counts.cols(); ++i)
-      if (!std::isfinite(counts(k, i)))
+  }
+  for (Eigen::Index k = 0; k < counts.rows(); ++k) {
+    for (Eigen::Index i = 0; i < counts.cols(); ++i) {
+      if (!std::isfinite(counts(k, i))) {
         throw std::invalid_argument("calibration: sample " + as_text(k) + ", string " + as_text(i) +
                                     ": the count is " + as_text(counts(k, i)) + ", must be finite");
+      }
+    }
+  }
 }
 
 double rounding_sd_m(const Profile& profile, double averaged) {
   double sum = 0;
-  for (int i = 0; i < profile.geometry.count; ++i)
+  for (int i = 0; i < profile.geometry.count; ++i) {
     sum += profile.drives[static_cast<size_t>(i)].metres_per_count;
+  }
   return sum / profile.geometry.count / std::sqrt(12 * std::min(averaged, kMaxAveraged));
 }
 
@@ -85,9 +92,11 @@ namespace {
 
 CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings) {
   CountSamples samples(static_cast<Eigen::Index>(readings.size()), strings);
-  for (Eigen::Index k = 0; k < samples.rows(); ++k)
-    for (Eigen::Index i = 0; i < samples.cols(); ++i)
+  for (Eigen::Index k = 0; k < samples.rows(); ++k) {
+    for (Eigen::Index i = 0; i < samples.cols(); ++i) {
       samples(k, i) = readings[static_cast<size_t>(k)].count[static_cast<size_t>(i)];
+    }
+  }
   return samples;
 }
 
@@ -101,11 +110,12 @@ CountSamples record_counts(StringDevice& device, const Profile& profile,
   int64_t tick = -kRise;  // the next one
   StringHold hold(device, profile,
                   [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
-  if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s))
+  if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) {
     hold.stay(settings.seconds, [&](const DeviceReading& reading) {
       if ((tick - 1) % period == 0) kept.push_back(reading);
       return true;
     });
+  }
   hold.release();
   return to_samples(kept, profile.geometry.count);
 }

@@ -60,8 +60,9 @@ inline Pose hand_in_motion(const StringGeometry& geometry, double time_s, double
   constexpr double kFraction = 0.4, kTurn_rad = 0.45, kFadeIn_s = 1.0;
   constexpr double kRate_Hz[6] = {0.437, 0.361, 0.281, 0.251, 0.319, 0.397};
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < geometry.count; ++i)
+  for (int i = 0; i < geometry.count; ++i) {
     half_m = half_m.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
+  }
   const double grown = std::clamp(time_s / kFadeIn_s, 0.0, 1.0);
   const auto wave = [&](int i) {
     return grown * std::sin(2 * M_PI * kRate_Hz[i] * time_s + phase_rad * (1 + i));

@@ -22,10 +22,11 @@ namespace spidar {
 template <typename BoardType>
 AnyBoard attach(const std::string& name, const Profile& profile,
                 std::unique_ptr<Transport> transport) {
-  if constexpr (std::is_base_of_v<Board, BoardType>)
+  if constexpr (std::is_base_of_v<Board, BoardType>) {
     return std::unique_ptr<Board>(std::make_unique<BoardType>(name, profile, std::move(transport)));
-  else
+  } else {
     return std::unique_ptr<ForceBoard>(std::make_unique<BoardType>(name, std::move(transport)));
+  }
 }
 
 /// For DeviceKind::emulate.

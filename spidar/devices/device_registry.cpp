@@ -24,14 +24,16 @@ DeviceName::DeviceName(const std::string& text)
 
 std::vector<const DeviceKind*> kinds_called(const std::string& device) {
   std::vector<const DeviceKind*> kinds;
-  for (const DeviceKind& kind : devices())
+  for (const DeviceKind& kind : devices()) {
     if (device == kind.device) kinds.push_back(&kind);
+  }
   return kinds;
 }
 
 const DeviceKind* simulated_kind(const DeviceName& name) {
-  for (const DeviceKind& kind : devices())
+  for (const DeviceKind& kind : devices()) {
     if (name.device == "sim" && name.rest == kind.board) return &kind;
+  }
   return nullptr;
 }
 

@@ -14,8 +14,9 @@ namespace {
 /// was given before.
 bool take_option(const std::string& option, int& axes, StickEffects::Options& options) {
   if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
-  if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0)
+  if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0) {
     return true;
+  }
   if (options.flipped[0] || options.flipped[1]) return false;
   options.flipped = {option == "flip=x" || option == "flip=xy",
                      option == "flip=y" || option == "flip=xy"};
@@ -33,16 +34,18 @@ AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
     const size_t end = rest.find(',', at + 1);
     const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
     at = end;
-    if (path.empty())
+    if (path.empty()) {
       throw DeviceError(name + ": the path is empty; write ff:/dev/input/eventN," + option,
                         DeviceErrorCode::kSettings);
-    if (!take_option(option, axes, options))
+    }
+    if (!take_option(option, axes, options)) {
       throw DeviceError(
           name + ": \"" + option + "\" is unknown, out of range or given twice; write ff:" + path +
               ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +
               ",gain=50 for 50 % of the device's strength (1 to 100), or ff:" + path +
               ",flip=x if it pushes to the wrong side",
           DeviceErrorCode::kSettings);
+    }
   }
   return std::unique_ptr<ForceBoard>(std::make_unique<ForceFeedbackBoard>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),

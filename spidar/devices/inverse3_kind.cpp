@@ -16,12 +16,13 @@ AnyBoard make_inverse3(const std::string& name, const std::string& rest, const P
   const size_t comma = rest.find(',');
   int port = inverse3::kPort;
   if (comma != std::string::npos) port = option_value(rest.substr(comma + 1), "port=", kLastPort);
-  if (port == 0 || comma == 0)
+  if (port == 0 || comma == 0) {
     throw DeviceError(name +
                           ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
                           "port of Haply's service, " + std::to_string(inverse3::kPort) +
                           " unless it was changed",
                       DeviceErrorCode::kSettings);
+  }
   return std::unique_ptr<ForceBoard>(std::make_unique<Inverse3Board>(
       name, rest.substr(0, comma),
       std::make_unique<WebSocketTransport>(

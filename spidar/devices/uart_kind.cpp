@@ -31,9 +31,10 @@ AnyBoard make_uart(const std::string& name, const std::string& paths, const Prof
   std::vector<std::unique_ptr<Transport>> lines;
   for (size_t begin = 0; begin <= paths.size();) {
     const size_t end = std::min(paths.find(',', begin), paths.size());
-    if (end == begin)
+    if (end == begin) {
       throw DeviceError(name + ": a path is empty; write uart:/dev/ttyUSB0",
                         DeviceErrorCode::kSettings);
+    }
     const std::string path = paths.substr(begin, end - begin);
     lines.push_back(std::make_unique<TtyTransport>("uart:" + path, path, uart_motor::kBaud));
     begin = end + 1;

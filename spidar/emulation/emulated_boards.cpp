@@ -32,8 +32,9 @@ void EmulatedSh4::receive(ByteView bytes) noexcept {
   const std::array<int32_t, kMaxStrings> counts = motors_->counts();
   sh4::Reading reading;
   reading.dac_echo = digits;
-  for (size_t i = 0; i < sh4::kChannels; ++i)
+  for (size_t i = 0; i < sh4::kChannels; ++i) {
     reading.counter[i] = static_cast<uint16_t>(0u - static_cast<uint32_t>(counts[i]));
+  }
   reading.inputs = motors_->inputs();
   sh4::encode_reading(reading, packet_);
   due_ = true;
@@ -80,8 +81,9 @@ void EmulatedMouse::receive(ByteView bytes) noexcept {
     milli_N[0] = static_cast<int>(std::lround(1000 * force.x_N));
     milli_N[1] = static_cast<int>(std::lround(1000 * force.y_N));
   }
-  if (command == mouse::Command::kForce || command == mouse::Command::kStop)
+  if (command == mouse::Command::kForce || command == mouse::Command::kStop) {
     motors_->put_out(milli_N);
+  }
 }
 
 size_t EmulatedMouse::reply(MutableBytes bytes) noexcept {
@@ -140,8 +142,9 @@ void EmulatedUart::end_of_command() noexcept {
     motors_->put_out(digits_);
     const std::array<int32_t, kMaxStrings> counts = motors_->counts();
     uart_motor::Reading reading;
-    for (size_t i = 0; i < motors; ++i)
+    for (size_t i = 0; i < motors; ++i) {
       reading.position[i] = static_cast<uint16_t>(counts[first_ + i]);
+    }
     std::array<uint8_t, uart_motor::kMaxReplyLength> reply{};
     const size_t length = uart_motor::encode_reading(reading, station.id, station.info, reply);
     put_reply({reply.data(), length});

@@ -48,12 +48,13 @@ bool EmulatedFalcon::control(const VendorRequest& request) noexcept {
 
 void EmulatedFalcon::receive(ByteView bytes) noexcept {
   for (size_t i = 0; i < bytes.size; ++i) {
-    if (memory_->baud == falcon::kHelloBaud)
+    if (memory_->baud == falcon::kHelloBaud) {
       hello(bytes.u8(i));
-    else if (memory_->baud == falcon::kLoadBaud)
+    } else if (memory_->baud == falcon::kLoadBaud) {
       load(bytes.u8(i));
-    else if (memory_->baud == falcon::kRunBaud)
+    } else if (memory_->baud == falcon::kRunBaud) {
       run(bytes.u8(i));
+    }
   }
 }
 
@@ -67,8 +68,9 @@ bool EmulatedFalcon::feed(uint8_t byte, size_t length) noexcept {
 
 void EmulatedFalcon::hello(uint8_t byte) noexcept {
   if (!loader_ || !feed(byte, falcon::kHello.size())) return;
-  if (std::equal(falcon::kHello.begin(), falcon::kHello.end(), packet_.begin()))
+  if (std::equal(falcon::kHello.begin(), falcon::kHello.end(), packet_.begin())) {
     answer(falcon::kHelloAnswer);
+  }
 }
 
 /// Echoes everything; what follows the first byte is the firmware.
@@ -91,8 +93,9 @@ void EmulatedFalcon::handle(const falcon::Command& command) noexcept {
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
   put_out_N(*motors_, force_N(command.digit, angles_rad_, at_m));
   falcon::Reading reading;
-  for (size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i) {
     reading.count[i] = falcon::count_at(angles_rad_[static_cast<Eigen::Index>(i)]);
+  }
   const uint16_t inputs = motors_->inputs();
   reading.buttons = inputs & 0xF;
   if (command.homing) reading.homed = inputs >> 4 & 7;
@@ -206,8 +209,9 @@ void EmulatedSound::receive(ByteView bytes) noexcept {
   if (bytes.size != sizeof levels) return;
   std::memcpy(&levels, bytes.data, sizeof levels);
   std::array<int, kMaxStrings> digits{};
-  for (size_t i = 0; i < sound::kMostChannels; ++i)
+  for (size_t i = 0; i < sound::kMostChannels; ++i) {
     digits[i] = static_cast<int>(std::lround(1000 * levels.level[i]));
+  }
   motors_->put_out(digits);
   due_ = true;
 }

@@ -24,8 +24,9 @@ namespace spidar {
 /// micrometres: to the right, up, towards the viewer.
 inline void put_out_N(EmulatedMotors& motors, const Eigen::Vector3d& force_N) noexcept {
   std::array<int, kMaxStrings> milli_N{};
-  for (size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i) {
     milli_N[i] = static_cast<int>(std::lround(1e3 * force_N[static_cast<Eigen::Index>(i)]));
+  }
   motors.put_out(milli_N);
 }
 inline Eigen::Vector3d position_m(EmulatedMotors& motors) noexcept {
@@ -46,8 +47,9 @@ class SpringHand final : public EmulatedMotors {
     pass(std::min<int64_t>(monotonic_now_ns() - now_ns_, kLongest_ns));
     now_ns_ = monotonic_now_ns();
     std::array<int32_t, kMaxStrings> at_um{};
-    for (size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < 3; ++i) {
       at_um[i] = static_cast<int32_t>(std::lround(1e6 * at_m_[static_cast<Eigen::Index>(i)]));
+    }
     return at_um;
   }
   uint16_t inputs() noexcept override { return inputs_; }

@@ -24,8 +24,9 @@ std::string directions_text(const std::array<bool, 3>& force) {
 std::string rendered_text(const GripAbilities& can) {
   char most[32];
   std::snprintf(most, sizeof most, "%.1f N", can.largest_force_N);
-  if (!can.direction)
+  if (!can.direction) {
     return std::string("the strength of the force, not its direction, up to ") + most;
+  }
   return "force " + directions_text(can.force) + ", up to " + most +
          (can.torque ? ", and torque" : ", no torque");
 }

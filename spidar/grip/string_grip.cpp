@@ -67,8 +67,9 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& comma
   const double change_N =
       std::hypot(change.force_N.norm(), change.torque_Nm.norm() / std::max(radius_m_, 1e-3));
   // A force that passes the old one on its way, as in a film that shakes, takes nothing back.
-  if (change_N >= kFeltForce_N)
+  if (change_N >= kFeltForce_N) {
     pushed_s_ += std::min(1.0, change_N / kFrozenForce_N) * command.dt_s;
+  }
   // At rest the force returns to its previous value, but dead counters stay dead.
   if (pushed_s_ > kFrozenAfter_s) frozen_ = true;
   return frozen_;
@@ -189,10 +190,11 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
 
 void StringGrip::see(const DeviceReading& answer, const GripCommand& command) noexcept {
   watch_.see(answer, command);
-  if (watch_.trusted())
+  if (watch_.trusted()) {
     reading_.motion.see(watch_.pose(), watch_.located_ns());
-  else
+  } else {
     reading_.motion.reset();
+  }
 }
 
 void StringGrip::report() noexcept {

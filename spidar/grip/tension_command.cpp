@@ -24,9 +24,10 @@ StringVector TensionSlew::apply(const StringVector& tension_N, const Profile& pr
 
 StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept {
   StringVector bounded = StringVector::Zero();
-  for (int i = 0; i < profile.geometry.count; ++i)
+  for (int i = 0; i < profile.geometry.count; ++i) {
     bounded[i] =
         std::min(non_negative(tension_N[i]), profile.drives[static_cast<size_t>(i)].max_tension_N);
+  }
   return bounded;
 }
 
@@ -68,8 +69,9 @@ TensionCommand::TensionCommand(const Profile& profile)
       last_N_(min_N_) {
   const int count = problem_.count = profile.geometry.count;
   shortest_m_ = string_lengths_m(geometry_, {}).head(count).minCoeff();
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
     reach_m_ = std::max(reach_m_, geometry_.grip_m[static_cast<size_t>(i)].norm());
+  }
   const double radius_m = profile.geometry.grip_radius_m();
   // A grip of zero radius cannot transmit torque, so the length that weights torque does not
   // matter.

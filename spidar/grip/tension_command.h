@@ -28,8 +28,9 @@ class MotorHeat {
 
   explicit MotorHeat(const Profile& profile) : profile_(profile) {
     // A profile that was not read from a file may lack it.
-    for (StringDrive& drive : profile_.drives)
+    for (StringDrive& drive : profile_.drives) {
       if (!(drive.continuous_tension_N > 0)) drive.continuous_tension_N = drive.max_tension_N / 2;
+    }
   }
 
   /// The motors have produced `tension_N` for `dt_s`.

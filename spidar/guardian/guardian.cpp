@@ -58,8 +58,9 @@ int spawn(std::vector<std::string> command, int its_end, pid_t& process) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
   // systemd-run would complain there, after which the guardian is started without it.
-  if (command.size() > 1)
+  if (command.size() > 1) {
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  }
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   // In a session of its own, so that Ctrl-C in a terminal reaches only the host.

@@ -110,8 +110,9 @@ bool write_all(int file, const uint8_t* bytes, size_t length, bool (*ends)(int e
 }
 
 bool send_stream(const LastWill& will) {
-  for (uint32_t i = 0; i < will.packets; ++i)
+  for (uint32_t i = 0; i < will.packets; ++i) {
     if (!write_all(will.file, will.packet[i].data(), will.length[i], ends_stream)) return false;
+  }
   return true;
 }
 
@@ -183,16 +184,19 @@ bool receive(LastWill& will, int& host) {
   message.msg_controllen = space.size();
   if (recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC) != ssize_t{sizeof will}) return false;
   const cmsghdr* rights = CMSG_FIRSTHDR(&message);
-  if (!rights || rights->cmsg_type != SCM_RIGHTS || rights->cmsg_len != CMSG_LEN(sizeof files))
+  if (!rights || rights->cmsg_type != SCM_RIGHTS || rights->cmsg_len != CMSG_LEN(sizeof files)) {
     return false;
+  }
   std::memcpy(files.data(), CMSG_DATA(rights), sizeof files);
   will.file = files[0];
   host = files[1];
   if (will.magic != LastWill::kMagic || will.packets > LastWill::kMaxPackets ||
-      will.settings > LastWill::kMaxSettings || will.wire > LastWill::Wire::kSocket)
+      will.settings > LastWill::kMaxSettings || will.wire > LastWill::Wire::kSocket) {
     return false;
-  for (uint32_t i = 0; i < will.packets; ++i)
+  }
+  for (uint32_t i = 0; i < will.packets; ++i) {
     if (will.length[i] > LastWill::kMaxLength) return false;
+  }
   return true;
 }
 
@@ -245,8 +249,9 @@ void ask_for_promptness() {
 int main() {
   spidar::open_standard_descriptors();
   prctl(PR_SET_NAME, "spidar-guardian");
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP})
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP}) {
     signal(number, SIG_IGN);
+  }
   // Other files inherited from the host would stay open as long as this process runs.
   close_range(STDERR_FILENO + 1, ~0U, 0);
   LastWill will;

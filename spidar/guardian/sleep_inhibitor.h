@@ -69,8 +69,9 @@ class SleepInhibitor {
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     if (posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ) !=
-        0)
+        0) {
       process_ = -1;
+    }
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[0]);

@@ -36,8 +36,9 @@ HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
 /// Whoever sets a limit, a grip that is let go must not be thrown.
 SafetyLimits HapticLoop::bounded(SafetyLimits limits) const noexcept {
   const GripTraits& traits = grip_->traits();
-  if (traits.can_fly)
+  if (traits.can_fly) {
     limits.max_force_N = std::min(limits.max_force_N, released_force_N(traits.drive_lag_s));
+  }
   return limits;
 }
 

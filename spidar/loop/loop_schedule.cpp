@@ -64,8 +64,9 @@ TimelineResult LoopSchedule::read_track(bool playing, int64_t running_ns) noexce
 /// The oldest block ends later than what is asked for: all earlier ones have been read.
 int64_t LoopSchedule::time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexcept {
   const auto* const block = blocks_.front();
-  if (block && block->generation == timeline_generation_)
+  if (block && block->generation == timeline_generation_) {
     known_ns_ = std::max(known_ns_, block->entry.time_ns(block->entry.count));
+  }
   if (known_ns_ == INT64_MIN) return running_ns + lag_ns;
   return look_ahead_.ask_for(running_ns, lag_ns, known_ns_);
 }

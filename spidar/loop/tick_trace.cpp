@@ -60,8 +60,9 @@ void append_row(const TickRecord& record, std::string& csv) {
 
 TickTrace::TickTrace(const std::string& path) {
   const std::string reason = file_.open(path, kFirstColumns);
-  if (!reason.empty())
+  if (!reason.empty()) {
     throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
+  }
   row_.reserve(kMaxRow_bytes);
   file_.add(trace_header() + "\n");
 }

@@ -54,8 +54,9 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
   }
   Wrench wrench = ask(*called, input);
   // The safety chain refuses what is not finite.
-  if (called->settings.passive && wrench.is_finite())
+  if (called->settings.passive && wrench.is_finite()) {
     wrench = bounded(wrench, input, beside_N, path_of(limits, called->settings.drive_lag_s));
+  }
   running_.store(nullptr);
   return wrench;
 }
@@ -82,8 +83,9 @@ Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noe
 void WrenchCallback::stop(State why) noexcept {
   Called* called = running_.load();
   // If set() has taken it away already, there is nothing to report.
-  if (called_.compare_exchange_strong(called, nullptr))
+  if (called_.compare_exchange_strong(called, nullptr)) {
     state_.store(why, std::memory_order_release);
+  }
 }
 
 /// Without the torque, and with no more force than the hand has put in energy for since there was

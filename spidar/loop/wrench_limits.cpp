@@ -81,8 +81,9 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   stale_before_ = stale_;
   const double before = stale_.fraction();
   const double fraction = stale_.apply(fresh, dt_s, limits);
-  if (fresh)
+  if (fresh) {
     return slew_.apply(fraction * limit_total(finite_.apply(wanted), limits), dt_s, limits);
+  }
   const double left = before > 0 ? fraction / before : 0;
   const Wrench last = slew_.last();
   const Wrench within = limit_total(left * last, limits);

@@ -18,8 +18,9 @@ class EncoderScale {
 
   explicit EncoderScale(const Profile& profile) noexcept
       : count_(profile.geometry.count), zero_m_(profile.zero_count_length_m()) {
-    for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
       metres_[i] = profile.drives[i].encoder_sign * profile.drives[i].metres_per_count;
+    }
   }
 
   /// From an exit to the grip, in metres; zero for strings that the device does not have.

@@ -24,8 +24,9 @@ std::vector<fs::path> search_path() {
   std::vector<fs::path> folders;
   if (const char* listed = std::getenv("SPIDAR_PROFILE_PATH")) {
     std::istringstream parts(listed);
-    for (std::string part; std::getline(parts, part, ':');)
+    for (std::string part; std::getline(parts, part, ':');) {
       if (!part.empty()) folders.emplace_back(part);
+    }
   }
   folders.push_back(installed(SPIDAR_PROFILE_DIR));
   return folders;
@@ -55,8 +56,9 @@ std::string joined(const std::vector<std::string>& parts) {
 template <double StringDrive::*kMember>
 StringVector per_string(const Profile& profile) {
   StringVector values = StringVector::Zero();
-  for (int i = 0; i < profile.geometry.count; ++i)
+  for (int i = 0; i < profile.geometry.count; ++i) {
     values[i] = profile.drives[static_cast<size_t>(i)].*kMember;
+  }
   return values;
 }
 
@@ -87,9 +89,11 @@ Profile load_profile(const std::string& name_or_path) {
     if (fs::exists(path, error)) return read_file(path);
     searched.push_back(folder.string());
   }
-  for (const ShippedProfile& shipped : shipped_profiles())
-    if (name_or_path == shipped.name)
+  for (const ShippedProfile& shipped : shipped_profiles()) {
+    if (name_or_path == shipped.name) {
       return parse_profile(shipped.text, name_or_path + kEnding, name_or_path);
+    }
+  }
   throw ProfileError("unknown profile \"" + name_or_path + "\"; known are " +
                      joined(list_profiles()) + "; searched in " + joined(searched));
 }
@@ -99,8 +103,9 @@ std::vector<std::string> list_profiles() {
   for (const ShippedProfile& shipped : shipped_profiles()) names.insert(shipped.name);
   for (const fs::path& folder : search_path()) {
     std::error_code error;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
       if (it->path().extension() == kEnding) names.insert(it->path().stem().string());
+    }
   }
   return {names.begin(), names.end()};
 }

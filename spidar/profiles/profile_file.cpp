@@ -51,10 +51,12 @@ class TomlField {
   }
 
   void allow_only(Names keys) const {
-    for (const auto& [key, node] : table())
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+    for (const auto& [key, node] : table()) {
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
         fail(*file_, key.source().begin.line, member(key.str()),
              "unknown key; known here are " + listed(keys));
+      }
+    }
   }
 
   // --- arrays
@@ -77,8 +79,9 @@ class TomlField {
 
   std::string one_of(Names allowed) const {
     const std::string value = string();
-    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
       fail("is \"" + value + "\", must be one of " + listed(allowed));
+    }
     return value;
   }
 
@@ -172,19 +175,22 @@ constexpr double kMinStiffness = 0.02;
 constexpr double kMaxResidual_m = 0.05;
 
 void check_length(const TomlField& field, int count) {
-  if (field.size() != static_cast<size_t>(count))
+  if (field.size() != static_cast<size_t>(count)) {
     field.fail("has " + as_text(field.size()) + " entries, must have " + as_text(count) +
                ", one for each string of geometry.exit");
+  }
 }
 
 Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
-  if (field.size() != 3)
+  if (field.size() != 3) {
     field.fail("has " + as_text(field.size()) + " coordinates, must have three: [x, y, z]");
+  }
   const Eigen::Vector3d point_m =
       Eigen::Array3d(field[0].number(), field[1].number(), field[2].number()) * scale;
-  if (!(point_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m))
+  if (!(point_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m)) {
     field.fail("is more than " + as_text(kMaxCoordinate_m) +
                " m from the centre; check it and geometry.unit");
+  }
   return point_m;
 }
 
@@ -192,30 +198,36 @@ Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
 /// its six motions.
 void check_hold(const TomlField& in, const StringGeometry& geometry) {
   const TomlField exits = in["exit"];
-  for (size_t i = 0; i < exits.size(); ++i)
-    for (size_t k = 0; k < i; ++k)
+  for (size_t i = 0; i < exits.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
       if ((geometry.exit_m[i] - geometry.exit_m[k]).norm() < kMinLength_m &&
-          (geometry.grip_m[i] - geometry.grip_m[k]).norm() < kMinLength_m)
+          (geometry.grip_m[i] - geometry.grip_m[k]).norm() < kMinLength_m) {
         exits[i].fail("is that of string " + as_text(k) +
                       ", with the same grip point: two strings cannot be in one position");
+      }
+    }
+  }
   const double radius_m = geometry.grip_radius_m();
-  if (radius_m < kMinLength_m)
+  if (radius_m < kMinLength_m) {
     in["grip"].fail("has all points within " + as_text(kMinLength_m) +
                     " m of the grip's origin: the strings could not turn the grip; check it and "
                     "geometry.unit");
+  }
   const StructureMatrix W = structure_matrix(geometry, {});
   const double reach = least_reach(W.topRows<3>(), geometry.count);
-  if (!(reach >= kMinReach))
+  if (!(reach >= kMinReach)) {
     exits.fail("has no string that pulls to one side: with 1 N each, the strings give " +
                as_text(std::max(0.0, reach)) + " N there, must give " + as_text(kMinReach) +
                " N or more; the exits enclose the grip");
+  }
   Eigen::Matrix<double, 6, Eigen::Dynamic> unit = W.leftCols(geometry.count);
   unit.bottomRows<3>() /= radius_m;
   const double weakest = singular_values(unit).values[5];
-  if (!(weakest >= kMinStiffness))
+  if (!(weakest >= kMinStiffness)) {
     in["grip"].fail("leaves a motion of the grip with which no string's length changes (" +
                     as_text(weakest) + ", must be " + as_text(kMinStiffness) +
                     " or more): no pose could be found");
+  }
 }
 
 StringGeometry read_geometry(const TomlField& in) {
@@ -225,9 +237,10 @@ StringGeometry read_geometry(const TomlField& in) {
   const Eigen::Array3d to_D(scale, scale, left_handed ? -scale : scale);
 
   const TomlField exits = in["exit"];
-  if (exits.size() < kMinStrings || exits.size() > kMaxStrings)
+  if (exits.size() < kMinStrings || exits.size() > kMaxStrings) {
     exits.fail("has " + as_text(exits.size()) + " strings, must have " + as_text(kMinStrings) +
                " to " + as_text(kMaxStrings));
+  }
   StringGeometry geometry;
   geometry.count = static_cast<int>(exits.size());
   const TomlField grips = in["grip"];
@@ -235,10 +248,11 @@ StringGeometry read_geometry(const TomlField& in) {
   for (size_t i = 0; i < exits.size(); ++i) {
     geometry.exit_m[i] = point(exits[i], to_D);
     geometry.grip_m[i] = point(grips[i], to_D);
-    if ((geometry.exit_m[i] - geometry.grip_m[i]).norm() < kMinLength_m)
+    if ((geometry.exit_m[i] - geometry.grip_m[i]).norm() < kMinLength_m) {
       exits[i].fail("is less than " + as_text(kMinLength_m) +
                     " m from its grip point: the string would have no direction; check both and "
                     "geometry.unit");
+    }
   }
   check_hold(in, geometry);
   return geometry;
@@ -276,10 +290,11 @@ Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
   for (size_t i = 0; i < field.size(); ++i) {
     values[i] = field[i].number();
     const double length_m = home_m[static_cast<Eigen::Index>(i)] + values[i];
-    if (!(length_m > 0 && length_m <= 2 * kMaxCoordinate_m))
+    if (!(length_m > 0 && length_m <= 2 * kMaxCoordinate_m)) {
       field[i].fail("is " + as_text(values[i]) + ": with the length at the centre the string has " +
                     as_text(length_m) + " m at zero count, must be above zero and at most " +
                     as_text(2 * kMaxCoordinate_m) + " m; the unit is metres");
+    }
   }
   return values;
 }
@@ -288,42 +303,50 @@ void check_drive(const TomlField& in, size_t i, const Profile& profile) {
   const StringDrive& drive = profile.drives[i];
   const double dac_max_V = profile.dac_max_V;
   const std::string string = "string " + as_text(i) + ": ";
-  if (!(drive.min_tension_N < drive.max_tension_N))
+  if (!(drive.min_tension_N < drive.max_tension_N)) {
     in["max_tension_N"].fail(string + as_text(drive.max_tension_N) +
                              " N must be above min_tension_N, which is " +
                              as_text(drive.min_tension_N) + " N");
-  if (drive.min_tension_N > kMaxRest_N)
+  }
+  if (drive.min_tension_N > kMaxRest_N) {
     in["min_tension_N"].fail(string + as_text(drive.min_tension_N) + " N must be at most " +
                              as_text(kMaxRest_N) +
                              " N: at rest the strings pull with it, and no limit bounds that");
-  if (drive.max_tension_N > kMaxTension_N)
+  }
+  if (drive.max_tension_N > kMaxTension_N) {
     in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N must be at most " +
                              as_text(kMaxTension_N) + " N; the unit is newtons");
+  }
   const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
-  if (!(needed_V <= dac_max_V))
+  if (!(needed_V <= dac_max_V)) {
     in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N needs " +
                              as_text(needed_V) + " V, but dac_max_V is " + as_text(dac_max_V) +
                              "; lower it, or correct newtons_per_volt or dac_max_V");
+  }
   const double steps = needed_V / dac_max_V * ((1 << profile.dac_bits) - 1);
-  if (!(steps >= kMinSteps))
+  if (!(steps >= kMinSteps)) {
     in["newtons_per_volt"].fail(string + as_text(drive.newtons_per_volt) + " N/V leaves " +
                                 as_text(steps) +
                                 " steps of the D/A for max_tension_N, must leave " +
                                 as_text(kMinSteps) + " or more; check it, dac_max_V and dac_bits");
+  }
   if (!(drive.min_tension_N <= drive.continuous_tension_N &&
-        drive.continuous_tension_N <= drive.max_tension_N))
+        drive.continuous_tension_N <= drive.max_tension_N)) {
     in["continuous_tension_N"].fail(
         string + as_text(drive.continuous_tension_N) + " N must be from min_tension_N, which is " +
         as_text(drive.min_tension_N) + " N, to max_tension_N, which is " +
         as_text(drive.max_tension_N) + " N");
-  if (drive.metres_per_count < kMin_m_per_count || drive.metres_per_count > kMax_m_per_count)
+  }
+  if (drive.metres_per_count < kMin_m_per_count || drive.metres_per_count > kMax_m_per_count) {
     in["metres_per_count"].fail(string + as_text(drive.metres_per_count) + " must be from " +
                                 as_text(kMin_m_per_count) + " to " + as_text(kMax_m_per_count) +
                                 "; the unit is metres");
-  if (drive.heating_time_s < kMinHeating_s || drive.heating_time_s > kMaxHeating_s)
+  }
+  if (drive.heating_time_s < kMinHeating_s || drive.heating_time_s > kMaxHeating_s) {
     in["heating_time_s"].fail(string + as_text(drive.heating_time_s) + " must be from " +
                               as_text(kMinHeating_s) + " to " + as_text(kMaxHeating_s) +
                               "; the unit is seconds, of the winding");
+  }
 }
 
 void read_strings(const TomlField& in, Profile& profile) {
@@ -340,10 +363,12 @@ void read_strings(const TomlField& in, Profile& profile) {
   read("newtons_per_volt", &StringDrive::newtons_per_volt);
   read("metres_per_count", &StringDrive::metres_per_count);
   if (in.has("heating_time_s")) read("heating_time_s", &StringDrive::heating_time_s);
-  for (StringDrive& drive : profile.drives)
+  for (StringDrive& drive : profile.drives) {
     drive.continuous_tension_N = std::max(drive.min_tension_N, drive.max_tension_N / 2);
-  if (in.has("continuous_tension_N"))
+  }
+  if (in.has("continuous_tension_N")) {
     read("continuous_tension_N", &StringDrive::continuous_tension_N);
+  }
   const Signs motor_sign = signs(in["motor_sign"], count);
   const Signs encoder_sign = signs(in["encoder_sign"], count);
   const Values home_offset_m = home_offsets(in, profile.geometry);
@@ -392,9 +417,10 @@ double not_negative(const TomlField& field) {
 }
 
 double at_most(const TomlField& field, double value, double most, const std::string& unit) {
-  if (!(value <= most))
+  if (!(value <= most)) {
     field.fail("is " + as_text(value) + ", must be at most " + as_text(most) + "; the unit is " +
                unit);
+  }
   return value;
 }
 
@@ -423,8 +449,9 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   const TomlField description = root["description"];
   profile.description = description.string();
   if (std::any_of(profile.description.begin(), profile.description.end(),
-                  [](unsigned char c) { return c < ' '; }))
+                  [](unsigned char c) { return c < ' '; })) {
     description.fail("has a control character, must be one line");
+  }
   profile.board = root["board"].one_of(board_name::kAll);
   profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
   const TomlField dac_max = root["dac_max_V"];

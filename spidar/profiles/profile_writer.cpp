@@ -27,10 +27,11 @@ std::string listed(size_t count, Value value) {
 template <typename Points>
 void write_points(std::ostream& out, const char* key, const Points& points, size_t count) {
   out << key << " = [\n";
-  for (size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i) {
     out << "  "
         << listed(3, [&](size_t axis) { return points[i][static_cast<Eigen::Index>(axis)]; })
         << ",\n";
+  }
   out << "]\n";
 }
 
@@ -85,9 +86,10 @@ std::string profile_text(const Profile& profile) {
   write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
   write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));
   write_strings(out, profile);
-  if (profile.calibration)
+  if (profile.calibration) {
     out << "\n[calibration]\nsamples = " << profile.calibration->samples
         << "\nresidual_m = " << number(profile.calibration->residual_m) << '\n';
+  }
   for (const Provenance& row : profile.provenance) {
     out << "\n[[source]]\nfields = [\"" << row.field << "\"]\n";
     write_text(out, "source", row.source);

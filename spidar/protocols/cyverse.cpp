@@ -25,13 +25,15 @@ void encode_update(const DacDigits& digits, Packet& packet) noexcept {
   const MutableBytes bytes(packet);
   bytes.put_u8(0, kUpdateAll);
   bytes.put_u8(1, kBaseAnalyzer);
-  for (size_t i = 0; i < kChannels; ++i)
+  for (size_t i = 0; i < kChannels; ++i) {
     bytes.put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
+  }
 }
 
 bool decode_update(ByteView packet, DacDigits& digits) noexcept {
-  if (packet.size != kPacketSize || packet.u8(0) != kUpdateAll || packet.u8(1) != kBaseAnalyzer)
+  if (packet.size != kPacketSize || packet.u8(0) != kUpdateAll || packet.u8(1) != kBaseAnalyzer) {
     return false;
+  }
   for (size_t i = 0; i < kChannels; ++i) digits[i] = packet.u16(kDigitsAt + 2 * i);
   return true;
 }
@@ -89,8 +91,9 @@ void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
 void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   packet[0] = kSetDac;
-  for (size_t i = 0; i < kChannels; ++i)
+  for (size_t i = 0; i < kChannels; ++i) {
     MutableBytes(packet).put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
+  }
 }
 
 void encode_latch(Packet& packet) noexcept {
@@ -121,8 +124,9 @@ bool decode_command(ByteView packet, HostPacket& command) noexcept {
 void encode_reading(const Reading& reading, Packet& packet) noexcept {
   packet.fill(0);
   const MutableBytes bytes(packet);
-  for (size_t i = 0; i < kChannels; ++i)
+  for (size_t i = 0; i < kChannels; ++i) {
     bytes.put_u24(3 * i, static_cast<uint32_t>(reading.counter[i]) & 0xFFFFFF);
+  }
   bytes.put_u8(kInputsAt, reading.inputs);
 }
 

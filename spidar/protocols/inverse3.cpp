@@ -94,8 +94,9 @@ Answer read_state(const Json& message, std::string_view id, State& state) {
   const Json* now = field(device, "state");
   const Json* status = field(device, "status");
   Eigen::Vector3d position_m;
-  if (!is_id(name) || !read_vector(field(now, "cursor_position"), position_m))
+  if (!is_id(name) || !read_vector(field(now, "cursor_position"), position_m)) {
     return Answer::kBroken;
+  }
   if (position_m.norm() > kFarthest_m) return Answer::kBroken;
   state.id = name->get_ref<const std::string&>();
   state.version = field(now, "current_cursor_force") ? Version::k35 : Version::k31;
@@ -114,9 +115,10 @@ class Writer {
 
   Writer& text(std::string_view text) noexcept {
     fits_ = fits_ && text.size() <= bytes_.size - length_;
-    if (fits_)
+    if (fits_) {
       length_ = static_cast<size_t>(std::copy(text.begin(), text.end(), bytes_.data + length_) -
                                     bytes_.data);
+    }
     return *this;
   }
   /// To micrometres and micronewtons. A decimal point in every language.
@@ -172,9 +174,10 @@ size_t encode_start(const State& device, MutableBytes bytes) noexcept {
   Writer writer(bytes);
   writer.text("{\"session\":{\"configure\":{\"profile\":{\"name\":\"gst-spidar\"}}},");
   begin_device(writer, device);
-  if (device.version == Version::k35)
+  if (device.version == Version::k35) {
     writer.text("\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},")
         .text("\"basis\":{\"permutation\":\"XYZ\"}},");
+  }
   return put_force(writer, device, Eigen::Vector3d::Zero()).length();
 }
 
@@ -195,8 +198,9 @@ bool decode_force(ByteView message, std::string_view id, Eigen::Vector3d& force_
   const Json* command = field(field(device_in(read, id), "commands"), "set_cursor_force");
   Eigen::Vector3d haply_N;
   if (!read_vector(field(command, "vector"), haply_N) &&
-      !read_vector(field(command, "values"), haply_N))
+      !read_vector(field(command, "values"), haply_N)) {
     return false;
+  }
   force_N = to_device(haply_N);
   return true;
 }
@@ -208,8 +212,9 @@ size_t encode_state(const State& state, MutableBytes bytes) noexcept {
   Writer writer(bytes);
   writer.text("{\"session_id\":1,");
   begin_device(writer, state).text("\"state\":{\"cursor_position\":").vector(position_m);
-  if (state.version == Version::k35)
+  if (state.version == Version::k35) {
     writer.text(",\"current_cursor_force\":").vector(Eigen::Vector3d::Zero());
+  }
   writer.text("},\"status\":{\"calibrated\":").text(flag(state.calibrated));
   writer.text(",\"power_supply\":").text(flag(state.powered)).text("}}],");
   writer.text("\"wireless_verse_grip\":[{\"device_id\":\"0\",\"state\":{\"buttons\":{\"a\":")

@@ -18,24 +18,28 @@ void begin(Packet& packet) noexcept {
 }
 
 void put_number(Packet& packet, size_t index, uint16_t value) noexcept {
-  for (size_t i = 0; i < kNibbles; ++i)
+  for (size_t i = 0; i < kNibbles; ++i) {
     packet[kNumbersAt + kNibbles * index + i] =
         static_cast<uint8_t>(kZero + (value >> (4 * i) & 0xF));
+  }
 }
 
 /// Whether it has the frame, and letters for nibbles; the flags may have seven bits.
 bool is_packet(ByteView packet) noexcept {
-  if (packet.size != kPacketSize || packet.u8(0) != kBegin || packet.u8(kPacketSize - 1) != kEnd)
+  if (packet.size != kPacketSize || packet.u8(0) != kBegin || packet.u8(kPacketSize - 1) != kEnd) {
     return false;
-  for (size_t i = kNumbersAt; i < kFlagsAt; ++i)
+  }
+  for (size_t i = kNumbersAt; i < kFlagsAt; ++i) {
     if (packet.u8(i) < kZero || packet.u8(i) > kZero + 0xF) return false;
+  }
   return packet.u8(kFlagsAt) >= kZero && packet.u8(kFlagsAt) <= kZero + 0x7F;
 }
 
 int16_t number(ByteView packet, size_t index) noexcept {
   unsigned value = 0;
-  for (size_t i = 0; i < kNibbles; ++i)
+  for (size_t i = 0; i < kNibbles; ++i) {
     value |= static_cast<unsigned>(packet.u8(kNumbersAt + kNibbles * index + i) - kZero) << (4 * i);
+  }
   return static_cast<int16_t>(value);
 }
 
@@ -43,9 +47,10 @@ int16_t number(ByteView packet, size_t index) noexcept {
 
 void encode_command(const Command& command, Packet& packet) noexcept {
   begin(packet);
-  for (size_t i = 0; i < command.digit.size(); ++i)
+  for (size_t i = 0; i < command.digit.size(); ++i) {
     put_number(packet, i,
                static_cast<uint16_t>(std::clamp(command.digit[i], -kMostDigit, kMostDigit)));
+  }
   const auto light = static_cast<uint8_t>(command.light);
   packet[kFlagsAt] = static_cast<uint8_t>(kZero + (light | (command.homing ? kHomingBit : 0)));
 }
@@ -68,8 +73,9 @@ bool decode_command(ByteView packet, Command& command) noexcept {
 
 void encode_reading(const Reading& reading, Packet& packet) noexcept {
   begin(packet);
-  for (size_t i = 0; i < reading.count.size(); ++i)
+  for (size_t i = 0; i < reading.count.size(); ++i) {
     put_number(packet, i, static_cast<uint16_t>(reading.count[i]));
+  }
   packet[kFlagsAt] =
       static_cast<uint8_t>(kZero + ((reading.buttons & 0xF) | (reading.homed & 7) << 4));
 }

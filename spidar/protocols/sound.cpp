@@ -19,8 +19,9 @@ namespace {
 Eigen::Vector3d direction_of(const std::string& text) {
   const bool negative = text[0] == '-';
   const std::string letter = text.substr(negative);
-  if (letter.size() == 1 && letter[0] >= 'x' && letter[0] <= 'z')
+  if (letter.size() == 1 && letter[0] >= 'x' && letter[0] <= 'z') {
     return (negative ? -1 : 1) * Eigen::Vector3d::Unit(letter[0] - 'x');
+  }
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
   std::string_view left = text;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -35,8 +36,10 @@ Eigen::Vector3d direction_of(const std::string& text) {
 
 /// A whole number from `least` to `most`; −1 if it is something else.
 int number_in(const std::string& text, int least, int most) {
-  if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos)
+  if (text.empty() || text.size() > 3 ||
+      text.find_first_not_of("0123456789") != std::string::npos) {
     return -1;
+  }
   const int value = std::atoi(text.c_str());
   return value >= least && value <= most ? value : -1;
 }
@@ -46,10 +49,12 @@ bool take_option(const std::string& option, Settings& settings, bool& has_carrie
   const size_t equals = option.find('=');
   if (equals == std::string::npos || equals + 1 == option.size()) return false;
   const std::string key = option.substr(0, equals), value = option.substr(equals + 1);
-  if (key == "carrier" && !std::exchange(has_carrier, true))
+  if (key == "carrier" && !std::exchange(has_carrier, true)) {
     return (settings.carrier_Hz = number_in(value, kLowest_Hz, kHighest_Hz)) > 0;
-  if (key == "gain" && !std::exchange(has_gain, true))
+  }
+  if (key == "gain" && !std::exchange(has_gain, true)) {
     return (settings.gain = number_in(value, 1, 100) / 100.0) > 0;
+  }
   const int channel = number_in(key, 1, kMostChannels);
   if (channel < 0) return false;
   Eigen::Vector3d& direction = settings.direction[static_cast<size_t>(channel - 1)];
@@ -67,9 +72,10 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
   settings.channels = 0;
   size_t comma = text.find(',');
   settings.card = text.substr(0, comma);
-  if (settings.card.empty())
+  if (settings.card.empty()) {
     throw DeviceError(name + ": the name of the card is empty; spidarctl list names sound cards",
                       DeviceErrorCode::kSettings);
+  }
   bool has_carrier = false, has_gain = false;
   while (comma != std::string::npos) {
     const size_t end = text.find(',', comma + 1);
@@ -120,8 +126,9 @@ std::optional<int> Carrier::write(const Levels& level, int channels, int bytes,
           i < kMostChannels ? from_.level[i] + phase_ * (to_.level[i] - from_.level[i]) : 0;
       const auto sample =
           static_cast<uint32_t>(static_cast<int32_t>(kFull * std::clamp(now, 0.0, 1.0) * wave));
-      for (int byte = 4 - bytes; byte < 4; ++byte)
+      for (int byte = 4 - bytes; byte < 4; ++byte) {
         *out++ = static_cast<uint8_t>(sample >> 8 * byte);
+      }
     }
     phase_ += step_;
   }

@@ -28,8 +28,9 @@ std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noe
       2,
   };
   std::array<uint8_t, kCommands> bytes{};
-  for (size_t i = 0; i < kCommands; ++i)
+  for (size_t i = 0; i < kCommands; ++i) {
     bytes[i] = static_cast<uint8_t>(std::min<size_t>(length[i], 255));
+  }
   return bytes;
 }
 
@@ -42,8 +43,9 @@ bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept {
   if (reply.size != kInfoLength || reply.u8(0) != header(board, Command::kBoardInfo)) return false;
   const BoardInfo said{reply.u8(1), reply.u8(2), reply.u8(3),
                        reply.u8(4), reply.u8(5), reply.u8(6)};
-  if (said.model == 0 || said.motors == 0 || said.motors > kMaxMotors || said.forces > kMaxMotors)
+  if (said.model == 0 || said.motors == 0 || said.motors > kMaxMotors || said.forces > kMaxMotors) {
     return false;
+  }
   info = said;
   return true;
 }
@@ -82,16 +84,18 @@ size_t encode_current(int board, const BoardInfo& info, const std::array<int, kM
 bool decode_current(ByteView command, int board, const BoardInfo& info,
                     std::array<int, kMaxMotors>& digits) noexcept {
   if (info.motors > kMaxMotors || command.size < current_command_length(info.motors) ||
-      command.u8(0) != header(board, Command::kCurrent))
+      command.u8(0) != header(board, Command::kCurrent)) {
     return false;
+  }
   for (size_t i = 0; i < info.motors; ++i) digits[i] = static_cast<int16_t>(command.u16(1 + 2 * i));
   return true;
 }
 
 bool decode_reading(ByteView reply, int board, const BoardInfo& info, Reading& reading) noexcept {
   if (info.motors > kMaxMotors || reply.size != current_reply_length(info.motors, info.forces) ||
-      reply.u8(0) != header(board, Command::kCurrent))
+      reply.u8(0) != header(board, Command::kCurrent)) {
     return false;
+  }
   for (size_t i = 0; i < info.motors; ++i) {
     reading.position[i] = reply.u16(1 + 2 * i);
     reading.velocity[i] = static_cast<int16_t>(reply.u16(1 + 2 * (info.motors + i)));

@@ -57,8 +57,9 @@ inline int open_linked_output(const char* path) noexcept {
   if (fstat(followed, &status) == 0 && !S_ISREG(status.st_mode)) return followed;
   int found = -1;
   for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) {
-    if (found < 0 && is_standard_output(followed, standard))
+    if (found < 0 && is_standard_output(followed, standard)) {
       found = fcntl(standard, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    }
   }
   close(followed);
   if (found < 0) errno = ELOOP;
@@ -114,8 +115,9 @@ inline int open_own_output(const char* path, std::string_view begin, std::string
     return -1;
   }
   if (fstat(opened, &status) != 0 || !S_ISREG(status.st_mode)) return opened;
-  if (is_standard_output(opened, STDOUT_FILENO) || is_standard_output(opened, STDERR_FILENO))
+  if (is_standard_output(opened, STDOUT_FILENO) || is_standard_output(opened, STDERR_FILENO)) {
     return opened;
+  }
   if (flock(opened, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     reason = "another element or program is writing it; each needs its own file";
   } else if (!is_empty_or_begins(path, begin)) {

@@ -96,9 +96,10 @@ class DelayRun {
       if (!tick()) return false;
       const LoopSnapshot now = loop_->snapshot();
       if (record_.device == DeviceState::kRunning && now.last.pose_fault == PoseFault::kNone) break;
-      if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s)
+      if (1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns) > kOpening_s) {
         return fail_by_device(std::string("the pose of the grip is not known: ") +
                               to_string(now.last.pose_fault));
+      }
     }
     start_m_ = record_.pose.position_m;
     begin_ns_ = record_.monotonic_ns;
@@ -109,10 +110,12 @@ class DelayRun {
   void excite() {
     std::mt19937 random(settings_.seed);
     rounds_.clear();
-    for (int i = 0; i < settings_.most_periods(); ++i)
+    for (int i = 0; i < settings_.most_periods(); ++i) {
       rounds_.emplace_back(random, settings_.peak_N);
-    for (int i = 0; i < settings_.most_periods(); ++i)
+    }
+    for (int i = 0; i < settings_.most_periods(); ++i) {
       if (static_cast<int>(periods_.size()) == settings_.periods || !round(i)) return;
+    }
   }
 
   double wanted_N(double time_s) const {
@@ -140,10 +143,11 @@ class DelayRun {
     for (;;) {
       schedule_ahead(now_ns_() - begin_ns_);
       if (!tick()) return false;
-      if (recovers())
+      if (recovers()) {
         whole = false;
-      else if (!is_well())
+      } else if (!is_well()) {
         return false;
+      }
       const double time_s = 1e-9 * static_cast<double>(record_.monotonic_ns - begin_ns_);
       sums.add(time_s, record_.delivered.force_N.z(), record_.pose.position_m.z());
       if (time_s >= end_s) break;
@@ -164,17 +168,20 @@ class DelayRun {
   /// too far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
-    if (now.last.pose_fault == PoseFault::kFrozen)
+    if (now.last.pose_fault == PoseFault::kFrozen) {
       return fail(
           "no encoder counted although the force changed: the grip is held too firmly, or clamped; "
           "hold it loosely, so that it can move");
-    if (now.last.pose_fault != PoseFault::kNone)
+    }
+    if (now.last.pose_fault != PoseFault::kNone) {
       return fail_by_device(std::string("the pose of the grip was lost: ") +
                             to_string(now.last.pose_fault));
-    if (record_.faulty_string >= 0)
+    }
+    if (record_.faulty_string >= 0) {
       return fail_by_device(
           "the length of string " + std::to_string(record_.faulty_string) +
           " does not fit the others: it is slack or broken, or its encoder is dead");
+    }
     const double moved_m = (record_.pose.position_m - start_m_).norm();
     if (moved_m <= kFurthest_m) return true;
     return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
@@ -223,10 +230,11 @@ class DelayRun {
 
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const MonotonicClock& now_ns, const DelayTestSettings& settings) {
-  if (settings.periods < DelayTestSettings::kFewestPeriods)
+  if (settings.periods < DelayTestSettings::kFewestPeriods) {
     throw std::invalid_argument("measure_delay: " + std::to_string(settings.periods) +
                                 " periods, must be at least " +
                                 std::to_string(DelayTestSettings::kFewestPeriods));
+  }
   return DelayRun(device, profile, pace, now_ns, settings).run();
 }
 

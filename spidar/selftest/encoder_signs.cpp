@@ -23,8 +23,9 @@ const std::array<HandMoves::Side, 6> HandMoves::kSides{{{"to the right", {1, 0, 
 
 double hand_move_m(const StringGeometry& geometry) {
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < geometry.count; ++i)
+  for (int i = 0; i < geometry.count; ++i) {
     half_m = half_m.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
+  }
   return std::min(kLargestMove_m, kFractionOfFrame * half_m.minCoeff());
 }
 
@@ -48,12 +49,13 @@ std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const
   }
   std::array<EncoderSign, kMaxStrings> signs{};
   for (size_t k = 0; k < signs.size(); ++k) {
-    if (longer[k] && shorter[k])
+    if (longer[k] && shorter[k]) {
       signs[k] = EncoderSign::kUnclear;
-    else if (longer[k])
+    } else if (longer[k]) {
       signs[k] = EncoderSign::kAsProfile;
-    else
+    } else {
       signs[k] = shorter[k] ? EncoderSign::kReversed : EncoderSign::kStill;
+    }
   }
   return signs;
 }

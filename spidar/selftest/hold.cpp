@@ -16,10 +16,11 @@ std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns)
            ", because it was stopped or the machine was busy, so its guardian set the motors to "
            "zero; start it again";
   }
-  if (fault == LinkFault::kUnguarded)
+  if (fault == LinkFault::kUnguarded) {
     return name +
            ": the guardian (spidar-guardian), without which no motor pulls, has ended or does not "
            "answer, and the motors were set to zero; start again";
+  }
   return name + ": does not answer any more" +
          (fault == LinkFault::kNone ? "" : std::string(" (") + to_string(fault) + ")") +
          "; check cable and power";
@@ -32,8 +33,9 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   last_ns_ = now_ns;
   errors_in_a_row_ = fault == LinkFault::kNone ? 0 : errors_in_a_row_ + 1;
   if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(name(), fault, late_ns));
-  if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors)
+  if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors) {
     throw DeviceError(loss_text(name(), health().last_fault, late_ns));
+  }
 }
 
 template class Hold<StringVector, DeviceReading>;

@@ -66,9 +66,10 @@ void PeriodSums::add(double time_s, double force_N, double position_m) noexcept 
 }
 
 std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods) {
-  if (periods.size() < 3)
+  if (periods.size() < 3) {
     throw std::invalid_argument("average: " + std::to_string(periods.size()) +
                                 " periods, must be three at least");
+  }
   std::vector<ResponseLine> lines(kLines);
   for (size_t i = 0; i < kLines; ++i) {
     double force = 0, position = 0;
@@ -195,19 +196,22 @@ std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) 
 /// Empty if the fit can be used.
 std::string error_of(const LagFit& fit) {
   const double vague_s = std::max(kVagueLag_s, kVagueLagFraction * fit.lag_s);
-  if (!(fit.misfit <= kMostMisfit))
+  if (!(fit.misfit <= kMostMisfit)) {
     return formatted(
         "the grip did not move as a mass with a spring and a damper (misfit %.1f, at most %.0f); "
         "hold it still and loosely, at the centre",
         fit.misfit, kMostMisfit);
-  if (!(fit.most_s - fit.least_s <= 2 * vague_s))
+  }
+  if (!(fit.most_s - fit.least_s <= 2 * vague_s)) {
     return formatted(
         "the lag could be told to within %.1f ms only; hold the grip still and loosely, or use a "
         "larger force",
         500 * (fit.most_s - fit.least_s));
-  if (!(fit.most_s <= kLongestLag_s))
+  }
+  if (!(fit.most_s <= kLongestLag_s)) {
     return formatted("the drive may lag by more than %.0f ms: no surface should be touched with it",
                      1e3 * kLongestLag_s);
+  }
   return {};
 }
 
@@ -224,8 +228,9 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   // Uses all lines: selecting those with a large response would bias the result upwards.
   const std::vector<Weighed> weighed = weigh(lines, periods);
   std::vector<LagCandidate> found;
-  for (double delay_s = kShortestDelay_s; delay_s <= kScanTo_s; delay_s += kScan_s)
+  for (double delay_s = kShortestDelay_s; delay_s <= kScanTo_s; delay_s += kScan_s) {
     found.push_back(best_with_delay(weighed, delay_s));
+  }
   const LagCandidate best =
       *std::min_element(found.begin(), found.end(),
                         [](const LagCandidate& a, const auto& b) { return a.cost < b.cost; });

@@ -32,15 +32,17 @@ class Multisine {
     for (double& phase : phase_rad_) phase = turn(random);
     double largest = 0;
     constexpr int kSamples = 1000;
-    for (int i = 0; i < kSamples; ++i)
+    for (int i = 0; i < kSamples; ++i) {
       largest = std::max(largest, std::abs(at(kPeriod_s * i / kSamples)));
+    }
     amplitude_ = peak / largest;
   }
 
   double at(double time_s) const noexcept {
     double sum = 0;
-    for (size_t i = 0; i < phase_rad_.size(); ++i)
+    for (size_t i = 0; i < phase_rad_.size(); ++i) {
       sum += std::sin(2 * M_PI * kFrequency_Hz[i] * time_s + phase_rad_[i]);
+    }
     return amplitude_ * sum;
   }
 

@@ -89,23 +89,24 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
         1e3 * own_answer_m(profile, answers, i));
   }
   out << '\n';
-  if (silent(report))
+  if (silent(report)) {
     out << "No encoder moves, whichever motor pulls. Switch on the supply of the motors, and hold "
            "the grip so that the strings are taut.\n";
-  else if (report.understood())
+  } else if (report.understood()) {
     out << (idle_motor ? "nothing: the motor is disconnected, has no supply or is reversed, or its "
                          "string is slack\n"
                        : "")
         << (idle_encoder ? "still: the encoder is disconnected, or its string is slack\n" : "");
-  else if (const std::string motors = unclear_motors(report); !motors.empty())
+  } else if (const std::string motors = unclear_motors(report); !motors.empty()) {
     out << "The responses of the encoders to pulls of these motors are unclear:" << motors
         << ". They have been pulled in " << WiringTest::kTries
         << " tries. Fix the grip at the centre so that it yields a little, for example with rubber "
            "bands, and test again. If the result is the same, check these motors and their "
            "strings.\n";
-  else
+  } else {
     out << "No wiring of this profile explains the responses. Hold the grip still and loosely at "
            "the centre, and check the profile.\n";
+  }
   out << "wiring: " << verdict(report) << '\n';
 }
 

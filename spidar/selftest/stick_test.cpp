@@ -41,8 +41,9 @@ bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
   if (!average(hold, before_m) || !hold.go(force_N, kRamp_s) || !hold.stay(kPush_s) ||
       !average(hold, pushed_m) || !hold.go(Eigen::Vector3d::Zero(), kRamp_s) ||
       !hold.stay(kSettle_s) || !average(hold, let_go_m) || !hold.stay(kReturn_s) ||
-      !average(hold, after_m))
+      !average(hold, after_m)) {
     return false;
+  }
   const Eigen::Vector3d along = force_N.normalized();
   const double pushed_by_m = along.dot(pushed_m - before_m),
                let_go_at_m = along.dot(let_go_m - before_m);
@@ -75,22 +76,25 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
   test.complete = repeated(
       hold, [] { return true; }, begin);
-  if (test.complete && !grip.reading().knows_pose())
+  if (test.complete && !grip.reading().knows_pose()) {
     throw DeviceError(grip.name() + ": " + to_string(grip.reading().pose_fault));
+  }
   for (size_t axis = 0; axis < test.moved_m.size(); ++axis) {
     if (!can.direction || !can.force[axis]) continue;
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
     Pushes mean;
-    for (const double side : {1.0, -1.0, -1.0, 1.0})
+    for (const double side : {1.0, -1.0, -1.0, 1.0}) {
       test.complete = test.complete && repeated(hold, begin, [&] {
                         return push(hold, side * push_N * along, mean);
                       });
+    }
     test.moved_m[axis] = mean.moved_m;
     const double least = StickTest::kLeast_m / std::abs(mean.place_m);
     test.least_spring[axis] = spring_that_pulls_back(least);
     const double back = mean.back_m / mean.place_m;
-    if (std::abs(mean.moved_m) >= StickTest::kLeast_m && back >= least)
+    if (std::abs(mean.moved_m) >= StickTest::kLeast_m && back >= least) {
       test.spring[axis] = spring_that_pulls_back(back);
+    }
   }
   hold.release();
   return test;
@@ -104,14 +108,16 @@ std::string percent(double fraction) {
 
 std::string axis_text(const StickTest& test, size_t axis, double reach_m) {
   const double moved_m = test.moved_m[axis];
-  if (std::abs(moved_m) < StickTest::kLeast_m)
+  if (std::abs(moved_m) < StickTest::kLeast_m) {
     return "does not move: no force arrives, or friction, a spring or a hand is stronger\n";
+  }
   const std::string moves = std::string("moves ") + (moved_m > 0 ? "with" : "against") +
                             " the force, by " + percent(std::abs(moved_m) / reach_m) +
                             " of its way";
   const double spring = test.spring[axis];
-  if (spring > 0)
+  if (spring > 0) {
     return moves + "; a spring pulls it back with " + percent(spring) + " of the push\n";
+  }
   return moves + ", and stays there: no spring of more than " + percent(test.least_spring[axis]) +
          " of the push\n";
 }
@@ -124,8 +130,9 @@ std::string flip_option(const std::string& device, const std::array<bool, 2>& ag
           ? ""
           : device.substr(given + 1, device.find(',', given + 1) - given - 1);
   std::string sides;
-  for (const size_t axis : {0, 1})
+  for (const size_t axis : {0, 1}) {
     if ((before.find("xy"[axis], 5) != std::string::npos) != against[axis]) sides += "xy"[axis];
+  }
   return sides.empty() ? "no " + before : "flip=" + sides;
 }
 
@@ -149,19 +156,21 @@ std::string stick_report(const StickTest& test, const GripAbilities& can,
     text += "Its driver pushes to the other side. Write " + flip;
     text += flip.front() == 'f' ? ": device=ff:PATH," + flip + "\n" : "\n";
   }
-  if (still)
+  if (still) {
     text +=
         "An axis that does not move is not tested. Let go of the stick, switch on its power\n"
         "supply and, if it has one, its high-torque mode, and try more strength:\n"
         "ff:PATH,gain=50. dmesg shows messages of its driver. If fftest and ffmvforce of the\n"
         "package joystick do not move it either, try Linux 6.15 or newer, whose hid-pidff drives\n"
         "more devices.\n";
-  if (springs)
+  }
+  if (springs) {
     text +=
         "A centring spring is switched off as far as the driver can. What still pulls back is a\n"
         "spring of metal or of the device's firmware, and adds to the force of the film. If the\n"
         "maker's program or a switch of the device can set it to zero, do that; otherwise more\n"
         "strength makes the film stand out from it: ff:PATH,gain=50\n";
+  }
   return text;
 }
 

@@ -29,8 +29,9 @@ class Asking {
         hold_(device, profile, pace) {}
 
   void run(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
-    for (int i = 0; i < profile_.geometry.count; ++i)
+    for (int i = 0; i < profile_.geometry.count; ++i) {
       if (answers.reversed[static_cast<size_t>(i)]) hold_.reverse_motor(i);
+    }
     answers.complete = repeated(
                            hold_, [] { return true; }, [this] { return begin(); }) &&
                        ask_all(motors, answers);
@@ -50,8 +51,10 @@ class Asking {
       if (!motors[k]) continue;
       const bool reversed = answers.reversed[k];
       if (!ask(i, answers)) return false;
-      if (settings_.try_reversed && !reversed && !answered(answers, i) && !ask_reversed(i, answers))
+      if (settings_.try_reversed && !reversed && !answered(answers, i) &&
+          !ask_reversed(i, answers)) {
         return false;
+      }
     }
     return true;
   }
@@ -109,8 +112,9 @@ class Asking {
 
   double largest_m(const StringVector& counts) const {
     double largest = 0;
-    for (int j = 0; j < profile_.geometry.count; ++j)
+    for (int j = 0; j < profile_.geometry.count; ++j) {
       largest = std::max(largest, std::fabs(counts[j]) * metres_per_count(j));
+    }
     return largest;
   }
 
@@ -126,8 +130,9 @@ class Asking {
     without_N[motor] = 0;
     const auto slacken = [&] { return hold_.go(without_N, settings_.ramp_s); };
     if (!repeated(
-            hold_, [this] { return begin(); }, slacken))
+            hold_, [this] { return begin(); }, slacken)) {
       return false;
+    }
     hold_.reverse_motor(motor);
     rested_ = false;
     const auto tighten = [this] { return hold_.go(rest_N_, settings_.ramp_s) && stay(); };
@@ -147,13 +152,15 @@ class Asking {
     int readings = 0;
     const bool whole = hold_.stay(settings_.average_s, [&](const DeviceReading& reading) {
       watch(reading);
-      for (int j = 0; j < profile_.geometry.count; ++j)
+      for (int j = 0; j < profile_.geometry.count; ++j) {
         counts[j] += reading.count[static_cast<size_t>(j)];
+      }
       ++readings;
       return true;
     });
-    if (readings == 0 && whole)
+    if (readings == 0 && whole) {
       throw DeviceError(loss_text(device_.name(), device_.health().last_fault, 0));
+    }
     if (readings > 0) counts /= readings;
     return whole;
   }
@@ -192,8 +199,9 @@ class Asking {
 double smallest_answer_m(const Profile& profile) {
   constexpr double kCounts = 8;
   double coarsest_m = 0;
-  for (int i = 0; i < profile.geometry.count; ++i)
+  for (int i = 0; i < profile.geometry.count; ++i) {
     coarsest_m = std::max(coarsest_m, profile.drives[static_cast<size_t>(i)].metres_per_count);
+  }
   return kCounts * coarsest_m;
 }
 

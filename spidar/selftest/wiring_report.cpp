@@ -89,8 +89,9 @@ class Judge {
       silent_encoder_[i] = of_encoders[i] < std::max(encoder, least);
       if (silent_motor_[i]) answer_.col(static_cast<Eigen::Index>(i)).setZero();
     }
-    for (size_t i = 0; i < of_motors.size(); ++i)
+    for (size_t i = 0; i < of_motors.size(); ++i) {
       if (silent_encoder_[i]) answer_.row(static_cast<Eigen::Index>(i)).setZero();
+    }
   }
 
   /// Shortening of string j when string i is pulled, up to a common factor.
@@ -129,8 +130,9 @@ class Judge {
   /// Expected answers of encoder j, not reversed, to a pull of each motor; zero for silent motors.
   StringVector expected_answers(const Explanation& e, size_t j) const {
     StringVector expected = StringVector::Zero();
-    for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
       if (!silent_motor_[i]) expected[static_cast<int>(i)] = expected_(e.encoder[j], e.motor[i]);
+    }
     return expected;
   }
 
@@ -154,10 +156,12 @@ class Judge {
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
       if (silent_motor_[i]) continue;
       StringVector expected = StringVector::Zero();
-      for (size_t j = 0; j < static_cast<size_t>(count_); ++j)
-        if (!silent_encoder_[j])
+      for (size_t j = 0; j < static_cast<size_t>(count_); ++j) {
+        if (!silent_encoder_[j]) {
           expected[static_cast<int>(j)] =
               (e.encoder_reversed[j] ? -1 : 1) * expected_(e.encoder[j], e.motor[i]);
+        }
+      }
       const auto answer = answer_.col(static_cast<Eigen::Index>(i));
       const double product = answer.dot(expected);
       unclear[i] = !(product >= WiringReport::kMinCorrelation * answer.norm() * expected.norm());
@@ -166,9 +170,11 @@ class Judge {
     }
     if (sizes.empty()) return unclear;
     const double typical = median(sizes);
-    for (size_t i = 0; i < static_cast<size_t>(count_); ++i)
-      if (!silent_motor_[i])
+    for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+      if (!silent_motor_[i]) {
         unclear[i] |= size[i] < kWeakest * typical || size[i] > kStrongest * typical;
+      }
+    }
     return unclear;
   }
 
@@ -178,9 +184,11 @@ class Judge {
     Explanation best = explain(same, same);
     for (;;) {
       const Explanation from = best;
-      for (size_t a = 0; a < static_cast<size_t>(count_); ++a)
-        for (size_t b = a + 1; b < static_cast<size_t>(count_); ++b)
+      for (size_t a = 0; a < static_cast<size_t>(count_); ++a) {
+        for (size_t b = a + 1; b < static_cast<size_t>(count_); ++b) {
           try_exchanges(from, a, b, best);
+        }
+      }
       if (!(best.worth > from.worth)) return best;
     }
   }
@@ -217,8 +225,9 @@ bool WiringReport::understood() const noexcept {
 bool WiringReport::as_profile() const noexcept {
   for (int i = 0; i < count; ++i) {
     const WiringChannel& c = channel[static_cast<size_t>(i)];
-    if (c.motor_string != i || c.encoder_string != i || c.motor_reversed || c.encoder_reversed)
+    if (c.motor_string != i || c.encoder_string != i || c.motor_reversed || c.encoder_reversed) {
       return false;
+    }
   }
   return understood();
 }
@@ -237,8 +246,9 @@ WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers) 
 
 Profile rewired_profile(const Profile& profile, const WiringReport& report,
                         const std::string& how) {
-  if (!report.fixable())
+  if (!report.fixable()) {
     throw std::invalid_argument("wiring: a profile cannot say what is wrong with it");
+  }
   Profile rewired = profile;
   bool moved = false, motors = false, encoders = false;
   for (size_t i = 0; i < static_cast<size_t>(report.count); ++i) {
@@ -279,8 +289,9 @@ WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace&
     if (test.report.understood() || silent || tries == WiringTest::kTries) break;
     std::array<bool, kMaxStrings> doubtful{};
     for (size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = test.report.channel[i].unclear;
-    if (std::none_of(doubtful.begin(), doubtful.end(), [](bool d) { return d; }))
+    if (std::none_of(doubtful.begin(), doubtful.end(), [](bool d) { return d; })) {
       doubtful.fill(true);
+    }
     if (repeat) repeat(test.report);
     ask_again(device, profile, pace, settings, doubtful, test.answers);
   }
@@ -289,9 +300,11 @@ WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace&
 
 std::string unclear_motors(const WiringReport& report) {
   std::string names;
-  for (int i = 0; i < report.count; ++i)
-    if (report.channel[static_cast<size_t>(i)].unclear)
+  for (int i = 0; i < report.count; ++i) {
+    if (report.channel[static_cast<size_t>(i)].unclear) {
       names += (names.empty() ? " " : ", ") + std::to_string(i);
+    }
+  }
   return names;
 }
 

@@ -85,8 +85,9 @@ std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
 void add_plugged_in(const DeviceKind& kind, std::vector<BoardInfo>& boards) {
   for (BoardInfo& board : kind.list ? kind.list() : list_usb(kind)) {
     describe(board, kind);
-    if (!board.memory_error.empty())
+    if (!board.memory_error.empty()) {
       board.note += (board.note.empty() ? "" : "; ") + board.memory_error;
+    }
     boards.push_back(std::move(board));
   }
 }
@@ -97,8 +98,9 @@ std::vector<BoardInfo> list_boards() {
   std::vector<BoardInfo> boards;
   for (const DeviceKind& kind : devices()) add_plugged_in(kind, boards);
   boards.push_back(simulation("sim", nullptr));
-  for (const DeviceKind& kind : devices())
+  for (const DeviceKind& kind : devices()) {
     boards.push_back(simulation(std::string("sim:") + kind.board, &kind));
+  }
   return boards;
 }
 
@@ -171,20 +173,28 @@ std::string unconfirmed(const BoardInfo& board) {
 std::vector<AutoDevice> auto_devices() {
   std::vector<AutoDevice> found;
   const std::vector<BoardInfo> boards = list_boards();
-  for (const BoardInfo& board : boards)
-    if (board.has_strings && !board.profile.empty() && !is_simulated(board.device))
+  for (const BoardInfo& board : boards) {
+    if (board.has_strings && !board.profile.empty() && !is_simulated(board.device)) {
       found.push_back({board.device, "a SPIDAR whose profile was confirmed", ""});
-  for (const BoardInfo& board : boards)
-    if (board.has_strings && board.profile.empty())
-      found.push_back({board.device, "", unconfirmed(board)});
-  for (const Rank& rank : kForces) {
-    for (const BoardInfo& board : boards)
-      if (DeviceName(board.device).device == rank.device && board.directional == rank.directional)
-        found.push_back({board.device, rank.why, ""});
+    }
   }
-  for (const BoardInfo& board : boards)
-    if (DeviceName(board.device).device == "mouse")
+  for (const BoardInfo& board : boards) {
+    if (board.has_strings && board.profile.empty()) {
+      found.push_back({board.device, "", unconfirmed(board)});
+    }
+  }
+  for (const Rank& rank : kForces) {
+    for (const BoardInfo& board : boards) {
+      if (DeviceName(board.device).device == rank.device && board.directional == rank.directional) {
+        found.push_back({board.device, rank.why, ""});
+      }
+    }
+  }
+  for (const BoardInfo& board : boards) {
+    if (DeviceName(board.device).device == "mouse") {
       found.push_back({board.device, "", "a " + board.name + " is used only with device=mouse"});
+    }
+  }
   return found;
 }
 

@@ -52,10 +52,12 @@ std::string meant_device(const std::string& device) {
 
 /// What to write for a word of kWords; else empty.
 std::string called_here(const std::string& word) {
-  for (const Word& one : kWords)
-    if (word == one.word)
+  for (const Word& one : kWords) {
+    if (word == one.word) {
       return "unknown device \"" + word + "\": here it is called " + one.name +
              "; spidarctl list names what is plugged in";
+    }
+  }
   return {};
 }
 
@@ -73,8 +75,9 @@ DeviceError unclear(const DeviceKind& kind) {
 
 std::string simulated_names() {
   std::string names;
-  for (const DeviceKind& kind : devices())
+  for (const DeviceKind& kind : devices()) {
     names += (names.empty() ? "sim:" : ", sim:") + std::string(kind.board);
+  }
   return names;
 }
 
@@ -94,10 +97,11 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   const DeviceName name(text);
   if (name.device == "sim" && name.has_end) {
     const DeviceKind* const kind = simulated_kind(name);
-    if (!kind)
+    if (!kind) {
       throw DeviceError(
           "unknown simulated board \"" + name.rest + "\"; known are: " + simulated_names(),
           DeviceErrorCode::kSettings);
+    }
     return simulating(text, profile, [&] { return simulated_board(*kind, text, profile); });
   }
   const auto kinds = kinds_called(name.device);
@@ -116,8 +120,9 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
   const BoardKinds usb(kinds.begin(), kinds.end());
-  if (kinds[0]->has_strings())
+  if (kinds[0]->has_strings()) {
     return std::unique_ptr<Board>(std::make_unique<UsbBoard>(text, name.rest, profile, usb));
+  }
   return std::unique_ptr<ForceBoard>(
       std::make_unique<UsbForceBoard>(text, name.rest, profile, usb));
 }
@@ -140,16 +145,18 @@ struct MadeDevice {
 };
 
 MadeDevice make(const std::string& text, const Profile& profile, const BoardSettings& settings) {
-  if (text == "sim")
+  if (text == "sim") {
     return {simulating(text, profile,
                        [&] {
                          return std::make_unique<SimulatedDevice>(
                              profile, SimulatedDevice::Time::kClock, grip_model_of(profile));
                        }),
             nullptr};
+  }
   AnyBoard board = make_board(text, profile);
-  if (auto* force = std::get_if<std::unique_ptr<ForceBoard>>(&board))
+  if (auto* force = std::get_if<std::unique_ptr<ForceBoard>>(&board)) {
     return {nullptr, std::move(*force)};
+  }
   return {
       std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(board)), settings),
       nullptr};
@@ -172,9 +179,10 @@ BoardSettings settings_of_simulation() {
 std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile& profile,
                                           const BoardSettings& settings) {
   MadeDevice made = make(text, profile, settings_for(text, profile, settings));
-  if (!made.strings)
+  if (!made.strings) {
     throw DeviceError(text + ": takes a force; it has no strings, and no encoders",
                       DeviceErrorCode::kSettings);
+  }
   return std::move(made.strings);
 }
 

@@ -36,8 +36,9 @@ void require_plugged_in(const std::string& device) {
   const DeviceName name(device);
   const auto kinds = kinds_called(name.device);
   if (kinds.empty()) return;
-  if (kinds[0]->usb.vendor != 0)
+  if (kinds[0]->usb.vendor != 0) {
     return UsbSearch(BoardKinds(kinds.begin(), kinds.end()), device, name.rest).require_one();
+  }
   std::istringstream paths(name.rest);
   for (std::string path; std::getline(paths, path, ',');) {
     if (access(path.c_str(), F_OK) == 0) continue;
@@ -92,8 +93,9 @@ std::vector<std::string> fitting_profiles(const BoardInfo& board) {
 
 std::string fitting_text(const BoardInfo& board) {
   std::string names;
-  for (const std::string& name : fitting_profiles(board))
+  for (const std::string& name : fitting_profiles(board)) {
     names += (names.empty() ? "" : ", ") + name;
+  }
   return names.empty() ? "No profile that is known here fits it" : "Profiles that fit it: " + names;
 }
 
@@ -119,26 +121,29 @@ Profile profile_for(const std::string& device, const std::string& named) {
   Profile profile = load_profile(named.empty() ? board.profile : named);
   const std::string why = why_not(board, profile);
   // None fits a board whose name is not right.
-  if (!why.empty())
+  if (!why.empty()) {
     throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board),
                       DeviceErrorCode::kSettings);
+  }
   return profile;
 }
 
 void require_serial(const BoardInfo& board, const std::string& profile) {
   require_plugged_in(board.device);
-  if (board.path.empty())
+  if (board.path.empty()) {
     throw DeviceError(board.device +
                           ": is one of several boards; name it by its bus path or serial "
                           "number, which spidarctl list prints",
                       DeviceErrorCode::kSettings);
-  if (board.serial.empty())
+  }
+  if (board.serial.empty()) {
     throw DeviceError(
         board.device +
             ": has no serial number by which its profile could be remembered; name it each "
             "time: profile=" +
             profile,
         DeviceErrorCode::kSettings);
+  }
 }
 
 void remember_profile(const BoardInfo& board, const std::string& profile) {

@@ -56,9 +56,10 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
   const toml::table boards = remembered_boards(file);
   const toml::node* const profile = boards.get(key_of(usb_id, serial));
   if (!profile) return {};
-  if (!profile->is_string())
+  if (!profile->is_string()) {
     throw ProfileError(file.string() + ": \"" + key_of(usb_id, serial) +
                        "\" must be the name of a profile, in quotes");
+  }
   return profile->as_string()->get();
 }
 

@@ -170,10 +170,11 @@ int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
     if (taken_ns > 0 || !is_known) file->write(text_of(entry));
     if (file->error != 0) distrust(std::strerror(file->error));
   }
-  if (!wrong.empty() && error_.empty())
+  if (!wrong.empty() && error_.empty()) {
     error_ = file_ +
              ", which keeps how much a hand was shaken within a day, cannot be used: " + wrong +
              ". Half of what is allowed in a day counts as used.";
+  }
   last_ = entry;
   return entry.empty_ns;
 }

@@ -31,10 +31,11 @@ void check(const GripModel& model) {
   check(model.hand_damping_Nm_s_rad, true, "hand_damping_Nm_s_rad");
   check(model.motor_time_constant_s, true, "motor_time_constant_s");
   check(model.motor_delay_s, true, "motor_delay_s");
-  if (model.motor_delay_s > GripModel::kMostDelay_s)
+  if (model.motor_delay_s > GripModel::kMostDelay_s) {
     throw std::invalid_argument("GripModel::motor_delay_s is " +
                                 std::to_string(model.motor_delay_s) + ", must be at most " +
                                 std::to_string(GripModel::kMostDelay_s));
+  }
 }
 
 /// Upper bound of the largest eigenvalue of M⁻¹K at the centre, rad²/s².
@@ -82,17 +83,19 @@ GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& m
                            const GripModel& model)
     : geometry_(geometry), model_(model), limit_m_(Eigen::Vector3d::Zero()) {
   check(model);
-  for (int i = 0; i < geometry.count; ++i)
+  for (int i = 0; i < geometry.count; ++i) {
     limit_m_ = limit_m_.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
+  }
   const double frequency = std::sqrt(max_frequency_squared(geometry, max_tension_N, model));
   max_step_s_ =
       frequency > 0 ? std::min(kLongestStep_s, kStepTimesFrequency / frequency) : kLongestStep_s;
-  if (kLongestStep_s / max_step_s_ > kMaxSubsteps)
+  if (kLongestStep_s / max_step_s_ > kMaxSubsteps) {
     throw std::invalid_argument(
         "GripModel is too stiff for its mass: " + std::to_string(frequency) +
         " rad/s, must be below " +
         std::to_string(kStepTimesFrequency * kMaxSubsteps / kLongestStep_s) +
         "; use softer springs or a heavier grip");
+  }
 }
 
 // With β = h b/m and κ = h² k/m one step of a mode is x⁺ = x + y⁺, y⁺ = (y − κ x)/(1 + β) where y =

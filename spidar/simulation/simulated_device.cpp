@@ -149,8 +149,9 @@ SimulatedDevice::~SimulatedDevice() = default;
 
 void SimulatedDevice::open() {
   const LinkFault fault = impl_->fault.load();
-  if (fault != LinkFault::kNone)
+  if (fault != LinkFault::kNone) {
     throw DeviceError("sim: cannot be opened: a fault is simulated; end it with set_fault(kNone)");
+  }
   impl_->time_ns = 0;
   impl_->last_ns = impl_->clock();
   impl_->state = {};
@@ -206,9 +207,10 @@ void SimulatedDevice::set_fault(LinkFault fault) noexcept {
 
 void SimulatedDevice::set_count_error(int string, int32_t counts) {
   const int strings = impl_->profile.geometry.count;
-  if (string < 0 || string >= strings)
+  if (string < 0 || string >= strings) {
     throw std::out_of_range("sim: there is no string " + std::to_string(string) +
                             "; known are 0 to " + std::to_string(strings - 1));
+  }
   impl_->count_error[static_cast<size_t>(string)] = counts;
 }
 

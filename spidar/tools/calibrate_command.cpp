@@ -42,10 +42,12 @@ struct CalibrateOptions : DeviceOptions {
 };
 
 void check_together(const CalibrateOptions& options) {
-  if (options.centre && options.seconds)
+  if (options.centre && options.seconds) {
     throw UsageError("--centre and --move exclude each other; give one of them");
-  if (options.centre && !options.free.empty())
+  }
+  if (options.centre && !options.free.empty()) {
     throw UsageError("--free needs --move: a grip that is held still determines only the offsets");
+  }
 }
 
 /// The device to calibrate and, if it is simulated, its hand.
@@ -101,9 +103,10 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
   bool told = false;
   const Pace pace = [&, next = every_millisecond()] {
     // Only now is the device open.
-    if (!std::exchange(told, true))
+    if (!std::exchange(told, true)) {
       std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the "
                    "other.\n";
+    }
     return next();
   };
   WiringTestSettings settings;
@@ -183,13 +186,15 @@ void print_result(const Profile& profile, const CalibrationResult& result, const
             << "\n  grip moved        " << triple(1e3 * result.moved_m, "%.1f")
             << " mm each way, turned " << triple(kDegrees * result.turned_rad, "%.1f") << " deg\n";
   std::cout << "\n  string  offset mm\n";
-  for (int i = 0; i < profile.geometry.count; ++i)
+  for (int i = 0; i < profile.geometry.count; ++i) {
     std::cout << formatted("  %6d  %9.4f\n", i, 1e3 * result.home_offset_m[i]);
+  }
   if (result.estimated.free_scale) std::cout << formatted("\n  scale   %.6f\n", result.scale);
   if (result.estimated.free_exits) std::cout << "\n  exit    x y z mm\n";
-  for (int i = 0; result.estimated.free_exits && i < profile.geometry.count; ++i)
+  for (int i = 0; result.estimated.free_exits && i < profile.geometry.count; ++i) {
     std::cout << formatted("  %4d    %s\n", i,
                            triple(1e3 * result.exit_m[static_cast<size_t>(i)], "%8.3f").c_str());
+  }
   std::cout << (*advice ? "\n" : "") << advice;
 }
 
@@ -206,8 +211,9 @@ Json result_json(const Profile& profile, const CalibrationResult& result, const 
             {"moved_m", to_json(result.moved_m)},
             {"turned_rad", to_json(result.turned_rad)}};
   if (result.estimated.free_scale) json["scale"] = result.scale;
-  for (size_t i = 0; result.estimated.free_exits && i < static_cast<size_t>(strings); ++i)
+  for (size_t i = 0; result.estimated.free_exits && i < static_cast<size_t>(strings); ++i) {
     json["exit_m"].push_back(to_json(result.exit_m[i]));
+  }
   return json;
 }
 
@@ -221,8 +227,9 @@ int calibrate_command(const CalibrateOptions& options) {
   if (!may_move(options.device, options.yes,
                 "Pull the strings of " + options.device +
                     " one after the other, then all of them taut? The grip will move; hold it "
-                    "loosely at the centre."))
+                    "loosely at the centre.")) {
     return kFailed;
+  }
   catch_signals();
   const bool wired_right = is_wired_right(options, profile, bench);
   if (!wired_right && !interrupted()) return kNotCalibrated;
@@ -237,10 +244,11 @@ int calibrate_command(const CalibrateOptions& options) {
   settings.free_scale = options.frees("scale");
   const CalibrationResult result =
       options.centre ? calibrate_at_centre(profile, counts) : calibrate(profile, counts, settings);
-  if (options.json)
+  if (options.json) {
     std::cout << json_text(result_json(profile, result, how(options)), 2) << '\n';
-  else
+  } else {
     print_result(profile, result, how(options));
+  }
   if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
   if (options.output) {
     save_profile(calibrated_profile(profile, result, how(options)), options.output.path);

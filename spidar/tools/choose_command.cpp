@@ -30,8 +30,9 @@ bool read_when_there(StringHold& hold, const std::string& question, EncoderScale
     return !is_line_there();
   });
   std::string line;
-  if (whole && !std::getline(std::cin, line))
+  if (whole && !std::getline(std::cin, line)) {
     throw UsageError("the standard input ended before the grip was at every side");
+  }
   return whole;
 }
 
@@ -42,12 +43,13 @@ bool move_by_hand(ChosenDevice& chosen, HandMoves& moves) {
   bool whole =
       read_when_there(hold, "Pull all strings taut, hold the grip still at the centre, not turned,",
                       moves.counts[0]);
-  for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side)
+  for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side) {
     whole = read_when_there(hold,
                             std::to_string(side + 1) + " of 6: from the centre, pull the grip " +
                                 as_text(1e3 * moves.distance_m) + " mm " +
                                 HandMoves::kSides[side].name + ", hold it there",
                             moves.counts[side + 1]);
+  }
   return whole;
 }
 
@@ -67,20 +69,23 @@ const char* text_of(EncoderSign sign) {
 
 void print_others(const ChosenDevice& chosen, const HandMoves& moves) {
   std::string others;
-  for (const std::string& name : fitting_profiles(chosen.board))
+  for (const std::string& name : fitting_profiles(chosen.board)) {
     if (encoders_agree(load_profile(name), moves)) others += (others.empty() ? "" : ", ") + name;
+  }
   std::cout << (others.empty() ? "no profile of this board has encoders that count so"
                                : "profiles whose encoders count so: " + others)
             << '\n';
 }
 
 int choose(const DeviceOptions& options) {
-  if (is_simulated(options.device))
+  if (is_simulated(options.device)) {
     throw UsageError(options.device + ": a simulated device has its own profile");
+  }
   const BoardInfo board = board_info(options.device);
   require_strings(board, "choose");
-  if (options.profile.empty())
+  if (options.profile.empty()) {
     throw UsageError("choose needs --profile NAME. " + fitting_text(board));
+  }
   if (!board.memory_error.empty()) throw ProfileError(board.memory_error);
   ChosenDevice chosen = choose_device(options, Motors::kOff);
   require_serial(board, options.profile);
@@ -89,8 +94,9 @@ int choose(const DeviceOptions& options) {
   if (!move_by_hand(chosen, moves)) return kInterrupted;
   const auto signs = encoder_signs(chosen.profile, moves);
   std::cout << "  string  encoder\n";
-  for (int i = 0; i < chosen.profile.geometry.count; ++i)
+  for (int i = 0; i < chosen.profile.geometry.count; ++i) {
     std::cout << "  " << i << "       " << text_of(signs[static_cast<size_t>(i)]) << '\n';
+  }
   const bool counted = std::any_of(signs.begin(), signs.end(),
                                    [](EncoderSign sign) { return sign != EncoderSign::kStill; });
   if (!counted) {

@@ -31,8 +31,9 @@ inline int status_after_printing(const std::string& program, int status) {
   std::cout.flush();
   std::fflush(stdout);
   if (std::cout.good() && std::ferror(stdout) == 0) return status;
-  if (errno != EPIPE)
+  if (errno != EPIPE) {
     std::cerr << program << ": what is printed cannot be written; is the disk full?\n";
+  }
   return status == kDone ? kFailed : status;
 }
 

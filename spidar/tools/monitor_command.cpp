@@ -50,10 +50,11 @@ class Monitor {
     const PoseResult result = solver_.solve(lengths_m);
     if (readings_++ % kReadingsPerLine != 0) return;
     const double time_s = 1e-9 * static_cast<double>(kTick_ns * (readings_ - 1));
-    if (json_)
+    if (json_) {
       std::cout << json_text(json_of(time_s, reading, lengths_m, result)) << '\n';
-    else
+    } else {
       print(time_s, reading, lengths_m, result);
+    }
     std::cout << std::flush;
   }
 
@@ -61,10 +62,11 @@ class Monitor {
   void print(double time_s, const DeviceReading& reading, const StringVector& lengths_m,
              const PoseResult& result) const {
     const bool counts = profile_.name.empty();
-    if (readings_ == 1)
+    if (readings_ == 1) {
       std::cout << (counts ? "     s  inputs  counts\n"
                            : "     s        x       y       z mm      rx      ry      rz deg  "
                              "inputs  mm\n");
+    }
     std::cout << formatted("%6.1f  ", time_s);
     if (!counts) {
       const Eigen::Vector3d mm = 1e3 * result.pose.position_m;
@@ -73,23 +75,27 @@ class Monitor {
                              mm.z(), deg.x(), deg.y(), deg.z());
     }
     std::cout << formatted("0x%04x ", reading.inputs);
-    for (int i = 0; i < profile_.geometry.count; ++i)
+    for (int i = 0; i < profile_.geometry.count; ++i) {
       std::cout << (counts ? formatted(" %8d", reading.count[static_cast<size_t>(i)])
                            : formatted(" %6.1f", 1e3 * lengths_m[i]));
-    if (!counts && result.status != PoseStatus::kSolved)
+    }
+    if (!counts && result.status != PoseStatus::kSolved) {
       std::cout << "  " << pose_name(result.status);
-    if (!counts && result.faulty_string >= 0)
+    }
+    if (!counts && result.faulty_string >= 0) {
       std::cout << "  string " << result.faulty_string << " does not fit";
+    }
     std::cout << '\n';
   }
 
   Json json_of(double time_s, const DeviceReading& reading, const StringVector& lengths_m,
                const PoseResult& result) const {
-    if (profile_.name.empty())
+    if (profile_.name.empty()) {
       return {{"time_s", time_s},
               {"inputs", reading.inputs},
               {"counts", std::vector<int32_t>(reading.count.begin(),
                                               reading.count.begin() + profile_.geometry.count)}};
+    }
     return {{"time_s", time_s},
             {"position_m", to_json(result.pose.position_m)},
             {"rotation_rad", to_json(rotation_vector(result.pose.orientation))},
@@ -133,8 +139,9 @@ int monitor(const MonitorOptions& options) {
   ChosenDevice chosen = choose_device(options, options.taut ? Motors::kPulled : Motors::kOff);
   if (options.taut &&
       !may_move(options.device, options.yes,
-                "Pull all strings of " + chosen.name() + " taut? The grip may move."))
+                "Pull all strings of " + chosen.name() + " taut? The grip may move.")) {
     return kFailed;
+  }
   catch_signals();
   Monitor monitor(chosen.profile, options.json);
   StringHold hold(*chosen.device, chosen.profile, every_millisecond());

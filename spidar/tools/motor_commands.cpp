@@ -30,8 +30,9 @@ int zero(const DeviceOptions& options) {
     StringHold hold(*chosen.device, chosen.profile, every_millisecond());
     hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
   }
-  if (!answered)
+  if (!answered) {
     throw DeviceError(chosen.name() + ": the device did not answer; switch off its supply");
+  }
   std::cout << chosen.name() << ": the motors are at zero\n";
   return kDone;
 }
@@ -47,19 +48,22 @@ constexpr double kRamp_s = 0.1;
 
 /// Throws UsageError when the profile does not allow this pull, or a hand should not get it.
 void check_pull(const PullOptions& pull, const Profile& profile) {
-  if (pull.string >= profile.geometry.count)
+  if (pull.string >= profile.geometry.count) {
     throw UsageError("STRING: " + std::to_string(pull.string) + " is not a number from 0 to " +
                      std::to_string(profile.geometry.count - 1));
+  }
   const StringDrive& drive = profile.drives[static_cast<size_t>(pull.string)];
   const double most_N = std::max(std::min(drive.max_tension_N, kMaxPull_N), drive.min_tension_N);
-  if (pull.tension_N < drive.min_tension_N || pull.tension_N > most_N)
+  if (pull.tension_N < drive.min_tension_N || pull.tension_N > most_N) {
     throw UsageError(formatted("NEWTON: %g N, must be from %g to %g N", pull.tension_N,
                                drive.min_tension_N, most_N));
-  if (pull.tension_N > drive.min_tension_N && pull.tension_N * pull.seconds > kMaxPull_Ns)
+  }
+  if (pull.tension_N > drive.min_tension_N && pull.tension_N * pull.seconds > kMaxPull_Ns) {
     throw UsageError(formatted(
         "SECONDS: %g N for %g s may hurt a hand or damage a motor: NEWTON times SECONDS must be "
         "at most %g; pull for %.2f s at most",
         pull.tension_N, pull.seconds, kMaxPull_Ns, kMaxPull_Ns / pull.tension_N));
+  }
 }
 
 struct Lengths {
@@ -115,12 +119,14 @@ std::string silence_of(const PullOptions& pull, const Profile& profile, const Le
   const StringVector change_m = lengths.change_m();
   const double least_m = smallest_answer_m(profile);
   const std::string string = std::to_string(pull.string);
-  if (change_m.cwiseAbs().maxCoeff() < least_m)
+  if (change_m.cwiseAbs().maxCoeff() < least_m) {
     return "no string has answered: switch on the supply of the motors, and check that string " +
            string + " is taut and that its motor and encoder are connected";
-  if (change_m[pull.string] > -least_m)
+  }
+  if (change_m[pull.string] > -least_m) {
     return "other strings have answered, but string " + string +
            " did not get shorter: spidarctl selftest finds what is exchanged or reversed";
+  }
   return {};
 }
 

@@ -27,7 +27,7 @@ struct InfoOptions : DeviceOptions {
 /// What is listed, as JSON, which the text is made of, too.
 Json found_devices() {
   Json devices = Json::array(), lines = Json::array(), profiles = Json::array();
-  for (const BoardInfo& board : list_boards())
+  for (const BoardInfo& board : list_boards()) {
     devices.push_back({{"device", board.device},
                        {"board", board.name},
                        {"evidence", to_string(board.verification)},
@@ -37,8 +37,10 @@ Json found_devices() {
                        {"profile", board.profile},
                        {"accessible", board.accessible},
                        {"note", board.note}});
-  for (const TtyLine& line : list_tty_lines())
+  }
+  for (const TtyLine& line : list_tty_lines()) {
     if (!line.named) lines.push_back("uart:" + line.path);
+  }
   for (const std::string& name : list_profiles()) {
     try {
       profiles.push_back({{"name", name}, {"description", load_profile(name).description}});
@@ -76,15 +78,17 @@ int list(const ListOptions& options) {
               << (note.empty() ? "" : "; " + note) << '\n';
   }
   std::cout << "\nserial lines (motor boards may be connected to them)\n";
-  for (const Json& line : found["serial_lines"])
+  for (const Json& line : found["serial_lines"]) {
     std::cout << "  " << line.get<std::string>() << '\n';
+  }
   if (found["serial_lines"].empty()) std::cout << "  none\n";
   std::cout << "\nprofiles\n";
-  for (const Json& profile : found["profiles"])
+  for (const Json& profile : found["profiles"]) {
     std::cout << "  " << text_of(profile, "name") << "  "
               << (profile.contains("error") ? "cannot be used: " + text_of(profile, "error")
                                             : text_of(profile, "description"))
               << '\n';
+  }
   return kDone;
 }
 
@@ -124,8 +128,9 @@ bool read_position(ChosenDevice& chosen, FoundBoard& found) {
 FoundBoard read(ChosenDevice& chosen) {
   FoundBoard found;
   const bool read = chosen.grip ? read_position(chosen, found) : read_strings(chosen, found);
-  if (!read && !interrupted())
+  if (!read && !interrupted()) {
     throw DeviceError(loss_text(chosen.name(), found.health.last_fault, 0));
+  }
   return found;
 }
 
@@ -134,8 +139,9 @@ void print_counts(const ChosenDevice& chosen, const FoundBoard& found) {
   std::cout << "profile   none, so its motors get no force; those that fit it:";
   for (const std::string& name : fitting_profiles(chosen.board)) std::cout << ' ' << name;
   std::cout << "\n\n  string     count\n";
-  for (int i = 0; i < chosen.profile.geometry.count; ++i)
+  for (int i = 0; i < chosen.profile.geometry.count; ++i) {
     std::cout << formatted("  %6d%10d\n", i, found.reading.count[static_cast<size_t>(i)]);
+  }
 }
 
 void print_strings(const Profile& profile, const FoundBoard& found) {
@@ -165,12 +171,13 @@ void print_axes(const GripAbilities& can, const FoundBoard& found) {
   for (size_t i = 0; i < kAxes.size(); ++i) {
     if (!can.force[i] && !can.position[i]) continue;
     std::cout << formatted("  %-7s%7s", kAxes[i], can.force[i] ? "yes" : "no");
-    if (!can.position[i])
+    if (!can.position[i]) {
       std::cout << "  no\n";
-    else if (!found.position_m.allFinite())
+    } else if (!found.position_m.allFinite()) {
       std::cout << "  not known\n";
-    else
+    } else {
       std::cout << formatted("%7.1f mm\n", 1e3 * found.position_m[static_cast<Eigen::Index>(i)]);
+    }
   }
 }
 
@@ -181,16 +188,18 @@ void print(const ChosenDevice& chosen, const FoundBoard& found) {
   if (!found.description.empty()) std::cout << "\nfound     " << found.description;
   if (!chosen.board.path.empty()) std::cout << "\npath      " << chosen.board.path;
   if (!chosen.board.serial.empty()) std::cout << "\nserial    " << chosen.board.serial;
-  if (found.health.round_trip_median_ns > 0)
+  if (found.health.round_trip_median_ns > 0) {
     std::cout << "\nexchange  " << found.health.round_trip_median_ns / 1000 << " us median, "
               << found.health.round_trip_max_ns / 1000 << " us at most";
+  }
   std::cout << '\n';
-  if (chosen.grip)
+  if (chosen.grip) {
     print_axes(chosen.grip->abilities(), found);
-  else if (chosen.profile.name.empty())
+  } else if (chosen.profile.name.empty()) {
     print_counts(chosen, found);
-  else
+  } else {
     print_strings(chosen.profile, found);
+  }
 }
 
 Json counts_of(const Profile& profile, const DeviceReading& reading) {
@@ -220,8 +229,9 @@ Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
   Json force = Json::array(), position_m = Json::object();
   for (size_t i = 0; i < kAxes.size(); ++i) {
     if (can.force[i]) force.push_back(kAxes[i]);
-    if (can.position[i] && found.position_m.allFinite())
+    if (can.position[i] && found.position_m.allFinite()) {
       position_m[kAxes[i]] = found.position_m[static_cast<Eigen::Index>(i)];
+    }
   }
   json.update({{"force_axes", force},
                {"force_direction", can.direction},
@@ -237,10 +247,11 @@ int info(const InfoOptions& options) {
   catch_signals();
   const FoundBoard found = read(chosen);
   if (interrupted()) return kInterrupted;
-  if (options.json)
+  if (options.json) {
     std::cout << json_text(json_of(chosen, found), 2) << '\n';
-  else
+  } else {
     print(chosen, found);
+  }
   return kDone;
 }
 

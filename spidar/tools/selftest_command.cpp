@@ -43,8 +43,9 @@ void write(const SelftestOptions& options, const Profile& profile, const WiringR
   }
   save_profile(rewired, options.output.path);
   std::cerr << "written: " << options.output.path << '\n';
-  if (profile.calibration && !rewired.calibration)
+  if (profile.calibration && !rewired.calibration) {
     std::cerr << "the counts must be calibrated again: spidarctl calibrate\n";
+  }
 }
 
 bool is_stick(const std::string& device) {
@@ -63,8 +64,9 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const bool stick = is_stick(options.device);
   if (!may_move(options.device, options.yes,
                 "Push " + chosen.name() + " to all sides with a part of its strength? " +
-                    (stick ? "Take the hand away." : "Hold its grip loosely at the centre.")))
+                    (stick ? "Take the hand away." : "Hold its grip loosely at the centre."))) {
     return kFailed;
+  }
   catch_signals();
   const double push_N = stick ? chosen.grip->abilities().largest_force_N / 2 : options.newton;
   const StickTest test =
@@ -74,11 +76,13 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
     return kInterrupted;
   }
   const GripAbilities can = chosen.grip->abilities();
-  if (stick)
+  if (stick) {
     std::cout << test.description << '\n'
               << stick_report(test, can, half_picture_m(chosen.profile.geometry), options.device);
-  if (stick && is_simulated(options.device))
+  }
+  if (stick && is_simulated(options.device)) {
     std::cout << "This one is simulated, with a hand that holds it: nothing is wrong.\n";
+  }
   bool right = true;
   for (size_t axis = 0; axis < kSides.size(); ++axis) {
     if (!can.force[axis]) continue;
@@ -115,8 +119,9 @@ int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const double push_N = chosen.grip->abilities().largest_force_N / 2;
   if (!may_move(options.device, options.yes,
                 formatted("Push %s with %.1f N, one direction after the other?",
-                          chosen.name().c_str(), push_N)))
+                          chosen.name().c_str(), push_N))) {
     return kFailed;
+  }
   catch_signals();
   const std::optional<std::string> felt = in_real_time([&] { return pulse(*chosen.grip, push_N); });
   if (!felt) {
@@ -137,9 +142,10 @@ bool answers_pushes(Grip& grip) {
 
 bool is_confirmed(const SelftestOptions& options, const std::string& device) {
   std::string question = "Pull the strings of " + device + " one after the other";
-  if (options.lag)
+  if (options.lag) {
     question += formatted(", and shake the grip with up to %g N for %.0f s",
                           DelayTestSettings().peak_N, DelayTestSettings().most_seconds());
+  }
   return may_move(options.device, options.yes,
                   question + "? The grip will move; hold it loosely at the centre.");
 }
@@ -161,9 +167,10 @@ int interrupted_test() {
 
 int selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
-  if (chosen.grip)
+  if (chosen.grip) {
     return answers_pushes(*chosen.grip) ? test_push_command(options, chosen)
                                         : pulse_command(options, chosen);
+  }
   require_strings(chosen.board, "selftest");
   options.output.check();
   if (!is_confirmed(options, chosen.name())) return kFailed;
@@ -177,23 +184,26 @@ int selftest(const SelftestOptions& options) {
   });
   if (!answers.complete) return interrupted_test();
   Json json;
-  if (options.json)
+  if (options.json) {
     json = wiring_json(profile, answers, report);
-  else
+  } else {
     print_wiring(std::cout, profile, answers, report);
+  }
   bool right = report.as_profile();
   std::optional<LagVerdict> lag;
   // Forces that a wrong wiring would turn round are not tried.
   if (options.lag && right) {
     const DelayTest test = shake(*chosen.device, profile);
     if (!test.complete) return interrupted_test();
-    if (test.measured())
+    if (test.measured()) {
       lag = judge_lag(profile, *test.fit, chosen.device->health().round_trip_p99_ns);
+    }
     right = lag && lag->stated_enough;
-    if (options.json)
+    if (options.json) {
       json["drive_lag"] = lag_json(test, lag.value_or(LagVerdict()));
-    else
+    } else {
       print_lag(std::cout, profile, test, lag.value_or(LagVerdict()));
+    }
   }
   if (options.json) std::cout << json_text(json, 2) << '\n';
   if (options.output) write(options, profile, report, lag);

@@ -73,25 +73,28 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZer
   ChosenDevice chosen;
   chosen.board = board_info(options.device);
   const bool named = !options.profile.empty() || !chosen.board.profile.empty();
-  if ((named && motors != Motors::kZeroed) || motors == Motors::kPulled)
+  if ((named && motors != Motors::kZeroed) || motors == Motors::kPulled) {
     chosen.profile = profile_for(options.device, options.profile);
-  else
+  } else {
     chosen.profile = to_read_only(chosen.board);
+  }
   BoardSettings settings;
   settings.count_zero = count_zero;
   // No tool is in such a hurry that it could not wait for an exchange.
   settings.threaded = false;
-  if (chosen.board.has_strings)
+  if (chosen.board.has_strings) {
     chosen.device = make_device(options.device, chosen.profile, settings);
-  else
+  } else {
     chosen.grip = make_grip(options.device, chosen.profile, settings);
+  }
   return chosen;
 }
 
 void require_strings(const BoardInfo& board, const std::string& command) {
-  if (!board.has_strings)
+  if (!board.has_strings) {
     throw DeviceError(board.device + ": " + command +
                       " is for devices with strings and encoders; this device has neither");
+  }
 }
 
 bool can_reverse(const std::string& device, Profile profile) {
@@ -118,9 +121,10 @@ Pace every_millisecond() {
 }
 
 bool confirm(const std::string& question) {
-  if (isatty(STDIN_FILENO) == 0)
+  if (isatty(STDIN_FILENO) == 0) {
     throw UsageError(
         "there is no terminal to ask for confirmation; use --yes to continue without it");
+  }
   std::cerr << question << " [y/N] " << std::flush;
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
@@ -135,12 +139,14 @@ bool may_move(const std::string& device, bool yes, const std::string& question) 
 void OutputFile::check() const {
   if (path.empty()) return;
   const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
-  if (access(parent.c_str(), W_OK) != 0)
+  if (access(parent.c_str(), W_OK) != 0) {
     throw ProfileError(path + ": cannot be written: " + parent.string() + ": " +
                        std::strerror(errno));
+  }
   std::error_code error;
-  if (!force && std::filesystem::exists(path, error))
+  if (!force && std::filesystem::exists(path, error)) {
     throw ProfileError(path + ": exists; name another file, or replace it with --force");
+  }
 }
 
 }  // namespace spidar
@@ -154,8 +160,9 @@ int main(int argc, char** argv) {
   program.app.require_subcommand(1);
   program.app.footer("spidarctl COMMAND --help explains a command.");
   for (const auto add : {add_list, add_info, add_monitor, add_zero, add_pull, add_choose,
-                         add_selftest, add_calibrate})
+                         add_selftest, add_calibrate}) {
     add(program);
+  }
   return exit_status_of(program.app, [&] {
     check_command(program.app, argc, argv);
     program.app.parse(argc, argv);

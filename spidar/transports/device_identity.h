@@ -41,10 +41,11 @@ class FirstDevice {
 
   /// To be called when a device has been opened: throws other() for another one than at first.
   void require(const std::string& name, const DeviceIdentity& found) {
-    if (!first_)
+    if (!first_) {
       first_ = found;
-    else if (!is(found))
+    } else if (!is(found)) {
       throw other(name, found);
+    }
   }
 
   /// What is there instead.

@@ -82,10 +82,12 @@ void EvdevTransport::fail(const std::string& path, const std::string& what,
   const int error = errno;
   close();
   std::string advice;
-  if (error == EACCES)
+  if (error == EACCES) {
     advice = "; install the udev rule 70-spidar.rules and plug the device in again";
-  if (error == ENOENT || error == ENXIO || error == ENODEV)
+  }
+  if (error == ENOENT || error == ENXIO || error == ENODEV) {
     advice = "; spidarctl list names the devices that are plugged in";
+  }
   if (error == ENOTTY) advice = "; it is no input device, write ff:/dev/input/eventN";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + path + " " + what + ": " + std::strerror(error) + advice,
@@ -96,8 +98,9 @@ void EvdevTransport::fail(const std::string& path, const std::string& what,
 std::string EvdevTransport::find() {
   if (!first_.known() && !path_.empty()) return path_;
   const std::vector<EvdevInfo> devices = list_force_feedback();
-  for (const EvdevInfo& device : devices)
+  for (const EvdevInfo& device : devices) {
     if (first_.is(device.identity())) return device.path;
+  }
   for (const EvdevInfo& device : devices) {
     if (!path_.empty() && device.path != without_links(path_)) continue;
     if (first_.known()) throw first_.other(name_, device.identity());
@@ -139,8 +142,9 @@ void EvdevTransport::open() {
 void EvdevTransport::find_buttons(const EvdevTraits& traits) {
   buttons_.clear();
   const auto add = [&](unsigned begin, unsigned end) {
-    for (unsigned code = begin; code < end && buttons_.size() < kMostButtons; ++code)
+    for (unsigned code = begin; code < end && buttons_.size() < kMostButtons; ++code) {
       if (has(traits.keys, code)) buttons_.push_back(static_cast<uint16_t>(code));
+    }
   };
   add(BTN_JOYSTICK, KEY_CNT);
   add(BTN_MISC, BTN_JOYSTICK);
@@ -190,8 +194,9 @@ bool EvdevTransport::read_buttons(ff::Position& position) const noexcept {
   BitSet<KEY_CNT> pressed{};
   if (buttons_.empty()) return true;
   if (call_ioctl(file_, EVIOCGKEY(sizeof pressed), pressed.data()) < 0) return false;
-  for (size_t i = 0; i < buttons_.size(); ++i)
+  for (size_t i = 0; i < buttons_.size(); ++i) {
     if (has(pressed, buttons_[i])) position.buttons |= uint32_t{1} << i;
+  }
   return true;
 }
 

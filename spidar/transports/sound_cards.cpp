@@ -37,8 +37,9 @@ void add_cards(std::vector<SoundCard>& found) {
   snd_ctl_card_info_alloca(&info);
   for (int card = -1; snd_card_next(&card) == 0 && card >= 0;) {
     snd_ctl_t* control = nullptr;
-    if (snd_ctl_open(&control, ("hw:" + std::to_string(card)).c_str(), SND_CTL_NONBLOCK) < 0)
+    if (snd_ctl_open(&control, ("hw:" + std::to_string(card)).c_str(), SND_CTL_NONBLOCK) < 0) {
       continue;
+    }
     const int device = playing_device(control);
     if (device >= 0 && snd_ctl_card_info(control, info) == 0) {
       const std::string id = snd_ctl_card_info_get_id(info);
@@ -63,8 +64,9 @@ void add_configured(std::vector<SoundCard>& found) {
   for (void** hint = hints; *hint; ++hint) {
     const std::string id = text_of(*hint, "NAME"), name = text_of(*hint, "DESC");
     if (text_of(*hint, "IOID") == "Input" || id.find_first_of(":,") != std::string::npos) continue;
-    if (!plays_elsewhere(id))
+    if (!plays_elsewhere(id)) {
       found.push_back({id, printable(name.substr(0, name.find('\n'))), id, "pcm." + id});
+    }
   }
   snd_device_name_free_hint(hints);
 }
@@ -87,9 +89,10 @@ SoundCard chosen_card(const std::string& device, const std::string& id, const Fi
     if (same != cards.end()) return *same;
     if (named != cards.end()) throw first.other(device, named->identity());
   }
-  if (named == cards.end())
+  if (named == cards.end()) {
     throw DeviceError(device + ": there is no sound card \"" + id + "\"; " + names_of(cards),
                       DeviceErrorCode::kAbsent);
+  }
   return *named;
 }
 

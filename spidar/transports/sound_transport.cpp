@@ -75,7 +75,7 @@ class SoundTransport::Pcm {
 SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int least_channels) {
   const int error =
       snd_pcm_open(&handle_, card.pcm.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
-  if (error < 0)
+  if (error < 0) {
     throw DeviceError(
         name + ": cannot be opened: " + snd_strerror(error) +
             (error == -EBUSY
@@ -83,6 +83,7 @@ SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int lea
                    "card there, or wait until it is silent"
                  : ""),
         error_code_of(-error));
+  }
   int wrong = set_hardware(static_cast<unsigned>(least_channels));
   if (wrong >= 0) wrong = set_software();
   if (wrong >= 0) return;
@@ -115,8 +116,9 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
   }
   if (error < 0 || bytes_ == 0) return error < 0 ? error : -EINVAL;
   channels_ = least_channels;
-  while (channels_ < most && snd_pcm_hw_params_test_channels(handle_, hardware, channels_) != 0)
+  while (channels_ < most && snd_pcm_hw_params_test_channels(handle_, hardware, channels_) != 0) {
     ++channels_;
+  }
   error = snd_pcm_hw_params_set_channels(handle_, hardware, channels_);
   if (error >= 0) error = snd_pcm_hw_params_set_rate(handle_, hardware, sound::kRate_Hz, 0);
   if (error < 0) return error;
@@ -160,8 +162,9 @@ std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
   if (error < 0) return error;
   const int64_t now_ns = monotonic_now_ns();
   const snd_pcm_sframes_t has = static_cast<snd_pcm_sframes_t>(buffer_) - free;
-  if (has + sound::kBlockFrames <= held_ && now_ns >= next_ns_)
+  if (has + sound::kBlockFrames <= held_ && now_ns >= next_ns_) {
     return std::max<snd_pcm_sframes_t>(waiting, 0);
+  }
   // Woken for something else, or its buffer is much larger, or it has no clock.
   sleep_until_ns(now_ns + kMillisecond_ns);
   return std::nullopt;
@@ -184,9 +187,10 @@ bool SoundTransport::Pcm::recover(int error) noexcept {
 
 void SoundTransport::Pcm::drain() noexcept {
   snd_pcm_sframes_t left = 0;
-  if (snd_pcm_delay(handle_, &left) == 0)
+  if (snd_pcm_delay(handle_, &left) == 0) {
     sleep_until_ns(monotonic_now_ns() +
                    std::clamp<int64_t>(ns_of(left), 0, 2 * kPatience_ms * kMillisecond_ns));
+  }
   snd_pcm_drop(handle_);
 }
 
@@ -202,11 +206,12 @@ void SoundTransport::open() {
   const QuietAlsa quiet;
   const std::string& id = settings_.card;
   const std::vector<SoundCard> cards = list_sound_cards();
-  if (plays_elsewhere(id))
+  if (plays_elsewhere(id)) {
     throw DeviceError(
         name_ + ": \"" + id +
             "\" plays on whatever a server or a setting chooses; name the card: " + names_of(cards),
         DeviceErrorCode::kSettings);
+  }
   const SoundCard card = chosen_card(name_, id, first_, cards);
   pcm_ = std::make_unique<Pcm>(name_, card, settings_.channels);
   first_.require(name_, card.identity());

@@ -38,8 +38,9 @@ std::vector<TtyLine> list_tty_lines(const std::string& folder) {
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     const bool named = begins(name, "spidar");
-    if (named || begins(name, "ttyUSB") || begins(name, "ttyACM"))
+    if (named || begins(name, "ttyUSB") || begins(name, "ttyACM")) {
       lines.push_back({entry->path().string(), named});
+    }
   }
   std::sort(lines.begin(), lines.end(),
             [](const TtyLine& a, const TtyLine& b) { return a.path < b.path; });
@@ -119,12 +120,14 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
   const int error = errno;
   close();
   std::string advice;
-  if (error == EACCES)
+  if (error == EACCES) {
     advice =
         "; join the group of that file (dialout), or name the adapter in the udev rule "
         "70-spidar.rules";
-  if (error == ENOENT)
+  }
+  if (error == ENOENT) {
     advice = "; serial lines have names such as /dev/ttyUSB0 and /dev/serial/by-id/…";
+  }
   if (error == ENOTTY) advice = "; it is no serial line";
   if (error == EWOULDBLOCK) advice = "; another program uses it, or another element of this one";
   throw DeviceError(name_ + ": " + what + ": " + std::strerror(error) + advice,
@@ -134,8 +137,9 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
 void TtyTransport::open() {
   close();
   // What it does on being opened is not known of another device.
-  if (first_.known() && access(path_.c_str(), F_OK) == 0)
+  if (first_.known() && access(path_.c_str(), F_OK) == 0) {
     first_.require(name_, tty_identity(path_));
+  }
   file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file_ < 0) fail("cannot be opened");
   if (!lock_device(file_)) fail("cannot be locked");

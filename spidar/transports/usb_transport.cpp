@@ -24,8 +24,9 @@ std::string bus_path(libusb_device* device) {
   std::array<uint8_t, 7> ports{};  // the deepest tree that USB allows
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   std::string path = std::to_string(libusb_get_bus_number(device));
-  for (int i = 0; i < depth; ++i)
+  for (int i = 0; i < depth; ++i) {
     path += (i == 0 ? '-' : '.') + std::to_string(ports[static_cast<size_t>(i)]);
+  }
   return path;
 }
 
@@ -56,10 +57,11 @@ void UsbContextCloser::operator()(libusb_context* context) const noexcept {
 UsbContext make_usb_context() {
   libusb_context* context = nullptr;
   const int error = libusb_init(&context);
-  if (error != LIBUSB_SUCCESS)
+  if (error != LIBUSB_SUCCESS) {
     throw DeviceError(std::string("usb: cannot be used: ") + libusb_strerror(error) +
                           "; is there a USB on this machine (/dev/bus/usb)?",
                       DeviceErrorCode::kAbsent);
+  }
   return UsbContext(context);
 }
 
@@ -71,8 +73,9 @@ std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product) {
   for (ssize_t i = 0; i < count; ++i) {
     libusb_device_descriptor descriptor{};
     if (libusb_get_device_descriptor(list[i], &descriptor) != LIBUSB_SUCCESS ||
-        descriptor.idVendor != vendor || descriptor.idProduct != product)
+        descriptor.idVendor != vendor || descriptor.idProduct != product) {
       continue;
+    }
     UsbDeviceInfo info{vendor,
                        product,
                        libusb_get_bus_number(list[i]),
@@ -197,8 +200,9 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
     for (int i = interface.num_altsetting - 1; i >= 0; --i) {
       const libusb_interface_descriptor& setting = interface.altsetting[i];
       if (has_endpoint(setting, pipes.out, pipes.interrupt) &&
-          has_endpoint(setting, pipes.in, pipes.interrupt))
+          has_endpoint(setting, pipes.in, pipes.interrupt)) {
         found = setting.bAlternateSetting;
+      }
     }
   }
   libusb_free_config_descriptor(config);
@@ -210,8 +214,9 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
 int open_file(libusb_context* context) {
   const libusb_pollfd** const list = libusb_get_pollfds(context);
   int file = -1;
-  for (const libusb_pollfd** entry = list; entry && *entry; ++entry)
+  for (const libusb_pollfd** entry = list; entry && *entry; ++entry) {
     if (((*entry)->events & POLLOUT) != 0) file = (*entry)->fd;
+  }
   libusb_free_pollfds(list);
   return file;
 }
@@ -244,8 +249,9 @@ void UsbTransport::open() {
   int setting = -1;
   for (ssize_t i = 0; i < count && !handle_; ++i) {
     if (libusb_get_bus_number(list[i]) != device_.bus ||
-        libusb_get_device_address(list[i]) != device_.address)
+        libusb_get_device_address(list[i]) != device_.address) {
       continue;
+    }
     setting = setting_with(list[i], pipes_);
     error = libusb_open(list[i], &handle_);
   }
@@ -265,8 +271,9 @@ void UsbTransport::open() {
   }
   libusb_set_auto_detach_kernel_driver(handle_, 1);
   error = claim(handle_);
-  if (error == LIBUSB_SUCCESS && setting > 0)
+  if (error == LIBUSB_SUCCESS && setting > 0) {
     error = libusb_set_interface_alt_setting(handle_, kInterface, setting);
+  }
   if (error != LIBUSB_SUCCESS) {
     close();
     throw DeviceError(
@@ -301,8 +308,9 @@ void UsbTransport::finish(int64_t deadline_ns) noexcept {
   while (in_flight()) {
     const int64_t left_ns = deadline_ns - monotonic_now_ns();
     if (left_ns <= 0 && !cancelled) {
-      for (Slot& slot : slots_)
+      for (Slot& slot : slots_) {
         if (slot.done == 0) libusb_cancel_transfer(slot.transfer);
+      }
       cancelled = true;
     }
     const int64_t wait_ns = cancelled ? kCancelCheck_ns : left_ns;
@@ -379,8 +387,9 @@ std::optional<LastWill> UsbTransport::last_will() const {
   will.interface_number = kInterface;
   will.endpoint = pipes_.out;
   will.file = open_file(context_.get());
-  if (will.file < 0)
+  if (will.file < 0) {
     throw DeviceError(name_ + ": libusb does not say which file it has opened for the board");
+  }
   return will;
 }
 

@@ -195,14 +195,16 @@ void WebSocketTransport::open() {
   const int64_t deadline_ns = monotonic_now_ns() + kGreetingWait_ns;
   const std::string at = std::string(kHost) + ":" + std::to_string(port_);
   auto connection = std::make_unique<Connection>(port_);
-  if (!connection->wait_until_open(deadline_ns))
+  if (!connection->wait_until_open(deadline_ns)) {
     throw DeviceError(name_ + ": no service answers at " + at +
                           (connection->error().empty() ? "" : " (" + connection->error() + ")") +
                           "; " + cure_,
                       DeviceErrorCode::kAbsent);
-  if (!connection->receive(deadline_ns))
+  }
+  if (!connection->receive(deadline_ns)) {
     throw DeviceError(name_ + ": the service at " + at + " does not say what is plugged in; " +
                       cure_);
+  }
   connection_ = std::move(connection);
 }
 
@@ -225,13 +227,15 @@ Transfer WebSocketTransport::exchange(std::initializer_list<ByteView> packets, M
 }
 
 void WebSocketTransport::recover() noexcept {
-  if (connection_ && !connection_->answered())
+  if (connection_ && !connection_->answered()) {
     connection_->receive(monotonic_now_ns() + kAnswerWait_ns);
+  }
 }
 
 std::optional<LastWill> WebSocketTransport::last_will() const {
-  if (!connection_ || connection_->gone())
+  if (!connection_ || connection_->gone()) {
     throw DeviceError(name_ + ": the service has ended", DeviceErrorCode::kAbsent);
+  }
   LastWill will;
   will.wire = LastWill::Wire::kSocket;
   will.file = connection_->file();

@@ -85,13 +85,15 @@ void MotionChoice::complete(const GstVideoFrame& frame, const Orientation& turn,
   AnalyzerSettings& analyzer = settings.analyzer;
   analyzer.pointer = turn.stored_position(analyzer.pointer);
   // The sink's mouse is at such a position already.
-  if (settings.pointer == PointerKind::kMouse)
+  if (settings.pointer == PointerKind::kMouse) {
     analyzer.pointer = mouse_.position().value_or(analyzer.pointer);
+  }
   analyzer.kept = mouse_.kept();
   analyzer.kept.position = turn.displayed_position(analyzer.kept.position);
   analyzer.feel = named_.rules;
-  if (analyzer.feel && analyzer.feel->has_boxes())
+  if (analyzer.feel && analyzer.feel->has_boxes()) {
     analyzer.boxes = boxes_of(frame, settings.touch.packed(), turn);
+  }
   if (analyzer.feel || analyzer.kept.click != 0) warn_of_mean(analyzer.motion);
 }
 

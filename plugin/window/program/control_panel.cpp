@@ -30,8 +30,9 @@ const char* unit_of(const std::string& setting) {
                                                                        {"touch-relief", " mm"},
                                                                        {"touch-stiffness", " N/m"},
                                                                        {"ts-offset", " ns"}}};
-  for (const auto& [name, unit] : kUnits)
+  for (const auto& [name, unit] : kUnits) {
     if (setting == name) return unit;
+  }
   return "";
 }
 

@@ -53,8 +53,9 @@ const std::string kMaker = "spidar-window";
 std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                       const std::string& path) {
   std::error_code none;
-  if (std::filesystem::is_regular_file(path, none) && !is_as_written(path, kMaker))
+  if (std::filesystem::is_regular_file(path, none) && !is_as_written(path, kMaker)) {
     return "there is a file, and it is not as a debug window left it; name another file";
+  }
   const int opened = open_output(path.c_str(), O_TRUNC);
   if (opened < 0) return output_reason(errno);
   std::FILE* file = fdopen(opened, "wb");
@@ -217,8 +218,9 @@ ShownPicture DebugWindow::shown_picture() const {
     const Eigen::Vector3d& asked_N = report_.frame.wrench.force_N;
     const TickRecord& last = state_.device->last;
     const bool is_arrow = (last.delivered.force_N - asked_N).norm() < kUnseen * asked_N.norm();
-    if (is_arrow && are_same(last.wanted, last.delivered))
+    if (is_arrow && are_same(last.wanted, last.delivered)) {
       picture.delivered_N = last.delivered.force_N.norm();
+    }
   }
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;

@@ -177,8 +177,9 @@ void DebugWindow::choose(const ChoiceRequest& request) {
 }
 
 bool DebugWindow::has_unsaved_choices() const {
-  for (const auto& [film, choices] : choices_)
+  for (const auto& [film, choices] : choices_) {
     if (!film.empty() && choices.has_unsaved()) return true;
+  }
   return false;
 }
 

@@ -144,8 +144,9 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   const DeviceView& device = *state.device;
   const TickRecord& last = device.last;
   std::string note = device.name + ", " + to_string(last.device);
-  if (last.faulty_string >= 0)
+  if (last.faulty_string >= 0) {
     note += ", string " + std::to_string(last.faulty_string) + " at fault";
+  }
   const Rect content = draw_panel(brush, panel, "Grip", note);
   // Lengths in a panel without room are zero, and are divided by.
   if (content.width <= 0 || content.height <= 0) return;

@@ -35,8 +35,9 @@ bool is_refused(int error) {
 }  // namespace
 
 Channel::~Channel() {
-  for (const Unsent& packet : unsent_)
+  for (const Unsent& packet : unsent_) {
     if (packet.file >= 0) ::close(packet.file);
+  }
   for (const int file : files_) ::close(file);
   ::close(socket_);
 }

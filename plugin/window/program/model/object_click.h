@@ -74,8 +74,9 @@ class ObjectClick {
     const bool pressed = mouse.down && !was_down_;
     was_down_ = mouse.down;
     holds_ = holds_ && mouse.down;
-    if (!pressed || mouse.taken || !offers_choice(report) || picture.width <= 0)
+    if (!pressed || mouse.taken || !offers_choice(report) || picture.width <= 0) {
       return std::nullopt;
+    }
     const Eigen::Vector2d position((mouse.at_px.x() - picture.x) / picture.width,
                                    (mouse.at_px.y() - picture.y) / picture.height);
     // Not a number where there is no mouse.

@@ -52,8 +52,9 @@ std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t co
     const size_t at =
         std::min(static_cast<size_t>(fraction * static_cast<double>(count)), count - 1);
     // From the tick before on, so that what is drawn has no gaps.
-    for (size_t i = before; last && i <= at; ++i)
+    for (size_t i = before; last && i <= at; ++i) {
       if (time_s(*tick) - time_s(*last) <= kGap_s) include(columns[i], *last);
+    }
     include(columns[at], *tick);
     before = at;
     last = &*tick;

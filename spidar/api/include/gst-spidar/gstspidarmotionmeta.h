@@ -90,13 +90,15 @@ static inline GArray* gst_buffer_get_spidar_points(GstBuffer* buffer) {
   GstSpidarMotionPoint point;
   GArray* result;
   if (meta == NULL || !gst_structure_get(gst_custom_meta_get_structure(meta), "points",
-                                         G_TYPE_VARIANT, &points, NULL))
+                                         G_TYPE_VARIANT, &points, NULL)) {
     return NULL;
+  }
   result = g_array_new(FALSE, FALSE, sizeof(GstSpidarMotionPoint));
   g_variant_iter_init(&iter, points);
   while (g_variant_iter_next(&iter, "(uddddu)", &point.id, &point.from_x, &point.from_y,
-                             &point.to_x, &point.to_y, &point.object))
+                             &point.to_x, &point.to_y, &point.object)) {
     g_array_append_val(result, point);
+  }
   g_variant_unref(points);
   return result;
 }

@@ -61,8 +61,9 @@ static inline GArray* gst_buffer_get_spidar_objects(GstBuffer* buffer) {
             &object.velocity_y, "velocity-error", G_TYPE_DOUBLE, &object.velocity_error,
             "screen-velocity-x", G_TYPE_DOUBLE, &object.screen_velocity_x, "screen-velocity-y",
             G_TYPE_DOUBLE, &object.screen_velocity_y, "growth", G_TYPE_DOUBLE, &object.growth,
-            "roll", G_TYPE_DOUBLE, &object.roll, "felt", G_TYPE_BOOLEAN, &object.felt, NULL))
+            "roll", G_TYPE_DOUBLE, &object.roll, "felt", G_TYPE_BOOLEAN, &object.felt, NULL)) {
       continue;
+    }
     object.id = (guint)region->id;
     object.x = region->x;
     object.y = region->y;
