@@ -17,8 +17,12 @@ BlockMatch best_match(const CoarseField& coarse, const Vector2i& corner_px) {
       block_difference(here, pixels_at(coarse.before, corner_px), kBlockArea_px * 256);
   const Vector2i middle_px = corner_px + Vector2i::Constant(kBlock_px / 2);
   const size_t middle = coarse.grid.block_at(middle_px.cast<double>());
+  Vector2i tried_px(0, 0);
   coarse.grid.each_around(middle, 1, [&](size_t block) {
     const Vector2i& from_px = coarse.matches[block].from_px;
+    // Neighbours mostly move alike.
+    if (from_px == tried_px || from_px == best.from_px || from_px.isZero()) return;
+    tried_px = from_px;
     const Vector2i begin_px = corner_px + from_px;
     if ((begin_px.array() < -kBlockReach_px).any() ||
         ((begin_px - last_px).array() > kBlockReach_px).any()) {

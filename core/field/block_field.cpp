@@ -192,22 +192,6 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector2i;
 
-/// Σ |pixel − mean| of a block.
-int difference_from_mean(const PaddedImage& picture, const Vector2i& at_px) {
-  int sum = 0;
-  for (int y = 0; y < kBlock_px; ++y) {
-    const uint8_t* row = picture.row(at_px.y() + y) + at_px.x();
-    for (int x = 0; x < kBlock_px; ++x) sum += row[x];
-  }
-  const int mean = (sum + kBlockArea_px / 2) / kBlockArea_px;
-  int difference = 0;
-  for (int y = 0; y < kBlock_px; ++y) {
-    const uint8_t* row = picture.row(at_px.y() + y) + at_px.x();
-    for (int x = 0; x < kBlock_px; ++x) difference += std::abs(row[x] - mean);
-  }
-  return difference;
-}
-
 /// A block is lost if what it differs from its best match is more than this fraction of what it
 /// differs from its own mean: the match shows something else.
 constexpr double kFoundElsewhere = 0.5;
@@ -336,7 +320,7 @@ bool BlockField::is_cut() {
 }
 
 int BlockField::contrast_of(size_t block) const {
-  return difference_from_mean(now_, grid_.corner_of(block));
+  return difference_from_mean(pixels_at(now_, grid_.corner_of(block)));
 }
 
 BlockField::Match BlockField::match_of(size_t block) const {
@@ -396,8 +380,12 @@ int BlockField::difference_if_moved(size_t block, const Vector2f& moved_px) cons
   const Position from(corner_px, -moved_px);
   if (!is_in_reach(from.pixel)) return -1;
   const BlockPixels here = pixels_at(now_, corner_px);
-  int least = bilinear_difference(here, pixels_at(before(), from.pixel), from.fraction.x(),
-                                  from.fraction.y());
+  int least = kBlockArea_px * 256;
+  // Without a fraction, that is the first of the whole positions.
+  if (!from.fraction.isZero()) {
+    least = bilinear_difference(here, pixels_at(before(), from.pixel), from.fraction.x(),
+                                from.fraction.y());
+  }
   for (const Vector2i& next : {Vector2i(0, 0), Vector2i(1, 0), Vector2i(0, 1), Vector2i(1, 1)}) {
     const BlockPixels there = pixels_at(before(), from.pixel + next);
     least = std::min(least, block_difference(here, there, least));

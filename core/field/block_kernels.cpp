@@ -95,6 +95,19 @@ int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return static_cast<int>(sum.total());
 }
 
+int difference_from_mean(BlockPixels block) {
+  const v_uint8x16 none = cv::v_setzero_u8();
+  DifferenceSum sum;
+  for (int y = 0; y < kBlock_px; ++y) sum.add(cv::v_load(block.pixels + y * block.stride), none);
+  const unsigned mean = (sum.total() + kBlockArea_px / 2) / kBlockArea_px;
+  const v_uint8x16 same = cv::v_setall_u8(static_cast<uint8_t>(mean));
+  DifferenceSum difference;
+  for (int y = 0; y < kBlock_px; ++y) {
+    difference.add(cv::v_load(block.pixels + y * block.stride), same);
+  }
+  return static_cast<int>(difference.total());
+}
+
 int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int fraction_y) {
   InterpolatedRows moved({before, fraction_x, fraction_y});
   DifferenceSum sum;
@@ -126,6 +139,21 @@ StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlo
     exact += cv::v_reduce_sad(stays & (changed == none), none);
   }
   return {static_cast<int>(near), static_cast<int>(exact)};
+}
+
+unsigned steep_pixels(BlockPixels row, int least) {
+  const v_int32x4 almost = cv::v_setall_s32(least - 1);
+  unsigned steep = 0;
+  for (int x = 0; x < kBlock_px; x += 8) {
+    const uint8_t* const p = row.pixels + x;
+    v_int16x8 left, right;
+    cv::v_zip(load(p + 1) - load(p - 1), load(p + row.stride) - load(p - row.stride), left, right);
+    const auto mask = [&](const v_int16x8& pairs) {
+      return static_cast<unsigned>(cv::v_signmask(cv::v_dotprod(pairs, pairs) > almost));
+    };
+    steep |= (mask(left) | mask(right) << 4) << x;
+  }
+  return steep;
 }
 
 int cell_difference(BlockPixels a, BlockPixels b) {

@@ -71,6 +71,13 @@ struct MovedBlock {
 /// that sum.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 
+/// Σ |pixel − mean| of a block, with the mean rounded to a whole grey level.
+int difference_from_mean(BlockPixels block);
+
+/// Which of the kBlock_px pixels from `row` on have a slope: bit x is set where the squares of the
+/// differences of its neighbours, to the left and right and above and below, add up to `least`.
+unsigned steep_pixels(BlockPixels row, int least);
+
 /// Side of a cell of a block, px. The mean over a cell has a quarter of the noise of a pixel.
 constexpr int kCell_px = 4;
 

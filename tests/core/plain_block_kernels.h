@@ -29,6 +29,30 @@ inline int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return sum;
 }
 
+inline int difference_from_mean(BlockPixels block) {
+  int sum = kBlockArea_px / 2;
+  for (int i = 0; i < kBlockArea_px; ++i) {
+    sum += block.pixels[i / kBlock_px * block.stride + i % kBlock_px];
+  }
+  int difference = 0;
+  for (int i = 0; i < kBlockArea_px; ++i) {
+    const int grey = block.pixels[i / kBlock_px * block.stride + i % kBlock_px];
+    difference += std::abs(grey - sum / kBlockArea_px);
+  }
+  return difference;
+}
+
+inline unsigned steep_pixels(BlockPixels row, int least) {
+  unsigned steep = 0;
+  for (int x = 0; x < kBlock_px; ++x) {
+    const uint8_t* p = row.pixels + x;
+    const int across = p[1] - p[-1];
+    const int down = p[row.stride] - p[-row.stride];
+    if (across * across + down * down >= least) steep |= 1U << x;
+  }
+  return steep;
+}
+
 inline int cell_difference(BlockPixels a, BlockPixels b) {
   int sum = 0;
   for (int cell = 0; cell < kBlockArea_px; cell += kCell_px * kCell_px) {

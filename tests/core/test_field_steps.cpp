@@ -63,6 +63,10 @@ TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
       }
       EXPECT_EQ(bilinear_difference(now, before, k % 17, (3 * k) % 17),
                 plain::bilinear_difference(now, before, k % 17, (3 * k) % 17));
+      EXPECT_EQ(difference_from_mean(before), plain::difference_from_mean(before));
+      for (const int least : {0, 1, 20000, 2 * 255 * 255}) {
+        EXPECT_EQ(steep_pixels(before, least), plain::steep_pixels(before, least));
+      }
       EXPECT_EQ(cell_difference(now, before), plain::cell_difference(now, before));
       // Half of the pixels stay, some of them exactly.
       PaddedImage changed = a;

@@ -138,22 +138,22 @@ void TurnMeter::collect_slopes(const BlockField& field) {
   const PaddedImage& now = field.picture();
   noise_grey2_ = std::max(squared(kRounding_grey), field.noise_grey2());
   // Of twice a slope: each coordinate has the noise of a difference.
-  const float least2 = squared(kSlopeSigmas) * noise_grey2_;
+  const auto least2 = static_cast<int>(std::ceil(squared(kSlopeSigmas) * noise_grey2_));
   slopes_.clear();
   for (size_t k = 0; k < blocks_.size(); ++k) {
     const Eigen::Vector2i corner_px = field.grid().corner_of(blocks_[k]);
     for (int y = corner_px.y(); y < corner_px.y() + kBlock_px; ++y) {
-      const uint8_t* const above = now.row(y - 1);
-      const uint8_t* const row = now.row(y);
-      const uint8_t* const below = now.row(y + 1);
-      for (int x = corner_px.x(); x < corner_px.x() + kBlock_px; ++x) {
-        const int across = row[x + 1] - row[x - 1], down = below[x] - above[x];
-        if (static_cast<float>(across * across + down * down) < least2) continue;
-        slopes_.push_back({x, y, k});
+      unsigned steep = steep_pixels({now.row(y) + corner_px.x(), now.stride()}, least2);
+      for (int x = corner_px.x(); steep != 0; steep >>= 1, ++x) {
+        if ((steep & 1U) != 0) slopes_.push_back({x, y, k});
       }
     }
   }
   thin_out(slopes_, kMostPixels);
+}
+
+inline Vector2f TurnMeter::before_px(const Pixel& pixel, const Parameters& motion) const {
+  return pixel.at_px - motion.head<2>() - turned(motion.tail<2>(), pixel.rho);
 }
 
 /// `start` is about how the object moved.
@@ -186,56 +186,48 @@ TurnMeter::Pixel TurnMeter::describe(const Place& place, const Parameters& start
   return pixel;
 }
 
-Vector2f TurnMeter::before_px(const Pixel& pixel, const Parameters& motion) const {
-  return pixel.at_px - motion.head<2>() - turned(motion.tail<2>(), pixel.rho);
-}
-
 TurnMeter::Sums TurnMeter::sum_up(const Parameters& motion, float edge_px,
                                   const PaddedImage& before) {
-  sums_.assign(blocks_.size(), Sums());
-  for (const Pixel& pixel : pixels_) {
-    const Sample there(before, before_px(pixel, motion));
-    if (!there.is_inside) continue;
-    const float r = now_blurred(pixel, there) - there.grey;
-    if (r * r > pixel.behind2) continue;
-    const float slope2 = pixel.slope.squaredNorm();
-    const float variance = noise_grey2_ + squared(edge_px) * slope2;
-    const float w = squared(1 / (1 + r * r / (4 * variance))) / variance;
-    const Vector2f& g = pixel.slope;
-    const Vector2f& rho = pixel.rho;
-    const Eigen::Vector4f J(g.x(), g.y(), g.dot(rho), g.y() * rho.x() - g.x() * rho.y());
-    Sums& sums = sums_[pixel.block];
-    sums.information.noalias() += (w * J) * J.transpose();
-    sums.gradient += w * r * J;
-    sums.noise += w * (noise_grey2_ / 4 + squared(kSlopeError) * slope2) * rho.squaredNorm();
-  }
   Sums all;
-  for (const Sums& sums : sums_) {
-    all.information += sums.information;
-    all.gradient += sums.gradient;
-    all.noise += sums.noise;
+  sums_.clear();
+  auto pixel = pixels_.begin();
+  for (size_t block = 0; block < blocks_.size(); ++block) {
+    Sums sums;
+    for (; pixel != pixels_.end() && pixel->block == block; ++pixel) {
+      const Sample there(before, before_px(*pixel, motion));
+      if (!there.is_inside) continue;
+      const float r = now_blurred(*pixel, there) - there.grey;
+      if (r * r > pixel->behind2) continue;
+      const float slope2 = pixel->slope.squaredNorm();
+      const float variance = noise_grey2_ + squared(edge_px) * slope2;
+      const float w = squared(1 / (1 + r * r / (4 * variance))) / variance;
+      const Vector2f& g = pixel->slope;
+      const Vector2f& rho = pixel->rho;
+      const Eigen::Vector4f J(g.x(), g.y(), g.dot(rho), g.y() * rho.x() - g.x() * rho.y());
+      sums.information.noalias() += (w * J) * J.transpose();
+      sums.gradient += w * r * J;
+      sums.noise += w * (noise_grey2_ / 4 + squared(kSlopeError) * slope2) * rho.squaredNorm();
+    }
+    sums_.push_back(sums);
+    all += sums;
   }
   return all;
 }
 
-/// Variance of a parameter: that of the noise, or what the blocks disagree about, by a jackknife:
-/// each is left out once. Infinite where one block alone, or errors of the slopes, determine it.
-double TurnMeter::variance_px2(int parameter, const Sums& all,
-                               const Eigen::Matrix4f& covariance) const {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  const double reliable = 1 - static_cast<double>(all.noise * covariance(parameter, parameter));
-  if (!(reliable > kLeastReliable)) return kUnknown;
-  const Eigen::Vector4f step = covariance * all.gradient;
-  double between_px2 = 0;
+/// What the blocks disagree about, by a jackknife: each is left out once. Infinite where one block
+/// alone determines a parameter. `step` is what all of them together say.
+Eigen::Vector4d TurnMeter::between_px2(const Sums& all, const Eigen::Vector4f& step) const {
+  Eigen::Vector4d sum_px2 = Eigen::Vector4d::Zero();
   for (const Sums& sums : sums_) {
     const Eigen::LDLT<Eigen::Matrix4f> others(all.information - sums.information);
-    if (!is_determined(others)) return kUnknown;
+    if (!is_determined(others)) {
+      return Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity());
+    }
     const Eigen::Vector4f off = sums.gradient - sums.information * step;
-    between_px2 += squared(static_cast<double>(others.solve(off)[parameter]));
+    sum_px2 += others.solve(off).cast<double>().cwiseAbs2();
   }
   const auto n = static_cast<double>(sums_.size());
-  const auto of_noise_px2 = static_cast<double>(covariance(parameter, parameter));
-  return std::max(of_noise_px2, (n - 1) / n * between_px2) / squared(reliable);
+  return (n - 1) / n * sum_px2;
 }
 
 Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& found,
@@ -284,8 +276,16 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   const double bends_px = kBends_px * std::max(0.0, kRigid - explained / std::max(1.0, 1.0 * own));
   const Complex found_back = Complex(motion[2], motion[3]) / reach_px;
   const Complex forth = found_back / (1.0 - found_back) - behind;
+  const Eigen::Vector4d of_blocks_px2 = between_px2(all, covariance * all.gradient);
+  // The variance is that of the noise, or what the blocks disagree about. Nothing is known where
+  // errors of the slopes determine the parameter.
   const auto estimate = [&](double value, int parameter) {
-    const double px2 = variance_px2(parameter, all, covariance) + squared(bends_px);
+    const float of_noise_px2 = covariance(parameter, parameter);
+    const double reliable = 1 - static_cast<double>(all.noise * of_noise_px2);
+    if (!(reliable > kLeastReliable)) return Estimate{value};
+    const double px2 =
+        std::max(static_cast<double>(of_noise_px2), of_blocks_px2[parameter]) / squared(reliable) +
+        squared(bends_px);
     return Estimate{value, std::sqrt(px2) / reach_px, kSharedError_px / reach_px};
   };
   turn.growth = estimate(forth.real(), 2);

@@ -75,6 +75,12 @@ class TurnMeter {
     Eigen::Matrix4f information = Eigen::Matrix4f::Zero();  ///< Σ w J Jᵀ
     Eigen::Vector4f gradient = Eigen::Vector4f::Zero();     ///< Σ w J r
     float noise = 0;  ///< what errors of the slopes add to the information on grow or turn
+
+    void operator+=(const Sums& other) {
+      information += other.information;
+      gradient += other.gradient;
+      noise += other.noise;
+    }
   };
 
   void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
@@ -82,7 +88,7 @@ class TurnMeter {
   Pixel describe(const Place& place, const Parameters& start, const ObjectEvidence& evidence) const;
   Eigen::Vector2f before_px(const Pixel& pixel, const Parameters& motion) const;
   Sums sum_up(const Parameters& motion, float edge_px, const PaddedImage& before);
-  double variance_px2(int parameter, const Sums& all, const Eigen::Matrix4f& covariance) const;
+  Eigen::Vector4d between_px2(const Sums& all, const Eigen::Vector4f& step) const;
 
   std::vector<size_t> blocks_;
   std::vector<Place> slopes_;
