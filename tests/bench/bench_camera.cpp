@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Prints in what share of the pictures camera and felt motion are right, in films in which little
-/// shows how the camera moves, by scene and coding:
+/// shows how the camera moves, by scene and coding, and in what share something is felt in scenes
+/// with depth in which only the camera moves:
 ///   spidar-bench camera [TEXT]    those whose name contains it
 /// Needs ffmpeg. Takes minutes.
 #include <cstdio>
@@ -12,6 +13,7 @@
 
 #include "tests/bench/benchmarks.h"
 #include "tests/support/coded_film_score.h"
+#include "tests/support/depth_clip_score.h"
 
 namespace {
 
@@ -82,6 +84,14 @@ int spidar::bench::camera(int argc, char** argv) {
       std::fflush(stdout);
     }
     std::printf("\n");
+  }
+  std::printf("\nShare of the pictures in which something is felt, %%:\n\n| | |\n|---|---|\n");
+  for (int kind = 0; kind < test::DepthClip::kKinds; ++kind) {
+    const auto each = static_cast<test::DepthClip::Kind>(kind);
+    const std::string name = test::DepthClip::to_string(each);
+    if (argc > 1 && name.find(argv[1]) == std::string::npos) continue;
+    const test::DepthClipScore sum = test::score(each, test::kDepthClips);
+    std::printf("| %s | %.1f |\n", name.c_str(), 100.0 * sum.felt / sum.pictures);
   }
   return 0;
 }

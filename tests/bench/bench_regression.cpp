@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A figure for each of three topics, as `name value`, on fixed problems:
-//   tension_rounds    mean rounds of the tension solver on hard problems, 1000 where one is wrong
-//   pose_iterations   mean linearised problems of a cold start 60 to 80° from the pose, 1000 where
-//   one is wrong cost_ratio        processor time of motion=object over that of DIS on the same
-//   frames
+// Figures on fixed problems, as `name value`:
+//
+// - tension_rounds: mean rounds of the tension solver on hard problems, 1000 where one is wrong
+// - pose_iterations: mean linearised problems of a cold start 60 to 80° from the pose, 1000 where
+//   one is wrong
+// - depth_false_percent: pictures of scenes with depth, and of patterns, in which something is felt
+//   though only the camera moves
+// - cost_ratio: processor time of motion=object over that of DIS on the same frames
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -20,6 +23,7 @@
 #include "tests/bench/film_frames.h"
 #include "tests/bench/opencv_flow.h"
 #include "tests/core/tension_reference.h"
+#include "tests/support/depth_clip_score.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/string_samples.h"
 #include "tests/support/tension_cases.h"
@@ -69,6 +73,14 @@ double pose_iterations() {
   return iterations / kPoses;
 }
 
+double depth_false_percent() {
+  test::DepthClipScore sum;
+  for (int kind = 0; kind < test::DepthClip::kKinds; ++kind) {
+    sum += test::score(static_cast<test::DepthClip::Kind>(kind), test::kDepthClips);
+  }
+  return 100.0 * sum.felt / sum.pictures;
+}
+
 double thread_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -105,6 +117,7 @@ int spidar::bench::regression(int, char**) {
   pin_to_one_core();
   std::printf("tension_rounds %.4g\n", tension_rounds());
   std::printf("pose_iterations %.4g\n", pose_iterations());
+  std::printf("depth_false_percent %.3g\n", depth_false_percent());
   std::printf("cost_ratio %.3g\n", cost_ratio());
   return 0;
 }
