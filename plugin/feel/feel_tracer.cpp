@@ -14,6 +14,7 @@
  * Since: 0.1
  */
 #define GST_USE_UNSTABLE_API
+#include <gst/gst.h>
 #include <gst/gsttracer.h>
 
 #include "plugin/feel/feel_bin.h"
@@ -50,10 +51,26 @@ static void set_filter(GstElement* element) {
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 
+/// When it begins to play, a playbin with video has taken the filter.
+static void tell_without_video(GstElement* element) {
+  GstElement* filter = nullptr;
+  g_object_get(element, "video-filter", &filter, nullptr);
+  const spidar::Ref<GstElement> own(filter);
+  if (!own || !GST_IS_SPIDAR_FEEL_BIN(filter)) return;
+  const spidar::Ref<GstObject> parent(gst_object_get_parent(GST_OBJECT(filter)));
+  if (parent) return;
+  g_printerr(
+      "spidar-feel: there is no video in it, so nothing is felt; a haptic track is played by "
+      "spidarsink\n");
+}
+
 /// Called for every element, in any thread: returns at once for anything but players.
 static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED && is_playbin(element)) set_filter(element);
+  if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && is_playbin(element)) {
+    tell_without_video(element);
+  }
 }
 
 static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {

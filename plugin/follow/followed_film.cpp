@@ -164,17 +164,21 @@ void FollowedFilm::build_film(const std::string& uri) {
   tell(uri + " is analysed");
 }
 
-/// A track is played as it is: of the others, spidarsink has none.
 void FollowedFilm::set_properties(const std::vector<std::string>& properties) {
+  std::string others;
   for (const std::string& property : properties) {
     const size_t end = property.find('=');
     const std::string name = property.substr(0, end), value = property.substr(end + 1);
-    if (name == "preset") {
-      if (GST_IS_PRESET(felt_)) gst_preset_load_preset(GST_PRESET(felt_), value.c_str());
+    if (name == "preset" && GST_IS_PRESET(felt_)) {
+      gst_preset_load_preset(GST_PRESET(felt_), value.c_str());
     } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(felt_), name.c_str())) {
       gst_util_set_object_arg(G_OBJECT(felt_), name.c_str(), value.c_str());
+    } else {
+      others += (others.empty() ? "" : ", ") + name;
     }
   }
+  // Of spidarmotion, which looks at pictures.
+  if (!others.empty()) tell("a track is played as it is, so these have no effect: " + others);
 }
 
 bool FollowedFilm::check() {

@@ -123,7 +123,7 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
 }
 
 /// Which file has the track, and what is known of the film when `path` is one. Throws
-/// std::runtime_error when that is a film without a track.
+/// std::runtime_error when that is a film without a track, or a picture.
 TrackCondition find_track(const std::string& path, Film& film) {
   TrackCondition found;
   found.track = path;
@@ -134,6 +134,9 @@ TrackCondition find_track(const std::string& path, Film& film) {
     film = read_film(path);
   } catch (const std::runtime_error&) {
     return found;  // reading the track will report why
+  }
+  if (film.packets.size() == 1) {
+    throw std::runtime_error(path + ": is a single picture, in which nothing moves");
   }
   found.film = path;
   if (film.has_track) return found;

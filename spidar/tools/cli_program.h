@@ -40,6 +40,13 @@ inline void check_command(const CLI::App& program, int argc, char** argv) {
   throw UsageError(std::string(argv[1]) + " is not a command; commands are " + known);
 }
 
+/// The command line of the help that explains what was wrong.
+inline std::string help_of(const CLI::App& program) {
+  std::string command = program.get_name();
+  for (const CLI::App* given : program.get_subcommands()) command += ' ' + given->get_name();
+  return command + " --help";
+}
+
 /// The exit status of `run`, which parses the command line and may throw. Prints the help, the
 /// version, or what was wrong, with what is printed itself.
 inline int exit_status_of(const CLI::App& program, const std::function<int()>& run) {
@@ -47,9 +54,11 @@ inline int exit_status_of(const CLI::App& program, const std::function<int()>& r
   try {
     return status_after_printing(name, run());
   } catch (const CLI::ParseError& error) {
-    return status_after_printing(name, program.exit(error) == 0 ? kDone : kWrongUsage);
+    if (error.get_exit_code() == 0) return status_after_printing(name, program.exit(error));
+    std::cerr << name << ": " << error.what() << "; see " << help_of(program) << '\n';
+    return kWrongUsage;
   } catch (const UsageError& error) {
-    std::cerr << name << ": " << error.what() << "; see " << name << " --help\n";
+    std::cerr << name << ": " << error.what() << "; see " << help_of(program) << '\n';
     return kWrongUsage;
   } catch (const std::exception& error) {
     std::cerr << name << ": " << error.what() << '\n';

@@ -129,6 +129,17 @@ class Feel(FeelCase):
 
 
 class NoDevice(FeelCase):
+    @track_case.needs(QUIET[0])
+    def test_sound_is_said_to_have_no_video(self):
+        subprocess.run(["gst-launch-1.0", "-q", "audiotestsrc", "num-buffers=20", "!", "wavenc", "!", "filesink",
+                        f"location={self.films / 'sound.wav'}"], check=True)
+        for playbin in PLAYBINS:
+            with self.subTest(playbin):
+                chosen = "--use-playbin3" if playbin == "playbin3" else "--quiet"
+                said = self.run_all([FEEL, *QUIET, chosen, self.films / "sound.wav"])
+                self.assertIn("spidar-feel: there is no video in it, so nothing is felt", said)
+        self.assertNotIn("no video", self.run_all([FEEL, *QUIET, "--videosink=fakesink", self.make_film("short.avi", 15)]))
+
     def test_a_player_plays_without_a_device_that_can_be_opened(self):
         film = self.make_film("very_short.avi", 15)
         said = self.run_felt("play end", film=film)

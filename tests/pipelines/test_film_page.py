@@ -200,6 +200,9 @@ class FilmPage(track_case.TrackCase):
     def test_what_is_wrong_is_said(self):
         self.make_film()
         self.assert_said("a film without a haptic track, inside it or beside it", "export", "film.avi", "a.html")
+        self.gst("videotestsrc num-buffers=1 ! pngenc ! filesink location=picture.png")
+        self.assert_said("picture.png: is a single picture", "export", "picture.png", "a.html")
+        self.path("picture.png").unlink()
         self.make_track()
         self.assert_said("a.wav: is a track; give the film that it is for", "export", "a.wav", "a.html", status=2)
         self.make_track("film.avi.haptic.wav")

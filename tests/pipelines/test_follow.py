@@ -110,12 +110,13 @@ class FollowCase(track_case.TrackCase):
         self.assertTrue(ticks)
         self.assertEqual(max(force for _, force in ticks), 0, self.said())
 
-    def play(self, *words, name="mock"):
+    def play(self, *words, name="mock", properties=()):
         """A player that plays, and is felt."""
         player = MockPlayer(self.bus, name)
         player.change("Playing", uri=self.film.as_uri(), position_s=2)
-        process = self.follow(*words)
-        self.wait_until(lambda: self.force_N() > FORCE_N)
+        process = self.follow(*words, properties=properties)
+        self.wait_until(lambda: process.poll() is not None or self.force_N() > FORCE_N)
+        self.assertIsNone(process.poll(), self.said())
         return player, process
 
 
@@ -164,8 +165,9 @@ class Follow(FollowCase):
         self.film = self.path("film.mkv")
         self.gst("matroskamux name=m ! filesink location=film.mkv filesrc location=film.avi ! avidemux ! queue ! m. "
                  "filesrc location=film.avi.haptic.wav ! wavparse ! queue ! m.")
-        player, _ = self.play()
+        player, _ = self.play(properties=["overlay=curve", "max-force=3"])
         self.assertIn("the haptic track " + str(self.film), self.said())
+        self.assertRegex(self.said(), "these have no effect: overlay\\n")
         self.expect_followed_through_seeks(player)
 
     def test_without_a_track_the_film_is_analysed(self):

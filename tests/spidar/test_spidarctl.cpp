@@ -46,7 +46,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
        "dance is not a command; commands are list, info, monitor, zero, pull, choose, "
        "selftest, calibrate"},
       {"list me", "not expected: me"},
-      {"info", "DEVICE is required"},
+      {"info", "spidarctl: DEVICE is required; see spidarctl info --help"},
       {"info sim sim", "not expected: sim"},
       {"zero sim --json", "not expected: --json"},
       {"monitor sim --seconds 0", "not a number from 0.001 to 86400 s"},
