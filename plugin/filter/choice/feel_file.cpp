@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <unistd.h>
 
-#include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "spidar/whole_file.h"
 
@@ -51,13 +50,6 @@ std::string keep_copy(const std::string& path) {
     throw std::runtime_error(copy + ": cannot be written: " + failed.message());
   }
   return copy;
-}
-
-void replace_file(const std::string& path, const std::string& text) {
-  PartFile part(path, {true, {}});
-  part.write(text);
-  part.check_written();
-  part.publish();
 }
 
 std::string name_of(const std::string& path) {
