@@ -232,7 +232,7 @@ static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
   const bool points = state.settings.pointer == PointerKind::kMouse;
   GST_OBJECT_UNLOCK(self);
   if (!points) return;
-  const auto mouse = spidar::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
+  const auto mouse = spidar::window::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
   if (!mouse) return;
   // A hand that is led points, too, but its clicks are no choice of objects.
   const bool leads_hand = state.display.hand().take(*mouse);

@@ -22,7 +22,7 @@
 #include "plugin/window/window_process.h"
 #include "spidar/realtime/thread_setup.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -34,7 +34,7 @@ constexpr const char* kNotOpen = "the debug window is not open";
 /// What the thread and the owner of a Window share; the thread may outlive the owner.
 class Window::Session {
  public:
-  explicit Session(std::shared_ptr<WindowSource> source) : source_(std::move(source)) {}
+  explicit Session(std::shared_ptr<Source> source) : source_(std::move(source)) {}
   ~Session() {
     if (wake_ >= 0) ::close(wake_);
   }
@@ -62,12 +62,12 @@ class Window::Session {
   void handle(Channel& channel, FromWindow&& message);
   void answer(Channel& channel);
   void free_slot(const SlotFree& free);
-  void finish(const WindowEnd& end);
+  void finish(const ProcessEnd& end);
   void end_waiting(const std::string& error);
   std::shared_ptr<PictureSlots> slots_for(const GstVideoFrame& frame);
   void wake() const { eventfd_write(wake_, 1); }
 
-  const std::shared_ptr<WindowSource> source_;
+  const std::shared_ptr<Source> source_;
   const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  ///< −1: the system refuses it
   std::atomic<bool> is_asking_{false};                       ///< the window is there
   std::atomic<bool> is_full_{false};                         ///< there is no free slot
@@ -128,7 +128,7 @@ bool Window::Session::give(const GstVideoFrame& frame, FrameReport report) {
 void Window::Session::close() {
   const std::lock_guard<std::mutex> lock(mutex_);
   is_closing_ = true;
-  to_say_.emplace_back(CloseWindow());
+  to_say_.emplace_back(Close());
   wake();
 }
 
@@ -156,7 +156,7 @@ std::string Window::Session::take_picture(const std::string& path,
 // --- the thread --------------------------------------------------------------------------------
 
 void Window::Session::run() {
-  WindowProcess process;
+  Process process;
   const std::string error =
       wake_ < 0 ? std::string("no eventfd: ") + std::strerror(errno) : process.start();
   if (!error.empty()) return fail(error);
@@ -168,7 +168,7 @@ void Window::Session::run() {
   }
   is_asking_ = false;
   // One that is to close and has not left has had its time.
-  WindowEnd end = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
+  ProcessEnd end = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
   if (!is_understood) end = {false, "is of another version than the plugin"};
   finish(end);
 }
@@ -281,7 +281,7 @@ void Window::Session::end_waiting(const std::string& error) {
   changed_.notify_all();
 }
 
-void Window::Session::finish(const WindowEnd& end) {
+void Window::Session::finish(const ProcessEnd& end) {
   source_->lead_hand(std::nullopt);
   bool was_wanted = false;
   {
@@ -302,7 +302,7 @@ void Window::Session::finish(const WindowEnd& end) {
 
 // --- Window ------------------------------------------------------------------------------------
 
-Window::Window(std::shared_ptr<WindowSource> source)
+Window::Window(std::shared_ptr<Source> source)
     : session_(std::make_shared<Session>(std::move(source))) {
   try {
     thread_ = start_thread("spidar-window", [session = session_] { session->run(); });
@@ -338,4 +338,4 @@ void Window::input(const UserInput& input) {
   session_->say(input);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

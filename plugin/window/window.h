@@ -16,12 +16,12 @@
 
 #include "plugin/window/view/messages.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Called on the thread of the Window only. messages.h describes the requests.
-class WindowSource {
+class Source {
  public:
-  virtual ~WindowSource() = default;
+  virtual ~Source() = default;
 
   /// Does nothing when there is nothing to look at any more.
   virtual void read(ElementState& state) = 0;
@@ -46,7 +46,7 @@ class WindowSource {
 /// holds up the player, whose own use of GL, GLFW or X it does not touch.
 class Window {
  public:
-  explicit Window(std::shared_ptr<WindowSource> source);
+  explicit Window(std::shared_ptr<Source> source);
   ~Window() { close(); }
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -78,4 +78,4 @@ class Window {
   std::thread thread_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

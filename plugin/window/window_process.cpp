@@ -19,7 +19,7 @@
 
 extern char** environ;
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 /// $SPIDAR_WINDOW, or the program that was built or installed with this plugin.
@@ -63,7 +63,7 @@ int spawn(const std::string& path, int its_end, pid_t& process) {
 
 }  // namespace
 
-std::string WindowProcess::start() {
+std::string Process::start() {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return std::string("no socket: ") + std::strerror(errno);
@@ -79,7 +79,7 @@ std::string WindowProcess::start() {
   return path + ": " + std::strerror(error);
 }
 
-WindowEnd WindowProcess::finish(int patience_ms) {
+ProcessEnd Process::finish(int patience_ms) {
   if (process_ < 0) return {true, ""};
   constexpr int kStep_ms = 5;
   int status = 0;
@@ -103,8 +103,8 @@ WindowEnd WindowProcess::finish(int patience_ms) {
           "was ended by the signal " + std::to_string(number) + " (" + strsignal(number) + ")"};
 }
 
-WindowProcess::~WindowProcess() {
+Process::~Process() {
   if (process_ >= 0) finish(0);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -6,33 +6,33 @@
 #include <string>
 #include <sys/types.h>
 
-namespace spidar {
+namespace spidar::window {
 
 /// What became of a child.
-struct WindowEnd {
+struct ProcessEnd {
   bool is_orderly = false;  ///< it ended by itself, with status 0
   std::string how;          ///< else: "was ended by the signal 11 (Segmentation fault)"
 };
 
 /// One thread, not necessarily the same for all functions.
-class WindowProcess {
+class Process {
  public:
-  WindowProcess() = default;
+  Process() = default;
   /// Ends the child if it still runs.
-  ~WindowProcess();
-  WindowProcess(const WindowProcess&) = delete;
-  WindowProcess& operator=(const WindowProcess&) = delete;
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
 
   /// Starts $SPIDAR_WINDOW or the installed program. Returns empty, or why it cannot be started.
   /// socket() is then this process's end of its socket, which the caller takes over.
   std::string start();
   int socket() const { return socket_; }
   /// Waits until the child has ended, which is killed when that takes longer than `patience_ms`.
-  WindowEnd finish(int patience_ms);
+  ProcessEnd finish(int patience_ms);
 
  private:
   pid_t process_ = -1;
   int socket_ = -1;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -36,9 +36,9 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
   gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
   ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
-  const std::shared_ptr<WindowSource> source =
+  const std::shared_ptr<window::Source> source =
       gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
-  ElementState state;
+  window::ElementState state;
   const auto look = [&] {
     tick(1500);
     source->read(state);
@@ -68,9 +68,9 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
 TEST(TouchView, OtherDevicesHaveNoHandToLead) {
   for (const char* properties : {"device=sim:sh4", "device=none"}) {
     ElementHarness h(properties);
-    const std::shared_ptr<WindowSource> source =
+    const std::shared_ptr<window::Source> source =
         gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
-    ElementState state;
+    window::ElementState state;
     source->read(state);
     EXPECT_FALSE(state.device && state.device->has_hand) << properties;
     EXPECT_FALSE(h.state().output.lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;

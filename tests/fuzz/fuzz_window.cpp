@@ -16,10 +16,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const std::vector<uint8_t> bytes(data + 1, data + size);
   if (data[0] % 2 == 0) {
-    const auto message = to_window(bytes);
-    if (message) require(to_window(to_bytes(*message)).has_value(), "fuzz_window: refused again");
-  } else if (const auto message = from_window(bytes)) {
-    require(to_bytes(*message) == bytes, "fuzz_window: a message from the window is another");
+    const auto message = window::to_window(bytes);
+    if (message)
+      require(window::to_window(window::to_bytes(*message)).has_value(),
+              "fuzz_window: refused again");
+  } else if (const auto message = window::from_window(bytes)) {
+    require(window::to_bytes(*message) == bytes,
+            "fuzz_window: a message from the window is another");
   }
   return 0;
 }

@@ -93,7 +93,7 @@ class ChosenFilm {
   }
 
   /// The element as its debug window sees it.
-  WindowSource& window() {
+  window::Source& window() {
     if (!window_) {
       GstElement* const motion = gst_bin_get_by_name(GST_BIN(harness_->element), "motion");
       window_ = gst_spidar_motion_state(GST_SPIDAR_MOTION(motion)).display.source();
@@ -141,7 +141,7 @@ class ChosenFilm {
   }
 
   MovingScene scene_{kWidth, kHeight};
-  std::shared_ptr<WindowSource> window_;
+  std::shared_ptr<window::Source> window_;
   GstHarness* harness_ = nullptr;
   GstBus* bus_ = nullptr;
   int frames_ = 0;

@@ -201,7 +201,7 @@ TEST(Feel, WhatIsSavedHoldsAtOnce) {
   }
   EXPECT_GE(right, kMostFrames * 30) << "the rule that was cut goes on with its object";
   EXPECT_TRUE(film.warnings_.empty());
-  ElementState state;
+  window::ElementState state;
   film.window().read(state);
   ASSERT_TRUE(state.rules);
   EXPECT_EQ(state.rules->rules().size(), 2u);
@@ -211,14 +211,14 @@ TEST(Feel, WhatCannotBeSavedIsToldAndChangesNothing) {
   Film film("feel=largest");
   film.play_to(kKnown);
   const FeelEdit edit{0, GST_SECOND, Vector2d(0.5, 0.5)};
-  const ChoicesSaved none = film.window().save("", {edit});
+  const window::ChoicesSaved none = film.window().save("", {edit});
   EXPECT_FALSE(none.is_done);
   EXPECT_EQ(none.what,
             "Not saved: what is played comes from no file, beside which rules could be kept.");
   EXPECT_EQ(film.window().save("/nowhere/film.avi", {edit}).what,
             "Not saved: film.avi.feel: there is no folder /nowhere.");
   film.next();
-  ElementState state;
+  window::ElementState state;
   film.window().read(state);
   ASSERT_TRUE(state.rules);
   EXPECT_EQ(state.rules->text(), "largest");

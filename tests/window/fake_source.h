@@ -15,19 +15,19 @@
 namespace spidar::test {
 
 /// Notes what it is told. Functions that wait do so however long it takes.
-class FakeSource final : public WindowSource {
+class FakeSource final : public window::Source {
  public:
-  explicit FakeSource(ElementState state = {}) : state_(std::move(state)) {
+  explicit FakeSource(window::ElementState state = {}) : state_(std::move(state)) {
     if (state_.name.empty()) state_.name = "fake";
   }
 
   /// What read() gives from now on.
-  void change(const ElementState& state) {
+  void change(const window::ElementState& state) {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = state;
     if (state_.name.empty()) state_.name = "fake";
   }
-  void read(ElementState& state) override {
+  void read(window::ElementState& state) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     state = state_;
   }
@@ -44,7 +44,7 @@ class FakeSource final : public WindowSource {
   void choose(const std::optional<Eigen::Vector2d>& position) override {
     note([&] { choices_.push_back(position); });
   }
-  ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+  window::ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
     note([&] { saves_.emplace_back(film, edits); });
     return {true, "saved"};
   }
@@ -93,7 +93,7 @@ class FakeSource final : public WindowSource {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  ElementState state_;
+  window::ElementState state_;
   Sets sets_;
   std::vector<bool> plays_;
   std::vector<int64_t> seeks_;

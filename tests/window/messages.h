@@ -12,8 +12,8 @@
 
 namespace spidar::test {
 
-inline FrameShown some_frame() {
-  FrameShown frame{3, 7, {}};
+inline window::FrameShown some_frame() {
+  window::FrameShown frame{3, 7, {}};
   FrameReport& report = frame.report;
   report.frame.stamp = {3, 5, 1'234'567'890'123, 40'000'000, -1.5};
   report.film = {std::make_shared<const std::string>("/film.avi"), 4, 9};
@@ -44,8 +44,8 @@ inline FrameShown some_frame() {
   return frame;
 }
 
-inline ElementState some_state() {
-  ElementState state;
+inline window::ElementState some_state() {
+  window::ElementState state;
   state.name = "motion";
   DeviceView& device = state.device.emplace();
   device.name = "sim";
@@ -59,8 +59,9 @@ inline ElementState some_state() {
   device.geometry.count = 2;
   device.geometry.exit_m[1] = {0.1, 0.2, 0.3};
   device.max_tension_N[0] = 5;
-  state.settings = {{"controller", "help", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
-                    {"max-force", "newtons", Setting::Kind::kNumber, 2, 0, 20, {}}};
+  state.settings = {
+      {"controller", "help", window::Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
+      {"max-force", "newtons", window::Setting::Kind::kNumber, 2, 0, 20, {}}};
   state.has_ended = true;
   state.presets = {"film", "gentle"};
   state.no_force = "nothing moves";
@@ -68,7 +69,7 @@ inline ElementState some_state() {
   return state;
 }
 
-inline SaveChoices some_choices() {
+inline window::SaveChoices some_choices() {
   return {"/film.avi", {{1, 2, Eigen::Vector2d(0.25, 0.5)}, {3, 4, std::nullopt}}};
 }
 

@@ -16,15 +16,16 @@ namespace {
 class Frames {
  public:
   void pass(int64_t running_ns, uint32_t epoch = 0) {
-    WindowFrame frame{};
-    frame.picture = SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
+    window::QueuedFrame frame{};
+    frame.picture =
+        window::SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
     frame.report.frame.stamp.running_ns = running_ns;
     frame.report.frame.stamp.epoch = epoch;
     queue_.add(std::move(frame));
   }
   /// The running time of what is shown from now on; −1: of what was shown before.
   int64_t show(std::optional<int64_t> running_ns) {
-    std::optional<WindowFrame> frame = queue_.show(running_ns);
+    std::optional<window::QueuedFrame> frame = queue_.show(running_ns);
     if (!frame) return -1;
     shown_ = std::move(*frame);
     return shown_.report.frame.stamp.running_ns;
@@ -33,8 +34,8 @@ class Frames {
   std::vector<int64_t> freed;  ///< the pictures that nobody keeps any more
 
  private:
-  FrameQueue queue_;
-  WindowFrame shown_;
+  window::FrameQueue queue_;
+  window::QueuedFrame shown_;
 };
 
 TEST(FrameQueue, ShowsTheNewestThatIsOnTheScreenAndKeepsNoOther) {
@@ -72,7 +73,7 @@ TEST(FrameQueue, KeepsTheEndOfAFilmThatAnotherFollowsWithoutAGap) {
 
 TEST(FrameQueue, ShowsTheOldestWhenTooManyWait) {
   Frames frames;
-  constexpr auto kMost = static_cast<int64_t>(FrameQueue::kMost);
+  constexpr auto kMost = static_cast<int64_t>(window::FrameQueue::kMost);
   for (int64_t i = 1; i <= kMost; ++i) frames.pass(10 * i);
   EXPECT_EQ(frames.show(0), -1);
   frames.pass(10 * (kMost + 1));

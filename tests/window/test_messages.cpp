@@ -20,55 +20,56 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-std::vector<ToWindow> to_window_messages() {
-  UserInput input;
+std::vector<window::ToWindow> to_window_messages() {
+  window::UserInput input;
   input.key = 32;
-  input.mouse = Mouse{{1, 2}, true, false, 0.5, false};
-  return {PictureMemory{1, "video/x-raw,format=RGB", 10, 230400},
+  input.mouse = window::Mouse{{1, 2}, true, false, 0.5, false};
+  return {window::PictureMemory{1, "video/x-raw,format=RGB", 10, 230400},
           some_frame(),
           some_state(),
-          ElementState(),
-          ChoicesSaved{true, "saved"},
-          TakePicture{"/tmp/a.png"},
+          window::ElementState(),
+          window::ChoicesSaved{true, "saved"},
+          window::TakePicture{"/tmp/a.png"},
           input,
-          CloseWindow()};
+          window::Close()};
 }
 
-std::vector<FromWindow> from_window_messages() {
-  return {Ask(),
-          SlotFree{1, 2},
-          ChangeSetting{"max-force", 2.5},
-          LeadHand{Eigen::Vector3d(1, 2, 3)},
-          LeadHand{},
-          ChooseObject{Eigen::Vector2d(0.25, 0.5)},
+std::vector<window::FromWindow> from_window_messages() {
+  return {window::Ask(),
+          window::SlotFree{1, 2},
+          window::ChangeSetting{"max-force", 2.5},
+          window::LeadHand{Eigen::Vector3d(1, 2, 3)},
+          window::LeadHand{},
+          window::ChooseObject{Eigen::Vector2d(0.25, 0.5)},
           some_choices(),
-          PlayFilm{true},
-          SeekFilm{1'500'000'000},
-          PictureTaken{"no room"},
-          CannotOpen{"no display", "start one"},
-          LoadPreset{"gentle"}};
+          window::PlayFilm{true},
+          window::SeekFilm{1'500'000'000},
+          window::PictureTaken{"no room"},
+          window::CannotOpen{"no display", "start one"},
+          window::LoadPreset{"gentle"}};
 }
 
 TEST(Messages, AreReadAsTheyWereWritten) {
-  for (const ToWindow& message : to_window_messages()) {
-    const Bytes bytes = to_bytes(message);
-    const std::optional<ToWindow> read = to_window(bytes);
+  for (const window::ToWindow& message : to_window_messages()) {
+    const Bytes bytes = window::to_bytes(message);
+    const std::optional<window::ToWindow> read = window::to_window(bytes);
     ASSERT_TRUE(read) << message.index();
     EXPECT_EQ(read->index(), message.index());
-    EXPECT_EQ(to_bytes(*read), bytes) << message.index();
+    EXPECT_EQ(window::to_bytes(*read), bytes) << message.index();
   }
-  for (const FromWindow& message : from_window_messages()) {
-    const Bytes bytes = to_bytes(message);
-    const std::optional<FromWindow> read = from_window(bytes);
+  for (const window::FromWindow& message : from_window_messages()) {
+    const Bytes bytes = window::to_bytes(message);
+    const std::optional<window::FromWindow> read = window::from_window(bytes);
     ASSERT_TRUE(read) << message.index();
     EXPECT_EQ(read->index(), message.index());
-    EXPECT_EQ(to_bytes(*read), bytes) << message.index();
+    EXPECT_EQ(window::to_bytes(*read), bytes) << message.index();
   }
 }
 
 /// What to_bytes() forgets is the same in both of its results above, so some members by name.
 TEST(Messages, HaveWhatIsDrawn) {
-  const auto frame = std::get<FrameShown>(*to_window(to_bytes(ToWindow(some_frame()))));
+  const auto frame = std::get<window::FrameShown>(
+      *window::to_window(window::to_bytes(window::ToWindow(some_frame()))));
   EXPECT_EQ(frame.slot, 7u);
   EXPECT_EQ(frame.report.film.name(), "/film.avi");
   EXPECT_EQ(frame.report.points.at(0).to.x_px, 68);
@@ -79,26 +80,30 @@ TEST(Messages, HaveWhatIsDrawn) {
   EXPECT_EQ(frame.report.touch.shading, some_frame().report.touch.shading);
   EXPECT_EQ(frame.report.speed_px_s, 321);
   EXPECT_EQ(*frame.report.track, "/film.haptic.flac");
-  const auto state = std::get<ElementState>(*to_window(to_bytes(ToWindow(some_state()))));
+  const auto state = std::get<window::ElementState>(
+      *window::to_window(window::to_bytes(window::ToWindow(some_state()))));
   EXPECT_EQ(state.device->last.tension_N[3], 2.5);
   EXPECT_EQ(state.device->ticks.at(1).wanted_N, Eigen::Vector3d(7, 8, 9));
   EXPECT_EQ(state.setting("controller")->choices.at(1).name, "b");
   EXPECT_EQ(state.rules->text(), some_state().rules->text());
   EXPECT_TRUE(state.has_ended);
   EXPECT_EQ(state.presets, some_state().presets);
-  const auto save = std::get<SaveChoices>(*from_window(to_bytes(FromWindow(some_choices()))));
+  const auto save = std::get<window::SaveChoices>(
+      *window::from_window(window::to_bytes(window::FromWindow(some_choices()))));
   EXPECT_EQ(save.edits.at(0).position, Eigen::Vector2d(0.25, 0.5));
   EXPECT_FALSE(save.edits.at(1).position);
 }
 
 TEST(Messages, ThatEndTooEarlyOrTooLateAreRefused) {
-  for (const ToWindow& message : {ToWindow(some_frame()), ToWindow(some_state())}) {
-    Bytes bytes = to_bytes(message);
+  for (const window::ToWindow& message :
+       {window::ToWindow(some_frame()), window::ToWindow(some_state())}) {
+    Bytes bytes = window::to_bytes(message);
     for (size_t size = 0; size < bytes.size(); ++size) {
-      EXPECT_FALSE(to_window(Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size))));
+      EXPECT_FALSE(
+          window::to_window(Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size))));
     }
     bytes.push_back(0);
-    EXPECT_FALSE(to_window(bytes));
+    EXPECT_FALSE(window::to_window(bytes));
   }
 }
 
@@ -109,8 +114,10 @@ TEST(Messages, ThatAreDamagedDoNoHarm) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   std::vector<Bytes> sources;
-  for (const ToWindow& message : to_window_messages()) sources.push_back(to_bytes(message));
-  for (const FromWindow& message : from_window_messages()) sources.push_back(to_bytes(message));
+  for (const window::ToWindow& message : to_window_messages())
+    sources.push_back(window::to_bytes(message));
+  for (const window::FromWindow& message : from_window_messages())
+    sources.push_back(window::to_bytes(message));
   for (int n = 0; n < 20000; ++n) {
     Bytes bytes = sources[random() % sources.size()];
     for (unsigned changes = 1 + random() % 4; changes > 0 && !bytes.empty(); --changes) {
@@ -135,11 +142,11 @@ TEST(Messages, ThatAreDamagedDoNoHarm) {
         }
       }
     }
-    if (const auto message = to_window(bytes)) {
-      ASSERT_TRUE(to_window(to_bytes(*message)));
+    if (const auto message = window::to_window(bytes)) {
+      ASSERT_TRUE(window::to_window(window::to_bytes(*message)));
     }
-    if (const auto message = from_window(bytes)) {
-      ASSERT_EQ(to_bytes(*message), bytes);
+    if (const auto message = window::from_window(bytes)) {
+      ASSERT_EQ(window::to_bytes(*message), bytes);
     }
   }
 }
@@ -149,11 +156,11 @@ class ChannelTest : public testing::Test {
   ChannelTest() {
     std::array<int, 2> ends{};
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
-    here = std::make_unique<Channel>(ends[0]);
-    there = std::make_unique<Channel>(ends[1]);
+    here = std::make_unique<window::Channel>(ends[0]);
+    there = std::make_unique<window::Channel>(ends[1]);
   }
 
-  std::unique_ptr<Channel> here, there;
+  std::unique_ptr<window::Channel> here, there;
 };
 
 TEST_F(ChannelTest, SendsPacketsWholeAndInOrderHoweverLittleRoomThereIs) {
@@ -213,7 +220,7 @@ TEST_F(ChannelTest, DoesNotUnderstandAnotherVersionNorNonsense) {
         {reinterpret_cast<uint8_t*>(const_cast<char*>(nonsense.data())), nonsense.size()}}) {
     std::array<int, 2> ends{};
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
-    Channel channel(ends[1]);
+    window::Channel channel(ends[1]);
     ASSERT_EQ(write(ends[0], bytes, count), static_cast<ssize_t>(count));
     channel.fill();
     EXPECT_FALSE(channel.next());

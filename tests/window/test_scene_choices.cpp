@@ -21,7 +21,7 @@ constexpr int64_t kSecond = 1'000'000'000, kFrame_ns = 40'000'000;
 /// A film with cuts at whole multiples of two seconds.
 class Film {
  public:
-  explicit Film(SceneChoices& choices) : choices_(choices) {}
+  explicit Film(window::SceneChoices& choices) : choices_(choices) {}
 
   void play(double from_s, double to_s, const std::vector<uint32_t>& objects) {
     const auto end_ns = static_cast<int64_t>(to_s * 1e9);
@@ -51,13 +51,13 @@ class Film {
   uint32_t click = 0;  ///< that the element knows of
 
  private:
-  SceneChoices& choices_;
+  window::SceneChoices& choices_;
   uint32_t epoch_ = 0;
   int64_t next_ns_ = 0, begin_ns_ = 0;
 };
 
-Sighting object(uint32_t id, double first_s, const Vector2d& position) {
-  Sighting made;
+window::Sighting object(uint32_t id, double first_s, const Vector2d& position) {
+  window::Sighting made;
   made.id = id;
   made.first_ns = static_cast<int64_t>(first_s * 1e9);
   made.first_position = position;
@@ -65,7 +65,7 @@ Sighting object(uint32_t id, double first_s, const Vector2d& position) {
 }
 
 /// The rules of the choices, beside those that there were.
-std::string rules(const SceneChoices& choices, const std::string& before = "") {
+std::string rules(const window::SceneChoices& choices, const std::string& before = "") {
   std::vector<FeelRule> now;
   if (!before.empty()) now = FeelRules(before).rules();
   for (const FeelEdit& edit : choices.edits()) now = edited(now, edit);
@@ -76,7 +76,7 @@ std::string rules(const SceneChoices& choices, const std::string& before = "") {
 
 class Choices : public testing::Test {
  protected:
-  SceneChoices choices;
+  window::SceneChoices choices;
   Film film{choices};
 };
 
@@ -221,7 +221,7 @@ TEST_F(Choices, NeedATimeInTheFilm) {
   choices.see({});
   choices.choose(object(1, 0, {0.25, 0.5}));
   film.play(0, 1, {1});
-  choices.choose(Sighting());
+  choices.choose(window::Sighting());
   EXPECT_TRUE(choices.edits().empty());
 }
 
@@ -242,7 +242,7 @@ FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objec
 }
 
 TEST(Sightings, AreTheFirstOfTheScene) {
-  Sightings sightings;
+  window::Sightings sightings;
   sightings.see(seen(0, 0, {1}));
   sightings.see(seen(1, 0, {1, 2}));
   ASSERT_TRUE(sightings.find(1) && sightings.find(2));
@@ -260,7 +260,7 @@ TEST(Sightings, AreTheFirstOfTheScene) {
 }
 
 TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
-  Sightings sightings;
+  window::Sightings sightings;
   sightings.see(seen(1, 0, {1}));
   FrameReport later = seen(2.5, 0, {1});
   sightings.see(later);
@@ -273,7 +273,7 @@ TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
   FrameReport report = seen(1, 0, {1});
   report.turn = Orientation(1);
-  Sightings sightings;
+  window::Sightings sightings;
   sightings.see(report);
   EXPECT_LT((sightings.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
@@ -289,7 +289,7 @@ FrameReport moment(double now_s, double length_s, const std::string& path = "/fi
 TEST(FilmStrip, MarksRulesAndChoices) {
   const FeelRules rules("0-10 camera; 20- largest");
   const std::vector<FeelEdit> edits = {{5 * kSecond, 15 * kSecond, Vector2d(0.5, 0.5)}};
-  const FilmStrip strip = film_strip(moment(50, 100), &rules, edits);
+  const window::FilmStrip strip = window::film_strip(moment(50, 100), &rules, edits);
   EXPECT_DOUBLE_EQ(strip.fraction(strip.now_ns), 0.5);
   ASSERT_EQ(strip.marks.size(), 3u);
   EXPECT_EQ(rule_text(strip.marks[0].rule), "0:00-0:05 camera");
@@ -305,13 +305,13 @@ TEST(FilmStrip, MarksRulesAndChoices) {
 }
 
 TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
-  EXPECT_EQ(film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
+  EXPECT_EQ(window::film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
   FrameReport unknown = moment(1, 100);
   unknown.frame.stamp.stream_ns = -1;
-  EXPECT_EQ(film_strip(unknown, nullptr, {}).length_ns, 0);
-  EXPECT_EQ(film_strip({}, nullptr, {}).length_ns, 0);
-  EXPECT_EQ(film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);
-  EXPECT_EQ(FilmStrip().fraction(kSecond), 0);
+  EXPECT_EQ(window::film_strip(unknown, nullptr, {}).length_ns, 0);
+  EXPECT_EQ(window::film_strip({}, nullptr, {}).length_ns, 0);
+  EXPECT_EQ(window::film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);
+  EXPECT_EQ(window::FilmStrip().fraction(kSecond), 0);
 }
 
 }  // namespace

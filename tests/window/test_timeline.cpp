@@ -12,20 +12,20 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-Moment moment(double time_s, double speed_px_s = 10) {
-  Moment made;
+window::Moment moment(double time_s, double speed_px_s = 10) {
+  window::Moment made;
   made.time_s = time_s;
   made.speed_px_s = speed_px_s;
   return made;
 }
 
 /// A moment every tenth of a second.
-void record(Timeline& timeline, int first, int last) {
+void record(window::Timeline& timeline, int first, int last) {
   for (int i = first; i <= last; ++i) timeline.add(moment(0.1 * i));
 }
 
 TEST(Timeline, RemembersAMinuteAndPlotsItsLastFiveSeconds) {
-  Timeline timeline;
+  window::Timeline timeline;
   EXPECT_TRUE(timeline.plotted().empty());
   EXPECT_EQ(timeline.newest_s(), 0);
   record(timeline, 0, 1000);
@@ -36,22 +36,22 @@ TEST(Timeline, RemembersAMinuteAndPlotsItsLastFiveSeconds) {
 }
 
 TEST(Timeline, PlotsMoreOrFewerSecondsWithinBounds) {
-  Timeline timeline;
+  window::Timeline timeline;
   record(timeline, 0, 1000);
   timeline.zoom(2);
   EXPECT_NEAR(timeline.plotted().first->time_s, 90, kRounding + 0.1);
   timeline.zoom(0.25);
   EXPECT_NEAR(timeline.plotted().first->time_s, 97.5, kRounding + 0.1);
   timeline.zoom(1e-9);
-  EXPECT_EQ(timeline.plotted_s(), Timeline::kLeastPlotted_s);
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kLeastPlotted_s);
   timeline.zoom(1e9);
-  EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s);
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMostPlotted_s);
   timeline.clear();
-  EXPECT_EQ(timeline.plotted_s(), Timeline::kMostPlotted_s) << "the choice stays";
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMostPlotted_s) << "the choice stays";
 }
 
 TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {
-  Timeline timeline;
+  window::Timeline timeline;
   timeline.add(moment(0, 500));
   record(timeline, 1, 1000);
   timeline.add(ForceTick{1'000'000'000, {1, 0, 0}});
@@ -67,7 +67,7 @@ TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {
 }
 
 /// A force of 2 N to the right, which drops to nothing for 40 ms at 0.5 s.
-void add_ticks(Timeline& timeline) {
+void add_ticks(window::Timeline& timeline) {
   for (int ms = 0; ms < 1000; ++ms) {
     ForceTick tick;
     tick.monotonic_ns = int64_t{1'000'000} * ms;
@@ -78,10 +78,10 @@ void add_ticks(Timeline& timeline) {
 }
 
 TEST(Timeline, AForceHasTheLowestAndHighestOfTheMillisecondsOfEachColumn) {
-  Timeline timeline;
+  window::Timeline timeline;
   add_ticks(timeline);
   // 10 ms each: the edges of the drop are in the columns 50 and 54.
-  const std::vector<ForceColumn> columns = timeline.columns(0, 1, 100);
+  const std::vector<window::ForceColumn> columns = timeline.columns(0, 1, 100);
   for (size_t i = 0; i < columns.size(); ++i) {
     ASSERT_FALSE(columns[i].is_empty) << i;
     EXPECT_EQ(columns[i].wanted_low_N.x(), 2) << i;
@@ -92,14 +92,14 @@ TEST(Timeline, AForceHasTheLowestAndHighestOfTheMillisecondsOfEachColumn) {
 }
 
 TEST(Timeline, AColumnWithoutATickContinuesTheOneBeforeExceptInAGap) {
-  Timeline timeline;
+  window::Timeline timeline;
   for (const int64_t ms : {0, 100, 200, 900}) {
     ForceTick tick;
     tick.monotonic_ns = 1'000'000 * ms;
     tick.delivered_N.x() = static_cast<double>(ms);
     timeline.add(tick);
   }
-  const std::vector<ForceColumn> columns = timeline.columns(0, 1, 20);  // of 50 ms
+  const std::vector<window::ForceColumn> columns = timeline.columns(0, 1, 20);  // of 50 ms
   EXPECT_EQ(columns[1].delivered_high_N.x(), 0);
   EXPECT_EQ(columns[3].delivered_high_N.x(), 100);
   EXPECT_TRUE(columns[10].is_empty) << "nothing is known of 0.7 s";
@@ -107,7 +107,7 @@ TEST(Timeline, AColumnWithoutATickContinuesTheOneBeforeExceptInAGap) {
 }
 
 TEST(Timeline, BeginsWithWhatThereIsInFewRoundSteps) {
-  Timeline timeline;
+  window::Timeline timeline;
   EXPECT_EQ(timeline.remembered_s(), 5) << "what the plots show";
   for (const auto& [at_s, remembered_s] : {std::pair{100.0, 5.0},
                                            {104.9, 5.0},
@@ -115,7 +115,7 @@ TEST(Timeline, BeginsWithWhatThereIsInFewRoundSteps) {
                                            {118.0, 20.0},
                                            {131.0, 60.0},
                                            {190.0, 60.0}}) {
-    Moment moment;
+    window::Moment moment;
     moment.time_s = at_s;
     timeline.add(moment);
     EXPECT_EQ(timeline.remembered_s(), remembered_s) << at_s;

@@ -14,8 +14,8 @@ namespace {
 
 using Changes = std::vector<std::pair<std::string, double>>;
 
-std::vector<Setting> settings_of(double alpha, double max_force_N, double mute = 0) {
-  std::vector<Setting> settings(3);
+std::vector<window::Setting> settings_of(double alpha, double max_force_N, double mute = 0) {
+  std::vector<window::Setting> settings(3);
   settings[0].name = "alpha";
   settings[0].value = alpha;
   settings[1].name = "max-force";
@@ -26,7 +26,7 @@ std::vector<Setting> settings_of(double alpha, double max_force_N, double mute =
 }
 
 TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
-  TwoSettings two;
+  window::TwoSettings two;
   two.see(settings_of(0.01, 3));
   EXPECT_TRUE(two.are_same());
   EXPECT_TRUE(two.use(1).empty()) << "the second one begins as the first";
@@ -41,7 +41,7 @@ TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
 
 // The element answers some time after it was asked.
 TEST(TwoSettings, AnAnswerFromBeforeChangesNothing) {
-  TwoSettings two;
+  window::TwoSettings two;
   two.see(settings_of(0.01, 3));
   two.use(1);
   two.see(settings_of(0.02, 3));
@@ -55,19 +55,19 @@ TEST(TwoSettings, AnAnswerFromBeforeChangesNothing) {
 }
 
 TEST(TwoSettings, WhatTheElementRefusesHoldsNothingUp) {
-  TwoSettings two;
+  window::TwoSettings two;
   two.see(settings_of(0.01, 3));
   two.use(1);
   two.see(settings_of(0.02, 3));
   two.use(0);
-  for (int i = 0; i <= TwoSettings::kPatience; ++i) two.see(settings_of(0.02, 3));
+  for (int i = 0; i <= window::TwoSettings::kPatience; ++i) two.see(settings_of(0.02, 3));
   two.see(settings_of(0.03, 3));
   EXPECT_EQ(two.use(1), (Changes{{"alpha", 0.02}}));
   EXPECT_EQ(two.other().at("alpha"), 0.03);
 }
 
 TEST(TwoSettings, StoppingTheForceIsPartOfNeither) {
-  TwoSettings two;
+  window::TwoSettings two;
   two.see(settings_of(0.01, 3));
   two.see(settings_of(0.01, 3, 1));
   EXPECT_TRUE(two.are_same());
@@ -75,14 +75,14 @@ TEST(TwoSettings, StoppingTheForceIsPartOfNeither) {
 }
 
 TEST(TwoSettings, AResetGivesBackWhatWasSeenFirst) {
-  TwoSettings two;
+  window::TwoSettings two;
   two.see(settings_of(0.01, 3));
   two.see(settings_of(0.05, 1));
   EXPECT_EQ(two.reset(), (Changes{{"alpha", 0.01}, {"max-force", 3}}));
 }
 
 TEST(TwoSettings, ControllerIsThatOfTheValues) {
-  const ControllerSettings controller = with_values(
+  const ControllerSettings controller = window::with_values(
       {ControllerKind::kLinear, 3, 0.01},
       {{"controller", static_cast<double>(ControllerKind::kAdaptive)}, {"max-force", 2}});
   EXPECT_EQ(controller.kind, ControllerKind::kAdaptive);

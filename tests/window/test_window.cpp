@@ -24,15 +24,16 @@ namespace spidar::test::window_test {
 namespace {
 
 TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
-  ElementState state;
-  state.settings = {{"mute", "", Setting::Kind::kSwitch, 0, 0, 1, {}},
-                    {"max-force", "", Setting::Kind::kNumber, 2, 0, 20, {}},
-                    {"arrow-scale", "", Setting::Kind::kNumber, 4, 0.1, 100, {}},
-                    {"controller", "", Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
-                    {"budget", "", Setting::Kind::kWhole, 0, 0, 1000000, {}},
-                    {"ts-offset", "", Setting::Kind::kWhole, 0, -1e10, 1e10, {}}};
+  window::ElementState state;
+  state.settings = {
+      {"mute", "", window::Setting::Kind::kSwitch, 0, 0, 1, {}},
+      {"max-force", "", window::Setting::Kind::kNumber, 2, 0, 20, {}},
+      {"arrow-scale", "", window::Setting::Kind::kNumber, 4, 0.1, 100, {}},
+      {"controller", "", window::Setting::Kind::kChoice, 1, 0, 0, {{0, "a"}, {1, "b"}}},
+      {"budget", "", window::Setting::Kind::kWhole, 0, 0, 1000000, {}},
+      {"ts-offset", "", window::Setting::Kind::kWhole, 0, -1e10, 1e10, {}}};
   auto source = std::make_shared<FakeSource>(state);
-  Window window(source);
+  window::Window window(source);
   look(window);  // the keys act on what it has read
   for (const int key :
        {GLFW_KEY_SPACE, GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_RIGHT, GLFW_KEY_LEFT, GLFW_KEY_F12}) {
@@ -57,14 +58,14 @@ TEST_F(WindowTest, KeysChangeSettingsAndQClosesTheWindow) {
 
 /// A window manager may choose any size, and a film may be as narrow as one line of the window.
 TEST_F(WindowTest, AnySizeIsDrawn) {
-  ElementState state;
+  window::ElementState state;
   DeviceView& device = state.device.emplace();
   device.name = "sim";
   device.geometry = load_profile("spidar-g").geometry;
   device.last.device = DeviceState::kRunning;
   device.last.delivered.force_N = {1, 1, 0};
   const auto source = std::make_shared<FakeSource>(state);
-  Window window(source);
+  window::Window window(source);
   FrameReport report;
   report.controller.max_force_N = 3;
   report.frame.wrench.force_N = {1, 1, 0};
@@ -73,7 +74,7 @@ TEST_F(WindowTest, AnySizeIsDrawn) {
   for (const double width : kSides) {
     for (const double height : kSides) {
       SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
-      UserInput input;
+      window::UserInput input;
       input.size_px = Eigen::Vector2d(width, height);
       window.input(input);
       ASSERT_EQ(window.take_picture("/dev/null", kLong), "");
@@ -87,7 +88,7 @@ TEST_F(WindowTest, SSavesAPicture) {
   const TemporaryFolder folder;
   std::filesystem::current_path(folder.path);
   {
-    Window window(std::make_shared<FakeSource>());
+    window::Window window(std::make_shared<FakeSource>());
     press(window, GLFW_KEY_S);
     look(window);
     look(window);
@@ -103,7 +104,7 @@ TEST_F(WindowTest, SSavesAPicture) {
 }
 
 TEST_F(WindowTest, APictureThatCannotBeWrittenSaysWhy) {
-  Window window(std::make_shared<FakeSource>());
+  window::Window window(std::make_shared<FakeSource>());
   EXPECT_NE(window.take_picture("/nowhere/picture.png", kLong).find("No such file"),
             std::string::npos);
 }
@@ -113,7 +114,7 @@ TEST_F(WindowTest, APictureReplacesNothingElse) {
   const std::string path = folder.path / "film.png";
   const std::string precious = "the only copy of a film";
   std::ofstream(path) << precious;
-  Window window(std::make_shared<FakeSource>());
+  window::Window window(std::make_shared<FakeSource>());
   EXPECT_NE(window.take_picture(path, kLong).find("not as a debug window left it"),
             std::string::npos);
   std::string found;
@@ -122,10 +123,10 @@ TEST_F(WindowTest, APictureReplacesNothingElse) {
 }
 
 TEST_F(WindowTest, CanBeMadeSmallAndLarge) {
-  Window window(std::make_shared<FakeSource>());
+  window::Window window(std::make_shared<FakeSource>());
   give(window, {});
   for (const auto& [width, height] : {std::pair{640, 480}, {200, 700}, {1270, 790}}) {
-    UserInput input;
+    window::UserInput input;
     input.size_px = Eigen::Vector2d(width, height);
     window.input(input);
     Screenshot shot;
@@ -138,7 +139,7 @@ TEST_F(WindowTest, CanBeMadeSmallAndLarge) {
 }
 
 TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
-  Window window(std::make_shared<FakeSource>());
+  window::Window window(std::make_shared<FakeSource>());
   give(window, {}, 60);
   EXPECT_NEAR(level_in(window), 60, 1);
   GstVideoInfo info;
@@ -167,7 +168,7 @@ int children() {
 
 TEST_F(WindowTest, MayBeOpenedAndClosedAtOnceAndLeavesNothing) {
   const int before = children();
-  for (int n = 0; n < 5; ++n) const Window window(std::make_shared<FakeSource>());
+  for (int n = 0; n < 5; ++n) const window::Window window(std::make_shared<FakeSource>());
   EXPECT_EQ(children(), before) << "a child nobody waited for";
 }
 
@@ -198,7 +199,7 @@ TEST_F(WindowTest, OneThatCannotBeStartedOrCrashesIsOneWarning) {
     SCOPED_TRACE(script);
     const OtherProgram other(script);
     auto source = std::make_shared<FakeSource>();
-    const Window window(source);
+    const window::Window window(source);
     source->wait_until_closed();
     ASSERT_EQ(source->warnings().size(), 1u);
     EXPECT_NE(source->warnings()[0].find(said), std::string::npos) << source->warnings()[0];
@@ -206,7 +207,7 @@ TEST_F(WindowTest, OneThatCannotBeStartedOrCrashesIsOneWarning) {
   const OtherProgram none("");
   setenv("SPIDAR_WINDOW", "/nowhere/spidar-window", 1);
   auto source = std::make_shared<FakeSource>();
-  const Window window(source);
+  const window::Window window(source);
   source->wait_until_closed();
   ASSERT_EQ(source->warnings().size(), 1u);
   EXPECT_NE(source->warnings()[0].find("No such file"), std::string::npos);
@@ -216,7 +217,7 @@ TEST_F(WindowTest, OneThatDoesNotAnswerIsKilledWhenItIsToClose) {
   const int before = children();
   {
     const OtherProgram deaf("exec sleep 1000");
-    const Window window(std::make_shared<FakeSource>());
+    const window::Window window(std::make_shared<FakeSource>());
     EXPECT_FALSE(window.wants_frame());
   }
   EXPECT_EQ(children(), before);
@@ -225,7 +226,7 @@ TEST_F(WindowTest, OneThatDoesNotAnswerIsKilledWhenItIsToClose) {
 TEST_F(WindowTest, WithoutOpenGl33IsAWarning) {
   setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
   auto source = std::make_shared<FakeSource>();
-  const Window window(source);
+  const window::Window window(source);
   source->wait_until_closed();
   unsetenv("MESA_GL_VERSION_OVERRIDE");
   ASSERT_EQ(source->warnings().size(), 1u);
@@ -240,7 +241,7 @@ TEST_F(WindowTest, EndsWithItsPlayer) {
   if (player == 0) {
     // The window inherits the end of the pipe, and so it is closed when the window has ended.
     ::close(ends[0]);
-    auto* const window = new Window(std::make_shared<FakeSource>());
+    auto* const window = new window::Window(std::make_shared<FakeSource>());
     const bool is_open = window->take_picture("/dev/null", kLong).empty();
     _exit(is_open ? 0 : 1);
   }

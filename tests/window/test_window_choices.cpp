@@ -43,7 +43,7 @@ class WindowChoices : public WindowTest {
     }
   }
   void click(uint32_t object) {
-    Mouse mouse;
+    window::Mouse mouse;
     mouse.at_px = map_of(look(window))({object == 1 ? 79.5 : 239.5, 119.5});
     for (const bool down : {true, false}) {
       mouse.down = down;
@@ -53,7 +53,7 @@ class WindowChoices : public WindowTest {
   }
 
   std::shared_ptr<FakeSource> source = std::make_shared<FakeSource>();
-  Window window{source};
+  window::Window window{source};
 };
 
 TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {

@@ -37,7 +37,7 @@ class WindowElement : public WindowTest {
     h->set_caps(make_caps("I420", 320, 240));
   }
 
-  std::shared_ptr<Window> window() {
+  std::shared_ptr<window::Window> window() {
     return gst_spidar_motion_state(GST_SPIDAR_MOTION(h->element())).display.window();
   }
 
@@ -72,7 +72,7 @@ TEST_F(WindowElement, ShowsTheFramesAndChangesSettings) {
   for (int n = 0; n < 4; ++n) push_next();
   const Screenshot shot = look(*window());
   // The picture is a texture of many grey levels, the panel behind it has one.
-  const Rect picture = lay_out(shot.width, shot.height, 1).picture;
+  const window::Rect picture = window::lay_out(shot.width, shot.height, 1).picture;
   int least = 255, most = 0;
   for (double x = picture.x + picture.width / 4; x < picture.x + picture.width / 2; ++x) {
     const int level = at(shot, x, picture.y + picture.height / 4).g;
@@ -102,7 +102,7 @@ TEST_F(WindowElement, ShowsTheFilmAndTheForceOfAHapticTrack) {
   for (int n = 0; n < 4; ++n) push_next();
   const Screenshot shot = look(*window());
   // 1.5 N to the right of the middle; max-force is a fifth of the height of the picture.
-  const PictureMap map = map_of(shot);
+  const window::PictureMap map = map_of(shot);
   const double arrow_px = 0.15 * map.shown.height;
   EXPECT_TRUE(is_white(at(shot, map.shown.x + map.shown.width / 2 + arrow_px / 2,
                           map.shown.y + map.shown.height / 2)));

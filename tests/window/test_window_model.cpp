@@ -61,11 +61,11 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
     for (const double scale : {0.5, 1.0, 2.0, 8.0}) {
       SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height) + " at " +
                    std::to_string(scale));
-      const WindowLayout l = lay_out(width, height, scale);
-      const std::vector<Rect> panels{l.picture, l.timeline, l.force,    l.speed,   l.gain,
-                                     l.status,  l.grip,     l.tensions, l.controls};
+      const window::Layout l = window::lay_out(width, height, scale);
+      const std::vector<window::Rect> panels{l.picture, l.timeline, l.force,    l.speed,   l.gain,
+                                             l.status,  l.grip,     l.tensions, l.controls};
       for (size_t i = 0; i < panels.size(); ++i) {
-        const Rect& a = panels[i];
+        const window::Rect& a = panels[i];
         EXPECT_GE(a.width, 0);
         EXPECT_GE(a.height, 0);
         EXPECT_GE(a.x, 0);
@@ -73,7 +73,7 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
         EXPECT_LE(a.right(), std::max(width, 1) + kRounding);
         EXPECT_LE(a.bottom(), std::max(height, 1) + kRounding);
         for (size_t k = 0; k < i; ++k) {
-          const Rect& b = panels[k];
+          const window::Rect& b = panels[k];
           const bool apart = a.right() <= b.x + kRounding || b.right() <= a.x + kRounding ||
                              a.bottom() <= b.y + kRounding || b.bottom() <= a.y + kRounding;
           EXPECT_TRUE(apart) << i << " and " << k;
@@ -85,7 +85,7 @@ TEST(Layout, PanelsFillAnyWindowAndDoNotOverlap) {
 
 TEST(Layout, TheTimelineHasRoomForItsLines) {
   for (const auto& [width, height] : {std::pair{1500, 900}, {1280, 720}, {800, 600}, {640, 480}}) {
-    const WindowLayout l = lay_out(width, height, 1);
+    const window::Layout l = window::lay_out(width, height, 1);
     EXPECT_GT(l.grip.x, l.picture.right());
     // Title, two buttons, with as much as above the title below: 7 + 14 + 4, 2 + 20, 6 + 16, 7.
     EXPECT_GE(l.timeline.height, 76) << height;
@@ -93,9 +93,9 @@ TEST(Layout, TheTimelineHasRoomForItsLines) {
 }
 
 TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {
-  const Rect panel{10, 20, 400, 300};
+  const window::Rect panel{10, 20, 400, 300};
   // Pixels twice as wide as high: 100 × 100 of them are 2 : 1.
-  const PictureMap map = map_picture(panel, 5, 6, 100, 100, 2);
+  const window::PictureMap map = window::map_picture(panel, 5, 6, 100, 100, 2);
   EXPECT_NEAR(map.shown.width, 400, kRounding);
   EXPECT_NEAR(map.shown.height, 200, kRounding);
   EXPECT_NEAR(map.shown.y, 70, kRounding);
@@ -108,7 +108,7 @@ TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
   StringGeometry geometry;
   geometry.count = 1;
   geometry.exit_m[0] = {0.1, 0, 0};
-  const GripProjection project({0, 0, 200, 100}, geometry);
+  const window::GripProjection project({0, 0, 200, 100}, geometry);
   const Eigen::Vector2d centre = project(Eigen::Vector3d::Zero());
   EXPECT_NEAR((centre - Eigen::Vector2d(100, 50)).norm(), 0, kRounding);
   EXPECT_GT(project({0.1, 0, 0}).x(), centre.x());
@@ -120,13 +120,13 @@ TEST(Layout, TheGripIsSeenFromTheRightAndAbove) {
 TEST(Settings, AreThoseThatCanBeChangedWhilePlaying) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
-  const std::shared_ptr<WindowSource> source =
+  const std::shared_ptr<window::Source> source =
       gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).display.source();
-  ElementState state;
+  window::ElementState state;
   source->read(state);
   EXPECT_EQ(state.no_force, "The video is paused.");
   EXPECT_GT(state.settings.size(), 10u);
-  for (const Setting& setting : state.settings) {
+  for (const window::Setting& setting : state.settings) {
     EXPECT_FALSE(setting.help.empty()) << setting.name;
   }
   EXPECT_EQ(state.setting("device"), nullptr) << "not while playing";
@@ -140,21 +140,21 @@ TEST(Settings, AreThoseThatCanBeChangedWhilePlaying) {
   gst_object_unref(element);
 }
 
-TEST(WindowLayout, TextGrowsWithAWindowLargerThanUsual) {
-  EXPECT_EQ(text_scale(1, 640, 480), 1);
-  EXPECT_EQ(text_scale(1, 1280, 800), 1);
-  EXPECT_EQ(text_scale(1, 1920, 1080), 1.25);  // by the height
-  EXPECT_EQ(text_scale(1, 2560, 900), 1.125);
-  EXPECT_EQ(text_scale(2, 2560, 1600), 2);
-  EXPECT_EQ(text_scale(2, 3840, 2400), 3);
+TEST(Layout, TextGrowsWithAWindowLargerThanUsual) {
+  EXPECT_EQ(window::text_scale(1, 640, 480), 1);
+  EXPECT_EQ(window::text_scale(1, 1280, 800), 1);
+  EXPECT_EQ(window::text_scale(1, 1920, 1080), 1.25);  // by the height
+  EXPECT_EQ(window::text_scale(1, 2560, 900), 1.125);
+  EXPECT_EQ(window::text_scale(2, 2560, 1600), 2);
+  EXPECT_EQ(window::text_scale(2, 3840, 2400), 3);
 }
 
 TEST(Settings, HavePresets) {
   init_gstreamer();
   auto* element = GST_ELEMENT(g_object_ref_sink(g_object_new(GST_TYPE_SPIDAR_MOTION, nullptr)));
-  const std::shared_ptr<WindowSource> source =
+  const std::shared_ptr<window::Source> source =
       gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).display.source();
-  ElementState state;
+  window::ElementState state;
   source->read(state);
   ASSERT_NE(std::find(state.presets.begin(), state.presets.end(), "gentle"), state.presets.end());
   const double before = state.value("alpha", 0);
@@ -165,7 +165,7 @@ TEST(Settings, HavePresets) {
 }
 
 TEST(Layout, OfATrackTheForceHasThePlaceOfTheSpeed) {
-  const WindowLayout l = lay_out(1280, 800, 1, false);
+  const window::Layout l = window::lay_out(1280, 800, 1, false);
   EXPECT_NEAR(l.force.right(), l.status.right(), kRounding);
   EXPECT_EQ(l.speed.width, 0);
   EXPECT_EQ(l.gain.width, 0);
@@ -173,7 +173,7 @@ TEST(Layout, OfATrackTheForceHasThePlaceOfTheSpeed) {
 
 TEST(Play, IsAskedOfTheApplication) {
   ElementHarness h("device=none");
-  const std::shared_ptr<WindowSource> source =
+  const std::shared_ptr<window::Source> source =
       gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
   GstBus* const bus = gst_bus_new();
   gst_element_set_bus(h.element(), bus);
@@ -189,7 +189,7 @@ TEST(Play, IsAskedOfTheApplication) {
 
 TEST(Seek, GoesUpstreamAsTimeInTheFilm) {
   ElementHarness h("device=none");
-  const std::shared_ptr<WindowSource> source =
+  const std::shared_ptr<window::Source> source =
       gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
   constexpr gint64 kTo_ns = 2'500'000'000;
   source->seek(kTo_ns);
@@ -204,8 +204,8 @@ TEST(Seek, GoesUpstreamAsTimeInTheFilm) {
 }
 
 TEST(GainCurve, IsThatOfTheController) {
-  Timeline timeline;
-  Moment moment;
+  window::Timeline timeline;
+  window::Moment moment;
   moment.speed_px_s = 400;
   moment.interval_s = 0.04;
   timeline.add(moment);

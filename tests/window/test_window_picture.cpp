@@ -13,16 +13,16 @@ namespace spidar::test::window_picture_test {
 namespace {
 
 TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
-  ElementState state;
-  state.settings = {{"arrow-scale", "", Setting::Kind::kNumber, 5, 0.1, 100, {}}};
-  Window window(std::make_shared<FakeSource>(state));
+  window::ElementState state;
+  state.settings = {{"arrow-scale", "", window::Setting::Kind::kNumber, 5, 0.1, 100, {}}};
+  window::Window window(std::make_shared<FakeSource>(state));
   FrameReport report;
   // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
   report.points.push_back({1, {60, 80}, {68, 80}, PointOwner::kObject, 1, false});
   report.frame.wrench.force_N = {0, -3, 0};  // down, the most there is
   give(window, report);
   Screenshot shot = look(window);
-  const PictureMap map = map_of(shot);
+  const window::PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {
     const Eigen::Vector2d p = map({x_px, y_px});
     return at(shot, p.x(), p.y());
@@ -48,11 +48,11 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
 }
 
 TEST_F(WindowTest, HListsTheKeysOverThePicture) {
-  Window window(std::make_shared<FakeSource>());
+  window::Window window(std::make_shared<FakeSource>());
   give(window, {}, 200);
   const auto level = [&] {
     const Screenshot shot = look(window);
-    const Rect picture = lay_out(shot.width, shot.height, 1).picture;
+    const window::Rect picture = window::lay_out(shot.width, shot.height, 1).picture;
     int dark = 0;  // in the line across the middle
     for (double x = picture.x; x < picture.right(); ++x) {
       dark += at(shot, x, picture.y + picture.height / 2).r < 60;
@@ -67,7 +67,7 @@ TEST_F(WindowTest, HListsTheKeysOverThePicture) {
 }
 
 TEST_F(WindowTest, ATensionBarHasItsHeight) {
-  ElementState state;
+  window::ElementState state;
   state.device.emplace();
   DeviceView& device = *state.device;
   device.name = "known";
@@ -77,9 +77,9 @@ TEST_F(WindowTest, ATensionBarHasItsHeight) {
   device.min_tension_N.head<2>() << 0.5, 0.5;
   device.max_tension_N.head<2>() << 5, 5;
   device.last.tension_N.head<2>() << 4, 1.5;
-  Window window(std::make_shared<FakeSource>(state));
+  window::Window window(std::make_shared<FakeSource>(state));
   const Screenshot shot = look(window);
-  const WindowLayout layout = lay_out(shot.width, shot.height, 1);
+  const window::Layout layout = window::lay_out(shot.width, shot.height, 1);
   const double fraction[] = {0.8, 0.3};
   for (int i = 0; i < 2; ++i) {
     // The middle of the string's bar is where its column has most of the bar's colours.
@@ -105,10 +105,10 @@ TEST_F(WindowTest, ATensionBarHasItsHeight) {
 
 TEST_F(WindowTest, PAsksThePlayerToPauseAndToPlay) {
   for (const bool is_playing : {true, false}) {
-    ElementState state;
+    window::ElementState state;
     state.is_playing = is_playing;
     auto source = std::make_shared<FakeSource>(state);
-    Window window(source);
+    window::Window window(source);
     look(window);
     press(window, GLFW_KEY_P);
     EXPECT_EQ(source->wait_for_plays(1)[0], !is_playing);
@@ -116,11 +116,11 @@ TEST_F(WindowTest, PAsksThePlayerToPauseAndToPlay) {
 }
 
 TEST_F(WindowTest, AtTheEndOfTheFilmPPlaysItAgain) {
-  ElementState state;
+  window::ElementState state;
   state.is_playing = true;
   state.has_ended = true;
   auto source = std::make_shared<FakeSource>(state);
-  Window window(source);
+  window::Window window(source);
   look(window);
   press(window, GLFW_KEY_P);
   EXPECT_EQ(source->wait_for_seeks(1)[0], 0);
@@ -128,13 +128,13 @@ TEST_F(WindowTest, AtTheEndOfTheFilmPPlaysItAgain) {
 }
 
 TEST_F(WindowTest, TheKeysOneAndTwoChangeBetweenTwoSettings) {
-  ElementState state;
+  window::ElementState state;
   state.settings.resize(1);
   state.settings[0].name = "max-force";
   state.settings[0].high = 20;
   state.settings[0].value = 2;
   auto source = std::make_shared<FakeSource>(state);
-  Window window(source);
+  window::Window window(source);
   look(window);
   press(window, GLFW_KEY_2);
   look(window);
@@ -147,12 +147,12 @@ TEST_F(WindowTest, TheKeysOneAndTwoChangeBetweenTwoSettings) {
 }
 
 TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
-  ElementState state;
+  window::ElementState state;
   DeviceView& device = state.device.emplace();
   device.name = "sim";
   device.last.playing = true;
   device.last.running_ns = 1'000'000'000;
-  Window window(std::make_shared<FakeSource>(state));
+  window::Window window(std::make_shared<FakeSource>(state));
   FrameReport report;
   for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
     report.frame.stamp.running_ns = running_ns;
@@ -164,7 +164,7 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
 
 TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   auto source = std::make_shared<FakeSource>();
-  Window window(source);
+  window::Window window(source);
   FrameReport report;
   MovingObject object;
   object.id = 3;
@@ -173,9 +173,9 @@ TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   object.size_px = {60, 60};
   report.frame.objects.push_back(object);
   give(window, report);
-  const PictureMap map = map_of(look(window));
+  const window::PictureMap map = map_of(look(window));
   const auto click = [&](double x_px, double y_px) {
-    Mouse mouse;
+    window::Mouse mouse;
     mouse.at_px = map({x_px, y_px});
     mouse.down = true;
     set_mouse(window, mouse);

@@ -17,7 +17,7 @@ namespace {
 /// A few operations on numbers up to 1000.
 constexpr double kRounding = 1e-12;
 /// The picture in the window.
-const Rect kPicture{100, 50, 400, 200};
+const window::Rect kPicture{100, 50, 400, 200};
 
 /// 59 mm × 64 mm.
 TouchMap gcc_map() {
@@ -59,9 +59,9 @@ TEST(TouchMark, IsWhereTheGripAndTheProxyAre) {
 }
 
 TEST(MouseHand, HoldsTheGripWhereItIsPressedUntilItIsReleased) {
-  MouseHand hand;
+  window::MouseHand hand;
   const TouchMap map = gcc_map();
-  Mouse mouse;
+  window::Mouse mouse;
   mouse.at_px = {400, 100};  // three quarters from the left, a quarter from the top
   EXPECT_FALSE(hand.update(mouse, kPicture, map)) << "nothing is pressed";
   EXPECT_TRUE(hand.is_over());
@@ -80,9 +80,9 @@ TEST(MouseHand, HoldsTheGripWhereItIsPressedUntilItIsReleased) {
 }
 
 TEST(MouseHand, BeginsInThePictureOnlyAndNotOnAWidget) {
-  MouseHand hand;
+  window::MouseHand hand;
   const TouchMap map = gcc_map();
-  Mouse mouse;
+  window::Mouse mouse;
   mouse.down = true;
   mouse.at_px = {99, 100};
   EXPECT_FALSE(hand.update(mouse, kPicture, map));
@@ -98,43 +98,43 @@ TEST(MouseHand, BeginsInThePictureOnlyAndNotOnAWidget) {
 }
 
 TEST(MouseHand, WheelAndShiftMoveItDeeperAndNearer) {
-  MouseHand hand;
+  window::MouseHand hand;
   const TouchMap map = gcc_map();
-  Mouse mouse;
+  window::Mouse mouse;
   mouse.at_px = {300, 150};
   mouse.down = true;
   mouse.wheel = 3;  // away from the user
   auto to_m = hand.update(mouse, kPicture, map);
   ASSERT_TRUE(to_m);
-  EXPECT_NEAR(to_m->z(), -3 * MouseHand::kNotch_m, kRounding);
+  EXPECT_NEAR(to_m->z(), -3 * window::MouseHand::kNotch_m, kRounding);
   mouse.wheel = 0;
   mouse.shift = true;
   mouse.at_px = {310, 130};  // a tenth of the picture up, of 64 mm
   to_m = hand.update(mouse, kPicture, map);
   ASSERT_TRUE(to_m);
-  EXPECT_NEAR(to_m->z(), -3 * MouseHand::kNotch_m - 0.0064, kRounding);
+  EXPECT_NEAR(to_m->z(), -3 * window::MouseHand::kNotch_m - 0.0064, kRounding);
   EXPECT_LT(to_m->head<2>().norm(), kRounding) << "where it was";
   mouse.wheel = -1000;
-  EXPECT_NEAR(hand.update(mouse, kPicture, map)->z(), MouseHand::kFurthest_m, kRounding);
+  EXPECT_NEAR(hand.update(mouse, kPicture, map)->z(), window::MouseHand::kFurthest_m, kRounding);
   hand.let_go();
-  EXPECT_NEAR(hand.z_m(), MouseHand::kFurthest_m, kRounding) << "the depth stays";
+  EXPECT_NEAR(hand.z_m(), window::MouseHand::kFurthest_m, kRounding) << "the depth stays";
 }
 
 TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {
-  ElementState state;
-  state.settings = {{"touch-stiffness", "", Setting::Kind::kNumber, 700, 10, 800, {}}};
+  window::ElementState state;
+  state.settings = {{"touch-stiffness", "", window::Setting::Kind::kNumber, 700, 10, 800, {}}};
   TouchScene touch;
   touch.stiffness_N_m = 400;
   const Wrench felt{{0, 1, 0}, {}};
-  EXPECT_EQ(felt_line(state, touch, felt), "felt") << "touch=off";
-  EXPECT_EQ(felt_line(state, touch, {}), "felt within the last second");
+  EXPECT_EQ(window::felt_line(state, touch, felt), "felt") << "touch=off";
+  EXPECT_EQ(window::felt_line(state, touch, {}), "felt within the last second");
   touch.on = true;
-  EXPECT_EQ(felt_line(state, touch, felt),
+  EXPECT_EQ(window::felt_line(state, touch, felt),
             "felt, at 400 N/m instead of 700: the device's drives are slow");
   touch.stiffness_N_m = 700;
-  EXPECT_EQ(felt_line(state, touch, felt), "felt");
+  EXPECT_EQ(window::felt_line(state, touch, felt), "felt");
   state.no_force = "the grip is in front of the surface";
-  EXPECT_EQ(felt_line(state, touch, felt), "not felt: " + state.no_force);
+  EXPECT_EQ(window::felt_line(state, touch, felt), "not felt: " + state.no_force);
 }
 
 TEST(FeltLine, TellsAPauseFromASeekAndFromTheEnd) {

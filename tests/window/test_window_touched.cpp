@@ -19,8 +19,8 @@ bool is_orange(const Color& c) {
 
 /// A simulated SPIDAR-GCC whose grip presses on the surface in the left upper quarter; the proxy is
 /// in the right one.
-ElementState touching_state() {
-  ElementState state;
+window::ElementState touching_state() {
+  window::ElementState state;
   state.device.emplace();
   DeviceView& device = *state.device;
   device.name = "sim";
@@ -43,12 +43,12 @@ FrameReport touched_facts(const StringGeometry& geometry) {
 }
 
 TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
-  const ElementState state = touching_state();
-  Window window(std::make_shared<FakeSource>(state));
+  const window::ElementState state = touching_state();
+  window::Window window(std::make_shared<FakeSource>(state));
   FrameReport report = touched_facts(state.device->geometry);
   give(window, report, 40);
   const Screenshot shot = look(window);
-  const PictureMap map = map_of(shot);
+  const window::PictureMap map = map_of(shot);
   const auto color = [&](double x_px, double y_px) {
     const Eigen::Vector2d p = map({x_px, y_px});
     return at(shot, p.x(), p.y());
@@ -63,9 +63,9 @@ TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
 
 /// The shadow is in the left upper quarter of what a viewer sees.
 TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
-  const ElementState state = touching_state();
+  const window::ElementState state = touching_state();
   for (const int quarters : {0, 1}) {
-    Window window(std::make_shared<FakeSource>(state));
+    window::Window window(std::make_shared<FakeSource>(state));
     FrameReport report = touched_facts(state.device->geometry);
     report.turn = Orientation(quarters, true);
     report.touch.shading.assign(HeightField::kCells, '\x80');
@@ -75,7 +75,7 @@ TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
     }
     give(window, report, 128);
     const Screenshot shot = look(window);
-    const PictureMap map = map_of(shot);
+    const window::PictureMap map = map_of(shot);
     int dark = 0;
     for (const double x : {0.1, 0.9}) {
       for (const double y : {0.1, 0.9}) {
@@ -95,11 +95,11 @@ TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
 
 TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
   auto source = std::make_shared<FakeSource>(touching_state());
-  Mouse mouse;
+  window::Mouse mouse;
   {
-    Window window(source);
+    window::Window window(source);
     give(window, {});
-    const Rect picture = map_of(look(window)).shown;
+    const window::Rect picture = map_of(look(window)).shown;
     mouse.at_px = {picture.x + 0.75 * picture.width, picture.y + 0.25 * picture.height};
     mouse.down = true;
     set_mouse(window, mouse);
@@ -119,13 +119,13 @@ TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
 }
 
 TEST_F(WindowTest, TheMouseLeadsNoOtherHand) {
-  ElementState state = touching_state();
+  window::ElementState state = touching_state();
   state.device->has_hand = false;
   auto source = std::make_shared<FakeSource>(state);
-  Window window(source);
+  window::Window window(source);
   give(window, {});
-  const Rect picture = map_of(look(window)).shown;
-  Mouse mouse;
+  const window::Rect picture = map_of(look(window)).shown;
+  window::Mouse mouse;
   mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
   mouse.down = true;
   set_mouse(window, mouse);

@@ -58,7 +58,7 @@ inline bool is_white(const Color& c) {
 }
 
 /// One that has been asked for everything before is answered; what came before is in it.
-inline Screenshot look(Window& window) {
+inline Screenshot look(window::Window& window) {
   const TemporaryFolder folder;
   const std::string path = folder.path / "window.png";
   const std::string error = window.take_picture(path, kLong);
@@ -87,7 +87,7 @@ class WindowTest : public testing::Test {
   }
 
   /// A grey frame of 320 × 240 with `report`, once the window wants one.
-  static void give(Window& window, FrameReport report, int level = 128) {
+  static void give(window::Window& window, FrameReport report, int level = 128) {
     GstVideoInfo info;
     gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
     GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
@@ -102,23 +102,24 @@ class WindowTest : public testing::Test {
     gst_buffer_unref(buffer);
   }
 
-  static void press(Window& window, int key) {
-    UserInput input;
+  static void press(window::Window& window, int key) {
+    window::UserInput input;
     input.key = key;
     window.input(input);
   }
-  static void set_mouse(Window& window, const Mouse& mouse) {
-    UserInput input;
+  static void set_mouse(window::Window& window, const window::Mouse& mouse) {
+    window::UserInput input;
     input.mouse = mouse;
     window.input(input);
   }
 
-  static PictureMap map_of(const Screenshot& shot) {
-    return map_picture(lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240, 1);
+  static window::PictureMap map_of(const Screenshot& shot) {
+    return window::map_picture(window::lay_out(shot.width, shot.height, 1).picture, 0, 0, 320, 240,
+                               1);
   }
 
   /// Grey level of the frame in the window, where nothing is drawn over it.
-  static int level_in(Window& window) {
+  static int level_in(window::Window& window) {
     const Screenshot shot = look(window);
     const Eigen::Vector2d p = map_of(shot)({100, 100});
     return at(shot, p.x(), p.y()).g;

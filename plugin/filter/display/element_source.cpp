@@ -23,8 +23,8 @@ Ref<GstElement> hold(GWeakRef& weak) {
   return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
 }
 
-std::vector<Setting::Choice> choices_of(const GParamSpecEnum* spec) {
-  std::vector<Setting::Choice> choices;
+std::vector<window::Setting::Choice> choices_of(const GParamSpecEnum* spec) {
+  std::vector<window::Setting::Choice> choices;
   for (guint i = 0; i < spec->enum_class->n_values; ++i) {
     const GEnumValue& value = spec->enum_class->values[i];
     choices.push_back({value.value, value.value_nick});
@@ -44,25 +44,25 @@ double number_of(const GValue* value) {
 
 /// Returns false for a property that the element inherits, that cannot be changed while playing or
 /// is not a number.
-bool describe(GstElement* element, const GParamSpec* spec, Setting& setting) {
+bool describe(GstElement* element, const GParamSpec* spec, window::Setting& setting) {
   if (spec->owner_type != G_OBJECT_TYPE(element)) return false;
   if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
   if ((spec->flags & G_PARAM_READWRITE) != G_PARAM_READWRITE) return false;
   setting.name = g_param_spec_get_name(const_cast<GParamSpec*>(spec));
   setting.help = g_param_spec_get_blurb(const_cast<GParamSpec*>(spec));
   if (G_IS_PARAM_SPEC_BOOLEAN(spec)) {
-    setting.kind = Setting::Kind::kSwitch;
+    setting.kind = window::Setting::Kind::kSwitch;
     setting.high = 1;
   } else if (G_IS_PARAM_SPEC_ENUM(spec)) {
-    setting.kind = Setting::Kind::kChoice;
+    setting.kind = window::Setting::Kind::kChoice;
     setting.choices = choices_of(G_PARAM_SPEC_ENUM(spec));
   } else if (G_IS_PARAM_SPEC_DOUBLE(spec)) {
-    setting.kind = Setting::Kind::kNumber;
+    setting.kind = window::Setting::Kind::kNumber;
     setting.low = G_PARAM_SPEC_DOUBLE(spec)->minimum;
     setting.high = G_PARAM_SPEC_DOUBLE(spec)->maximum;
     setting.usual = G_PARAM_SPEC_DOUBLE(spec)->default_value;
   } else if (G_IS_PARAM_SPEC_INT64(spec)) {
-    setting.kind = Setting::Kind::kWhole;
+    setting.kind = window::Setting::Kind::kWhole;
     setting.low = static_cast<double>(G_PARAM_SPEC_INT64(spec)->minimum);
     setting.high = static_cast<double>(G_PARAM_SPEC_INT64(spec)->maximum);
   } else {
@@ -79,7 +79,7 @@ bool is_offered(const std::string& setting) {
   return std::find(kOfPrograms.begin(), kOfPrograms.end(), setting) == kOfPrograms.end();
 }
 
-double get_value(GObject* object, const Setting& setting) {
+double get_value(GObject* object, const window::Setting& setting) {
   GValue value = G_VALUE_INIT;
   g_object_get_property(object, setting.name.c_str(), &value);
   const double result = number_of(&value);
@@ -87,7 +87,7 @@ double get_value(GObject* object, const Setting& setting) {
   return result;
 }
 
-class ElementSource final : public WindowSource {
+class ElementSource final : public window::Source {
  public:
   ElementSource(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
                 MotionChoice& choice)
@@ -96,7 +96,7 @@ class ElementSource final : public WindowSource {
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
 
-  void read(ElementState& state) override {
+  void read(window::ElementState& state) override {
     const Ref<GstElement> held = hold(element_);
     if (!held) return;
     state = {};
@@ -108,7 +108,7 @@ class ElementSource final : public WindowSource {
     }
     state.settings = settings_;
     state.presets = presets_;
-    for (Setting& setting : state.settings) {
+    for (window::Setting& setting : state.settings) {
       setting.value = get_value(G_OBJECT(held.get()), setting);
     }
     state.rules = choice_.rules();
@@ -124,9 +124,9 @@ class ElementSource final : public WindowSource {
     if (!held) return;
     const GParamSpec* spec =
         g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
-    Setting setting;
+    window::Setting setting;
     if (!spec || !describe(held.get(), spec, setting)) return;
-    const double value = setting.kind == Setting::Kind::kChoice
+    const double value = setting.kind == window::Setting::Kind::kChoice
                              ? wanted
                              : std::clamp(wanted, setting.low, setting.high);
     const char* property = setting.name.c_str();
@@ -158,7 +158,7 @@ class ElementSource final : public WindowSource {
     if (held) choice_.mouse().keep(position);
   }
 
-  ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
+  window::ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) override {
     const Ref<GstElement> held = hold(element_);
     if (!held) return {false, "Not saved: the element is gone."};
     gchar* property = nullptr;
@@ -212,11 +212,11 @@ class ElementSource final : public WindowSource {
   }
 
  private:
-  static void list_settings(GstElement* element, std::vector<Setting>& settings) {
+  static void list_settings(GstElement* element, std::vector<window::Setting>& settings) {
     guint count = 0;
     GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
     for (guint i = 0; i < count; ++i) {
-      Setting setting;
+      window::Setting setting;
       if (describe(element, specs[i], setting) && is_offered(setting.name)) {
         settings.push_back(std::move(setting));
       }
@@ -235,15 +235,15 @@ class ElementSource final : public WindowSource {
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
-  std::vector<Setting> settings_;  ///< without their values
+  std::vector<window::Setting> settings_;  ///< without their values
   std::vector<std::string> presets_;
 };
 
 }  // namespace
 
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, HapticOutput& output,
-                                                  const NoForceWatch& no_force,
-                                                  MotionChoice& choice) {
+std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
+                                                    const NoForceWatch& no_force,
+                                                    MotionChoice& choice) {
   return std::make_shared<ElementSource>(element, output, no_force, choice);
 }
 

@@ -27,8 +27,8 @@ inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
 
 /// Keeps no reference: the element may go while the window is open. The others are those of
 /// `element`, and live as long.
-std::shared_ptr<WindowSource> make_element_source(GstElement* element, HapticOutput& output,
-                                                  const NoForceWatch& no_force,
-                                                  MotionChoice& choice);
+std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
+                                                    const NoForceWatch& no_force,
+                                                    MotionChoice& choice);
 
 }  // namespace spidar

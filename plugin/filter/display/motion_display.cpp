@@ -19,7 +19,7 @@ void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, Gst
   const DisplayProperties& properties = settings.display;
   const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
   hand_.see(report, width, height);
-  const std::shared_ptr<Window> shown_in = window();
+  const std::shared_ptr<window::Window> shown_in = window();
   const bool draws = properties.overlay != OverlayKind::kNone;
   if (!report.has_wrench() || !(draws || properties.attach_meta || shown_in)) {
     owners_.reset();
@@ -69,25 +69,25 @@ void MotionDisplay::follow_film(const FrameReport& report) {
   }
 }
 
-std::shared_ptr<Window> MotionDisplay::window() const {
+std::shared_ptr<window::Window> MotionDisplay::window() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return window_;
 }
 
-std::shared_ptr<WindowSource> MotionDisplay::source() const {
+std::shared_ptr<window::Source> MotionDisplay::source() const {
   return make_element_source(element_, output_, no_force_, choice_);
 }
 
 void MotionDisplay::open_window() {
   if (window()) return;
-  auto new_window = std::make_shared<Window>(source());
+  auto new_window = std::make_shared<window::Window>(source());
   // If another thread has opened a window meanwhile, this one closes at the end.
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!window_) window_.swap(new_window);
 }
 
 void MotionDisplay::close_window() {
-  std::shared_ptr<Window> closing;
+  std::shared_ptr<window::Window> closing;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     closing.swap(window_);
@@ -98,7 +98,7 @@ void MotionDisplay::close_window() {
 
 std::string MotionDisplay::save_window(const std::string& path) {
   constexpr std::chrono::seconds kTimeout{5};
-  const std::shared_ptr<Window> shown = window();
+  const std::shared_ptr<window::Window> shown = window();
   return shown ? shown->take_picture(path, kTimeout) : "there is no debug window";
 }
 

@@ -46,12 +46,12 @@ class MotionDisplay {
   /// Led by the mouse of a sink.
   SinkHand& hand() { return hand_; }
   /// The element as a window sees it.
-  std::shared_ptr<WindowSource> source() const;
+  std::shared_ptr<window::Source> source() const;
   void open_window();
   /// Returns when it is gone, or after Window::kPatience.
   void close_window();
   /// Tests, and save_window(): null while there is none.
-  std::shared_ptr<Window> window() const;
+  std::shared_ptr<window::Window> window() const;
   /// Writes what the window shows to a PNG file. Empty, or why that cannot be done.
   std::string save_window(const std::string& path);
 
@@ -70,7 +70,7 @@ class MotionDisplay {
   uint32_t epoch_ = 0;
 
   mutable std::mutex mutex_;  ///< never held while a window opens or closes
-  std::shared_ptr<Window> window_;
+  std::shared_ptr<window::Window> window_;
 };
 
 }  // namespace spidar

@@ -13,8 +13,8 @@
 
 namespace spidar {
 
-/// While the picture is touched, the mouse leads the hand as in the debug window, see MouseHand.
-/// Thread-safe.
+/// While the picture is touched, the mouse leads the hand as in the debug window, see
+/// window::MouseHand. Thread-safe.
 class SinkHand {
  public:
   explicit SinkHand(HapticOutput& output) : output_(output) {}
@@ -55,9 +55,9 @@ class SinkHand {
   std::mutex mutex_;
   bool touched_ = false;
   TouchMap map_;
-  Rect picture_;  ///< what is touched, as fractions of the frame
-  Mouse mouse_;   ///< its position is a fraction of the frame, too
-  MouseHand hand_;
+  window::Rect picture_;  ///< what is touched, as fractions of the frame
+  window::Mouse mouse_;   ///< its position is a fraction of the frame, too
+  window::MouseHand hand_;
 };
 
 }  // namespace spidar

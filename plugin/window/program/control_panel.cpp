@@ -7,7 +7,7 @@
 
 #include "plugin/window/program/panels.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 /// A slider is logarithmic over a range of more than kLinear, or where the usual value would be in
@@ -278,4 +278,4 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   brush.list.PopClipRect();
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

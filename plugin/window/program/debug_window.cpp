@@ -21,7 +21,7 @@
 #include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 /// At a scale of 1: what is smaller cannot be read.
@@ -164,7 +164,7 @@ void DebugWindow::read() {
   const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
   const bool plays = state_.device && state_.device->last.playing;
-  std::optional<WindowFrame> frame =
+  std::optional<QueuedFrame> frame =
       link_.frames().show(plays ? std::optional(state_.device->last.running_ns) : std::nullopt);
   const int width = std::max(shown_width_, 1);
   if (frame) {
@@ -236,7 +236,7 @@ ShownPicture DebugWindow::shown_picture() const {
 
 void DebugWindow::draw_panels(int width, int height) {
   const bool has_speed = !report_.track;
-  const WindowLayout layout = lay_out(width, height, scale_, has_speed);
+  const Layout layout = lay_out(width, height, scale_, has_speed);
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
   const ControllerSettings& controller = report_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
@@ -310,4 +310,4 @@ void DebugWindow::save_here() {
   say(error.empty() ? std::string("saved ") + path : std::string(path) + ": " + error);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -17,7 +17,7 @@
 
 struct GLFWwindow;
 
-namespace spidar {
+namespace spidar::window {
 
 class DebugWindow {
  public:
@@ -47,7 +47,7 @@ class DebugWindow {
   bool offers_hand() const;
   std::string hint() const;
   void use_mouse(const Mouse& mouse, const Rect& picture);
-  void use_plots(const Mouse& mouse, const WindowLayout& layout);
+  void use_plots(const Mouse& mouse, const Layout& layout);
   SceneChoices& choices();
   void follow_choices(const std::string& film_before);
   void choose(const ChoiceRequest& request);
@@ -96,4 +96,4 @@ class DebugWindow {
   double note_until_s_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -11,7 +11,7 @@
 
 #include "plugin/window/program/debug_window.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr double kZoom = 1.25;
@@ -141,7 +141,7 @@ void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
 }
 
 /// The wheel shows more or less of the last seconds.
-void DebugWindow::use_plots(const Mouse& mouse, const WindowLayout& layout) {
+void DebugWindow::use_plots(const Mouse& mouse, const Layout& layout) {
   const bool is_over =
       !mouse.taken && (layout.force.has(mouse.at_px) || layout.speed.has(mouse.at_px));
   if (is_over && mouse.wheel != 0) timeline_.zoom(std::pow(kZoom, -mouse.wheel));
@@ -217,4 +217,4 @@ void DebugWindow::end_choices() {
   save_choices(&SceneChoices::has_late_end);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -8,7 +8,7 @@
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
@@ -195,4 +195,4 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
   brush.list.PopClipRect();
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

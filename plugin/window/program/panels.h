@@ -17,7 +17,7 @@
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// The picture (texture of the whole frame; 0: none yet) and what is drawn over it.
 struct ShownPicture {
@@ -92,4 +92,4 @@ void explain_above(const Rect& panel, const char* text);
 
 /// The mouse in the frame of the window that is drawn, from Dear ImGui.
 Mouse read_mouse();
-}  // namespace spidar
+}  // namespace spidar::window

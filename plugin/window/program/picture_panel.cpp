@@ -12,7 +12,7 @@
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of points without detail
@@ -267,4 +267,4 @@ void draw_hint(const Brush& brush, const Rect& picture, const std::string& line)
                      line.c_str(), nullptr, most);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

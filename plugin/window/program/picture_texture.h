@@ -16,7 +16,7 @@
 #include "core/touch/height_field.h"
 #include "plugin/window/view/shared_pictures.h"
 
-namespace spidar {
+namespace spidar::window {
 
 class PictureTexture {
  public:
@@ -134,4 +134,4 @@ class PictureTexture {
   GstBuffer* converted_ = nullptr;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -7,7 +7,7 @@
 #include <poll.h>
 #include <utility>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kSavePatience{2};
 
 }  // namespace
 
-void FrameQueue::add(WindowFrame frame) {
+void FrameQueue::add(QueuedFrame frame) {
   // Without a flush, those of the run before are still shown first.
   if (!waiting_.empty()) {
     const FrameStamp &now = frame.report.frame.stamp, &before = waiting_.back().report.frame.stamp;
@@ -26,12 +26,12 @@ void FrameQueue::add(WindowFrame frame) {
   waiting_.push_back(std::move(frame));
 }
 
-std::optional<WindowFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
-  const auto is_due = [&](const WindowFrame& frame) {
+std::optional<QueuedFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
+  const auto is_due = [&](const QueuedFrame& frame) {
     return !running_ns || frame.report.frame.stamp.running_ns <= *running_ns ||
            waiting_.size() > kMost;
   };
-  std::optional<WindowFrame> shown;
+  std::optional<QueuedFrame> shown;
   while (!waiting_.empty() && is_due(waiting_.front())) {
     shown = std::move(waiting_.front());
     waiting_.pop_front();
@@ -146,4 +146,4 @@ void PlayerLink::cannot_open(const std::string& what, const std::string& advice)
   send(CannotOpen{what, advice});
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

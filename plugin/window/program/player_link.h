@@ -17,9 +17,9 @@
 #include "plugin/window/view/shared_pictures.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
-struct WindowFrame {
+struct QueuedFrame {
   SharedPicture picture;
   FrameReport report;
 };
@@ -33,13 +33,13 @@ class FrameQueue {
   static constexpr size_t kMost = 8;
 
   /// An earlier running time than before is another stream, or a seek: all that waits is forgotten.
-  void add(WindowFrame frame);
+  void add(QueuedFrame frame);
   /// The newest frame that is on the screen at this running time; without one, while nothing is
   /// felt, the newest of all. Nothing when there is no other than before.
-  std::optional<WindowFrame> show(std::optional<int64_t> running_ns);
+  std::optional<QueuedFrame> show(std::optional<int64_t> running_ns);
 
  private:
-  std::deque<WindowFrame> waiting_;
+  std::deque<QueuedFrame> waiting_;
 };
 
 /// One thread.
@@ -101,4 +101,4 @@ class PlayerLink {
   bool is_not_understood_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr double kStepAcross_px = 56, kStepUp_px = 17;
@@ -158,4 +158,4 @@ int Plot::steps_up(const Brush& brush, double height_px) {
   return std::max(1, static_cast<int>(height_px / (kStepUp_px * brush.scale)));
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -10,7 +10,7 @@
 #include "plugin/overlay/plot_axis.h"
 #include "plugin/window/program/style.h"
 
-namespace spidar {
+namespace spidar::window {
 
 struct PlotPoint {
   double x = 0, y = 0;
@@ -61,4 +61,4 @@ class Plot {
   float unit_width_ = 0;  ///< of y
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

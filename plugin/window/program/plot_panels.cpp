@@ -9,7 +9,7 @@
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr double kLeastForce_N = 0.1, kLeastSpeed_px_s = 100, kHeadroom = 1.1;
@@ -175,4 +175,4 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

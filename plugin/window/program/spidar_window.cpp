@@ -16,7 +16,7 @@
 #include "plugin/window/program/debug_window.h"
 #include "plugin/window/program/player_link.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -84,7 +84,7 @@ int show(PlayerLink& link) {
 }
 
 }  // namespace
-}  // namespace spidar
+}  // namespace spidar::window
 
 int main() {
   int kind = 0;
@@ -100,6 +100,6 @@ int main() {
   // Pictures are converted by GStreamer's library; its plugins are not needed.
   setenv("GST_REGISTRY_DISABLE", "yes", 1);
   gst_init(nullptr, nullptr);
-  spidar::PlayerLink link(STDIN_FILENO);
-  return spidar::show(link);
+  spidar::window::PlayerLink link(STDIN_FILENO);
+  return spidar::window::show(link);
 }

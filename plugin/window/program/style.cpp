@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr double kBody_px = 14, kSmall_px = 11.5, kDefaultFont_px = 13;
@@ -104,4 +104,4 @@ Rect draw_panel(const Brush& brush, const Rect& panel, const std::string& title,
   return content;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

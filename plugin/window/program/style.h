@@ -8,7 +8,7 @@
 
 #include "plugin/window/program/model/layout.h"
 
-namespace spidar {
+namespace spidar::window {
 
 constexpr ImU32 kBackColor = IM_COL32(17, 19, 24, 255);
 constexpr ImU32 kPanelColor = IM_COL32(26, 29, 36, 255);
@@ -82,4 +82,4 @@ void draw_label(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
 Rect draw_panel(const Brush& brush, const Rect& panel, const std::string& title,
                 const std::string& note = {});
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -6,7 +6,7 @@
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -140,4 +140,4 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
   return use;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

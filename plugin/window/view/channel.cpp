@@ -12,12 +12,12 @@
 
 #include "plugin/window/view/messages.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 struct Header {
   uint32_t magic = 0x53505744;  // "SPWD"
-  uint16_t version = kWindowProtocol;
+  uint16_t version = kProtocol;
   uint16_t reserved = 0;
   uint32_t bytes = 0;
 };
@@ -140,4 +140,4 @@ int Channel::take_file() {
   return file;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace spidar {
+namespace spidar::window {
 
 /// A packet is a header, which has the protocol's version and the length, and as many bytes; a file
 /// may come with it. No function waits. One thread.
@@ -59,4 +59,4 @@ class Channel {
   bool is_not_understood_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

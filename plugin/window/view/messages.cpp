@@ -14,7 +14,7 @@
 
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Writes values, or reads what was written. A structure is passed by one function, `template
 /// <typename Wire> void pass(Wire&, T&)`, which calls wire(…) for each of its members. Nothing of
@@ -318,7 +318,7 @@ void pass(Wire& wire, UserInput& input) {
 }
 
 template <typename Wire>
-void pass(Wire&, CloseWindow&) {}
+void pass(Wire&, Close&) {}
 
 template <typename Wire>
 void pass(Wire&, Ask&) {}
@@ -431,4 +431,4 @@ std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes) {
   return read<FromWindow>(bytes);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

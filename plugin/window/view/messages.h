@@ -19,11 +19,11 @@
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// To be raised when a message changes: a player and a window of different versions report it
 /// instead of misunderstanding each other.
-constexpr uint16_t kWindowProtocol = 5;
+constexpr uint16_t kProtocol = 5;
 
 // --- to the window
 
@@ -57,10 +57,10 @@ struct UserInput {
   std::optional<Eigen::Vector2d> size_px;
 };
 /// The window is to close, and has Window::kPatience for it.
-struct CloseWindow {};
+struct Close {};
 
 using ToWindow = std::variant<PictureMemory, FrameShown, ElementState, ChoicesSaved, TakePicture,
-                              UserInput, CloseWindow>;
+                              UserInput, Close>;
 
 // --- from the window
 
@@ -116,4 +116,4 @@ std::vector<uint8_t> to_bytes(const FromWindow& message);
 std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes);
 std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes);
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -12,7 +12,7 @@
 #include "plugin/frame/touch_view.h"
 #include "plugin/window/view/rect.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Mouse state in one frame of the window.
 struct Mouse {
@@ -77,4 +77,4 @@ class MouseHand {
   Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

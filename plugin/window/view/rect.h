@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace spidar {
+namespace spidar::window {
 
 struct Rect {
   double x = 0, y = 0, width = 0, height = 0;
@@ -24,4 +24,4 @@ struct Rect {
   }
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

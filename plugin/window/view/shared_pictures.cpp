@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 /// Of the same pictures, without padding of its own.
@@ -115,4 +115,4 @@ MappedPictures::~MappedPictures() {
   if (memory_) munmap(const_cast<uint8_t*>(memory_), bytes_);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -15,7 +15,7 @@
 
 #include "plugin/window/view/messages.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Slots of one size for frames of one format, in a file without a name. A slot is taken by
 /// copy(), and is free again when the window has returned it. Thread-safe only where stated.
@@ -107,4 +107,4 @@ class SharedPicture {
   std::function<void()> set_free_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -16,7 +16,7 @@
 #include "plugin/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// A property of the element that can be changed while it plays.
 struct Setting {
@@ -73,4 +73,4 @@ inline std::string felt_line(const ElementState& state, const TouchScene& touch,
   return text;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 // Fractions of the window.
@@ -38,7 +38,7 @@ double text_scale(double screen_scale, int width, int height) {
   return screen_scale * std::max(1.0, std::floor(kSteps * larger) / kSteps);
 }
 
-WindowLayout lay_out(int width, int height, double scale, bool has_speed) {
+Layout lay_out(int width, int height, double scale, bool has_speed) {
   const double w = std::max(width, 1), h = std::max(height, 1);
   const double left = kLeft * w, gap = kGap_px * scale / 2;
   const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
@@ -53,7 +53,7 @@ WindowLayout lay_out(int width, int height, double scale, bool has_speed) {
                 std::max(std::min(bottom_y, whole.bottom()) - y0, 0.0)}
         .inset(gap);
   };
-  WindowLayout layout;
+  Layout layout;
   layout.picture = place(0, 0, left, timeline_y);
   layout.timeline = place(0, timeline_y, left, plots_y);
   layout.force = place(0, plots_y, has_speed ? 0.42 * left : left, status_y);
@@ -101,4 +101,4 @@ Eigen::Vector2d GripProjection::operator()(const Eigen::Vector3d& at_m) const {
   return centre_px_ + px_m_ * flat_m(at_m);
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

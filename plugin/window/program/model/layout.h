@@ -8,7 +8,7 @@
 #include "core/grip/string_geometry.h"
 #include "plugin/window/view/rect.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// The largest rectangle of width / height = `aspect` (> 0) in the middle of `outer`.
 Rect fit(const Rect& outer, double aspect);
@@ -19,13 +19,13 @@ constexpr int kUsualWidth_px = 1280, kUsualHeight_px = 800;
 /// step draws the fonts anew.
 double text_scale(double screen_scale, int width, int height);
 
-struct WindowLayout {
+struct Layout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
   Rect grip, tensions, controls;                       ///< right
 };
 /// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. Where no
 /// speed is measured, the plot of force replaces those of speed.
-WindowLayout lay_out(int width, int height, double scale, bool has_speed = true);
+Layout lay_out(int width, int height, double scale, bool has_speed = true);
 
 /// From pixels of the frame to pixels of the window.
 struct PictureMap {
@@ -56,4 +56,4 @@ class GripProjection {
   double px_m_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -12,7 +12,7 @@
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// The object in sight whose box has the position in it, the smallest of several; null when none
 /// has. Places are fractions of the visible part of the frame.
@@ -99,4 +99,4 @@ class ObjectClick {
   bool holds_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

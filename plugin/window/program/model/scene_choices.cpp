@@ -7,7 +7,7 @@
 
 #include "plugin/window/program/model/object_click.h"
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
@@ -206,4 +206,4 @@ FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
   return strip;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

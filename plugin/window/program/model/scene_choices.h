@@ -15,7 +15,7 @@
 #include "core/choice/feel_rules.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Where a frame is in its scene.
 struct ScenePlace {
@@ -130,4 +130,4 @@ struct FilmStrip {
 FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace spidar {
+namespace spidar::window {
 namespace {
 
 double time_s(const ForceTick& tick) {
@@ -104,4 +104,4 @@ std::vector<double> Timeline::gain_curve(const ControllerSettings& settings, dou
   return curve;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window

@@ -10,7 +10,7 @@
 #include "plugin/window/view/window_view.h"
 #include "spidar/loop/tick_record.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Whether two forces are one number to a reader, who sees a decimal.
 inline bool are_same(const Wrench& wanted, const Wrench& delivered) {
@@ -84,4 +84,4 @@ class Timeline {
   double plotted_s_ = kPlotted_s;
 };
 
-}  // namespace spidar
+}  // namespace spidar::window

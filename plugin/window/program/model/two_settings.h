@@ -13,7 +13,7 @@
 #include "core/force/gain_controller.h"
 #include "plugin/window/view/window_view.h"
 
-namespace spidar {
+namespace spidar::window {
 
 /// Values by the names of the settings.
 using SettingValues = std::map<std::string, double>;
@@ -96,4 +96,4 @@ inline ControllerSettings with_values(ControllerSettings controller, const Setti
   return controller;
 }
 
-}  // namespace spidar
+}  // namespace spidar::window
