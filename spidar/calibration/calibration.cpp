@@ -15,7 +15,7 @@
 #include "spidar/simulation/grip_model.h"
 #include "spidar/text.h"
 
-namespace spidar {
+namespace spidar::calibration {
 namespace {
 
 constexpr int kMinStrings = 7;
@@ -42,7 +42,7 @@ double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, do
 
 /// The fitted parameters and their errors.
 struct Fit {
-  const CalibrationModel& model;
+  const Model& model;
   const std::vector<StringVector>& lengths_m;
   Bundle bundle;
   double sigma_m = 0;        ///< standard deviation of one length
@@ -108,13 +108,13 @@ double correlation_factor(const Fit& fit) {
 double largest_sd(const Fit& fit) {
   // Singular values below this fraction of the largest one are rounding errors.
   constexpr double kRank = 1e-10;
-  const CalibrationModel& model = fit.model;
+  const Model& model = fit.model;
   const Eigen::Index left = fit.redundant(), samples = fit.errors_m.rows();
   Eigen::MatrixXd root =
       Eigen::MatrixXd::Zero(std::max<Eigen::Index>(model.size(), left * samples), model.size());
   for (Eigen::Index k = 0; k < samples; ++k) {
     const auto i = static_cast<size_t>(k);
-    CalibrationModel::Derivatives d;
+    Model::Derivatives d;
     model.length_errors_m(fit.bundle.parameters, fit.lengths_m[i], fit.bundle.poses[i], &d);
     const Eigen::MatrixXd unexplained =
         singular_values(d.by_twist.transpose()).directions.rightCols(left);
@@ -126,7 +126,7 @@ double largest_sd(const Fit& fit) {
   return least > kRank * told[0] ? 1 / least : std::numeric_limits<double>::infinity();
 }
 
-void describe_parameters(const Fit& fit, CalibrationResult& result) {
+void describe_parameters(const Fit& fit, Result& result) {
   const Eigen::VectorXd& parameters = fit.bundle.parameters;
   const StringGeometry geometry = fit.model.geometry(parameters);
   result.home_offset_m = fit.model.home_offset_m(parameters);
@@ -135,7 +135,7 @@ void describe_parameters(const Fit& fit, CalibrationResult& result) {
   result.cleared_at = pose_at_zero_count(geometry, result.home_offset_m);
 }
 
-void describe_motion(const std::vector<Pose>& poses, CalibrationResult& result) {
+void describe_motion(const std::vector<Pose>& poses, Result& result) {
   using Range = Eigen::AlignedBox3d;
   Range positions, turns;
   for (const Pose& pose : poses) {
@@ -157,20 +157,19 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 
 }  // namespace
 
-CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
-                            const CalibrationSettings& settings) {
+Result calibrate(const Profile& profile, const CountSamples& counts, const Settings& settings) {
   check_samples(profile, counts, kMinStrings);
   // Only the offsets at first: a hand misses the centre by more than exits and scale are off.
-  const CalibrationModel offsets_only(profile, {});
+  const Model offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
   const double rounding_m = rounding_sd_m(
       profile, static_cast<double>(counts.rows()) / static_cast<double>(lengths_m.size()));
-  const CalibrationModel model(profile, settings);
+  const Model model(profile, settings);
   Fit fit{model, lengths_m, from_the_centre(offsets_only, lengths_m), 0, {}, {}, {}};
   fit.bundle.parameters.conservativeResizeLike(Eigen::VectorXd::Zero(model.size()));
   refine(rounding_m, fit);
 
-  CalibrationResult result;
+  Result result;
   result.estimated = settings;
   result.samples = static_cast<int>(fit.errors_m.rows());
   result.residual_m = fit.errors_m.norm() / std::sqrt(static_cast<double>(fit.errors_m.size()));
@@ -179,22 +178,22 @@ CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
   const double sd_m = fit.noise_m(rounding_m) * largest_sd(fit);
   const Eigen::ArrayXd outliers = (fit.norms_m.array() > kOutlier * fit.sigma_m).cast<double>();
   if (contradicts(fit, outliers)) {
-    result.status = CalibrationStatus::kContradiction;
-  } else if (!(sd_m <= kMaxCalibrationSd_m)) {
-    result.status = CalibrationStatus::kUndetermined;
-  } else if (!(sd_m * correlation_factor(fit) <= kMaxCalibrationSd_m)) {
-    result.status = CalibrationStatus::kContradiction;
+    result.status = Status::kContradiction;
+  } else if (!(sd_m <= kMaxSd_m)) {
+    result.status = Status::kUndetermined;
+  } else if (!(sd_m * correlation_factor(fit) <= kMaxSd_m)) {
+    result.status = Status::kContradiction;
   } else {
-    result.status = CalibrationStatus::kSolved;
+    result.status = Status::kSolved;
   }
   return result;
 }
 
-CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples& counts) {
+Result calibrate_at_centre(const Profile& profile, const CountSamples& counts) {
   check_samples(profile, counts, 1);
-  const CalibrationModel model(profile, {});
-  CalibrationResult result;
-  result.status = CalibrationStatus::kSolved;
+  const Model model(profile, {});
+  Result result;
+  result.status = Status::kSolved;
   result.exit_m = profile.geometry.exit_m;
   result.samples = static_cast<int>(counts.rows());
   double squares_m2 = 0;
@@ -230,9 +229,8 @@ void replace_provenance(const std::string& field, const std::string& how, const 
 
 }  // namespace
 
-Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
-                           const std::string& how) {
-  if (result.status != CalibrationStatus::kSolved) {
+Profile calibrated_profile(const Profile& profile, const Result& result, const std::string& how) {
+  if (result.status != Status::kSolved) {
     throw std::invalid_argument("calibration: a result that is not solved makes no profile");
   }
   Profile calibrated = profile;
@@ -256,4 +254,4 @@ Profile calibrated_profile(const Profile& profile, const CalibrationResult& resu
   return calibrated;
 }
 
-}  // namespace spidar
+}  // namespace spidar::calibration

@@ -12,19 +12,19 @@
 #include "core/grip/string_geometry.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::calibration {
 
 /// Encoder counts as read from the board: a row for each sample in the order of time, a column for
 /// each string.
 using CountSamples = Eigen::MatrixXd;
 
 /// Parameters that are estimated in addition to the offsets.
-struct CalibrationSettings {
+struct Settings {
   bool free_exits = false;  ///< the points at which the strings leave the frame
   bool free_scale = false;  ///< one factor on every metres_per_count
 };
 
-enum class CalibrationStatus {
+enum class Status {
   kSolved,
   /// The motion does not determine everything that was asked for.
   kUndetermined,
@@ -33,9 +33,9 @@ enum class CalibrationStatus {
   kContradiction,
 };
 
-struct CalibrationResult {
-  CalibrationStatus status = CalibrationStatus::kContradiction;
-  CalibrationSettings estimated;  ///< what was estimated in addition to the offsets
+struct Result {
+  Status status = Status::kContradiction;
+  Settings estimated;  ///< what was estimated in addition to the offsets
 
   /// Length at zero count minus length at the centre, as in StringDrive::home_offset_m. The length
   /// at the centre is that for the exits below.
@@ -58,10 +58,10 @@ struct CalibrationResult {
 
 /// Largest permitted standard deviation of any combination of what is estimated, equal to the error
 /// of a length that PoseSolver treats as a fault.
-inline constexpr double kMaxCalibrationSd_m = 50e-6;
+inline constexpr double kMaxSd_m = 50e-6;
 
 /// Minimum number of samples, both for a moved and for a held grip.
-inline constexpr int kMinCalibrationSamples = 20;
+inline constexpr int kMinSamples = 20;
 
 /// Calibrates from a grip that is moved and turned about. A sample has eight lengths and its pose
 /// six unknowns, which leaves two equations for the parameters that all samples share. Uses
@@ -70,16 +70,15 @@ inline constexpr int kMinCalibrationSamples = 20;
 /// not matter.
 ///
 /// Throws std::invalid_argument when the profile has fewer than seven strings, or a count is not
-/// finite, or there are fewer than kMinCalibrationSamples, or not as many columns as strings.
-CalibrationResult calibrate(const Profile& profile, const CountSamples& counts,
-                            const CalibrationSettings& settings = {});
+/// finite, or there are fewer than kMinSamples, or not as many columns as strings.
+Result calibrate(const Profile& profile, const CountSamples& counts, const Settings& settings = {});
 
 /// Calibrates only the offsets, from a grip that is held still at the centre without rotation.
 /// They are as accurate as the hand finds the centre.
 ///
 /// Throws std::invalid_argument as calibrate(), with any number of strings, and when a count moves
 /// by more than kMaxHeldRange_m.
-CalibrationResult calibrate_at_centre(const Profile& profile, const CountSamples& counts);
+Result calibrate_at_centre(const Profile& profile, const CountSamples& counts);
 
 /// Tremor of a hand that holds still is smaller than this.
 inline constexpr double kMaxHeldRange_m = 3e-3;
@@ -87,7 +86,6 @@ inline constexpr double kMaxHeldRange_m = 3e-3;
 /// Returns the profile with the result, its residual and provenance. `how` describes the
 /// provenance, for example "moved for 20 s". Throws std::invalid_argument unless the status is
 /// kSolved.
-Profile calibrated_profile(const Profile& profile, const CalibrationResult& result,
-                           const std::string& how);
+Profile calibrated_profile(const Profile& profile, const Result& result, const std::string& how);
 
-}  // namespace spidar
+}  // namespace spidar::calibration

@@ -12,7 +12,7 @@
 #include "core/grip/singular_values.h"
 #include "core/grip/string_geometry.h"
 
-namespace spidar {
+namespace spidar::calibration {
 namespace {
 
 /// Displacements of all exits, stacked, that are orthogonal to shifts and small rotations of the
@@ -32,7 +32,7 @@ Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
 
 }  // namespace
 
-CalibrationModel::CalibrationModel(const Profile& profile, const CalibrationSettings& settings)
+Model::Model(const Profile& profile, const Settings& settings)
     : geometry_(profile.geometry),
       home_length_m_(string_lengths_m(profile.geometry, {})),
       metres_per_count_(StringVector::Zero()),
@@ -46,7 +46,7 @@ CalibrationModel::CalibrationModel(const Profile& profile, const CalibrationSett
   if (settings.free_exits) exit_directions_ = shape_changes(geometry_);
 }
 
-StringGeometry CalibrationModel::geometry(const Eigen::VectorXd& parameters) const {
+StringGeometry Model::geometry(const Eigen::VectorXd& parameters) const {
   StringGeometry moved = geometry_;
   if (exit_directions_.cols() == 0) return moved;
   const Eigen::VectorXd displacement = exit_directions_ * parameters.tail(exit_directions_.cols());
@@ -56,25 +56,25 @@ StringGeometry CalibrationModel::geometry(const Eigen::VectorXd& parameters) con
   return moved;
 }
 
-double CalibrationModel::scale(const Eigen::VectorXd& parameters) const {
+double Model::scale(const Eigen::VectorXd& parameters) const {
   return scale_at_ < 0 ? 1.0 : 1.0 + parameters[scale_at_] / mean_length_m_;
 }
 
-StringVector CalibrationModel::home_offset_m(const Eigen::VectorXd& parameters) const {
+StringVector Model::home_offset_m(const Eigen::VectorXd& parameters) const {
   StringVector offset_m = home_length_m_ - string_lengths_m(geometry(parameters), {});
   offset_m.head(strings()) += parameters.head(strings());
   return offset_m;
 }
 
-StringVector CalibrationModel::paid_out_m(const Eigen::VectorXd& counts) const {
+StringVector Model::paid_out_m(const Eigen::VectorXd& counts) const {
   StringVector paid_out_m = StringVector::Zero();
   paid_out_m.head(strings()) = counts.cwiseProduct(metres_per_count_.head(strings()));
   return paid_out_m;
 }
 
-Eigen::VectorXd CalibrationModel::length_errors_m(const Eigen::VectorXd& parameters,
-                                                  const StringVector& paid_out_m, const Pose& pose,
-                                                  Derivatives* derivatives) const {
+Eigen::VectorXd Model::length_errors_m(const Eigen::VectorXd& parameters,
+                                       const StringVector& paid_out_m, const Pose& pose,
+                                       Derivatives* derivatives) const {
   const int n = strings();
   const StringGeometry moved = geometry(parameters);
   const Eigen::VectorXd error_m = string_lengths_m(moved, pose).head(n) - home_length_m_.head(n) -
@@ -119,7 +119,7 @@ Pose to_pose(const double* block) {
 /// One sample: one residual for each string, in units of `unit_m`.
 class SampleErrors final : public ceres::CostFunction {
  public:
-  SampleErrors(const CalibrationModel& model, const StringVector& paid_out_m, double unit_m)
+  SampleErrors(const Model& model, const StringVector& paid_out_m, double unit_m)
       : model_(model), paid_out_m_(paid_out_m), unit_m_(unit_m) {
     set_num_residuals(model.strings());
     *mutable_parameter_block_sizes() = {kPoseSize, model.size()};
@@ -129,7 +129,7 @@ class SampleErrors final : public ceres::CostFunction {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const int n = model_.strings();
     const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(blocks[1], model_.size());
-    CalibrationModel::Derivatives derivatives;
+    Model::Derivatives derivatives;
     Eigen::Map<Eigen::VectorXd>(residuals, n) =
         model_.length_errors_m(parameters, paid_out_m_, to_pose(blocks[0]),
                                jacobians ? &derivatives : nullptr) /
@@ -150,15 +150,15 @@ class SampleErrors final : public ceres::CostFunction {
   }
 
  private:
-  const CalibrationModel& model_;
+  const Model& model_;
   StringVector paid_out_m_;
   double unit_m_;
 };
 
 }  // namespace
 
-void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
-            double sigma_m, int max_iterations, Bundle& bundle) {
+void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, double sigma_m,
+            int max_iterations, Bundle& bundle) {
   ceres::HuberLoss loss(kHuber);
   PoseManifold manifold;
   ceres::Problem::Options owned_here;
@@ -190,7 +190,7 @@ void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid
   for (size_t k = 0; k < blocks.size(); ++k) bundle.poses[k] = to_pose(blocks[k].data());
 }
 
-Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m) {
+Bundle from_the_centre(const Model& model, const std::vector<StringVector>& paid_out_m) {
   const StringVector& centre_m = paid_out_m.front();
   Bundle start{Eigen::VectorXd::Zero(model.size()), {}};
   start.parameters.head(model.strings()) = -centre_m.head(model.strings());
@@ -203,4 +203,4 @@ Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVe
   return start;
 }
 
-}  // namespace spidar
+}  // namespace spidar::calibration

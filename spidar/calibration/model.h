@@ -13,16 +13,16 @@
 #include "spidar/calibration/calibration.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::calibration {
 
 /// The parameters that all samples share, all in metres: an offset for each string; the scale
 /// minus one, times the mean length at the centre; the exits along the directions that neither
 /// shift nor turn the frame as a whole. (The position of the frame is not observable, because
 /// moving all exits and all poses together changes no length. This is the choice of "inner
 /// constraints" in geodesy.)
-class CalibrationModel {
+class Model {
  public:
-  CalibrationModel(const Profile& profile, const CalibrationSettings& settings);
+  Model(const Profile& profile, const Settings& settings);
 
   int strings() const { return geometry_.count; }
   int size() const { return exits_at_ + static_cast<int>(exit_directions_.cols()); }
@@ -66,14 +66,14 @@ struct Bundle {
 /// its corner at kHuber. All strings of a sample have less weight if they contradict each other,
 /// because six unknowns and eight lengths do not determine which string is at fault. `paid_out_m`
 /// has one entry for each sample.
-void adjust(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m,
-            double sigma_m, int max_iterations, Bundle& bundle);
+void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, double sigma_m,
+            int max_iterations, Bundle& bundle);
 
 /// √5.99: exceeded by 5 % of the good samples, whose squared error is χ² with two degrees of
 /// freedom in units of σ².
 inline constexpr double kHuber = 2.448;
 
 /// A start: takes the first sample for one at the centre, and follows the grip from there.
-Bundle from_the_centre(const CalibrationModel& model, const std::vector<StringVector>& paid_out_m);
+Bundle from_the_centre(const Model& model, const std::vector<StringVector>& paid_out_m);
 
-}  // namespace spidar
+}  // namespace spidar::calibration

@@ -15,7 +15,7 @@
 #include "spidar/selftest/hold.h"
 #include "spidar/text.h"
 
-namespace spidar {
+namespace spidar::calibration {
 namespace {
 
 // Within this distance the length of a string is linear in the pose up to 0.3^2/(8*36) mm = 0.3 µm
@@ -38,9 +38,9 @@ void check_samples(const Profile& profile, const CountSamples& counts, int min_s
                                 " strings, must have " + as_text(strings) + " as profile \"" +
                                 profile.name + "\"");
   }
-  if (counts.rows() < kMinCalibrationSamples) {
+  if (counts.rows() < kMinSamples) {
     throw std::invalid_argument("calibration: " + as_text(counts.rows()) +
-                                " samples, must be at least " + as_text(kMinCalibrationSamples));
+                                " samples, must be at least " + as_text(kMinSamples));
   }
   for (Eigen::Index k = 0; k < counts.rows(); ++k) {
     for (Eigen::Index i = 0; i < counts.cols(); ++i) {
@@ -60,8 +60,7 @@ double rounding_sd_m(const Profile& profile, double averaged) {
   return sum / profile.geometry.count / std::sqrt(12 * std::min(averaged, kMaxAveraged));
 }
 
-std::vector<StringVector> distinct_lengths_m(const CalibrationModel& model,
-                                             const CountSamples& counts) {
+std::vector<StringVector> distinct_lengths_m(const Model& model, const CountSamples& counts) {
   std::vector<StringVector> lengths;
   StringVector first = StringVector::Zero(), sum = first;
   int same = 0;
@@ -120,4 +119,4 @@ CountSamples record_counts(StringDevice& device, const Profile& profile,
   return to_samples(kept, profile.geometry.count);
 }
 
-}  // namespace spidar
+}  // namespace spidar::calibration

@@ -16,7 +16,7 @@
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::calibration {
 
 /// Throws std::invalid_argument that names what is wrong with the samples.
 void check_samples(const Profile& profile, const CountSamples& counts, int min_strings);
@@ -29,8 +29,7 @@ double rounding_sd_m(const Profile& profile, double averaged);
 /// Change of lengths since zero count. Successive samples that agree to a third of a millimetre are
 /// averaged: a grip that stands still gives the same information however often it is read, and
 /// neither noise nor rounding, which is the same each time, must count as motion.
-std::vector<StringVector> distinct_lengths_m(const CalibrationModel& model,
-                                             const CountSamples& counts);
+std::vector<StringVector> distinct_lengths_m(const Model& model, const CountSamples& counts);
 
 /// The pose at which the counters are zero.
 Pose pose_at_zero_count(const StringGeometry& geometry, const StringVector& home_offset_m);
@@ -74,4 +73,4 @@ inline Pose hand_in_motion(const StringGeometry& geometry, double time_s, double
   return pose;
 }
 
-}  // namespace spidar
+}  // namespace spidar::calibration

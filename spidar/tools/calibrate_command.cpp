@@ -69,7 +69,7 @@ class Bench {
   StringDevice& device() { return *device_; }
 
   void move_hand(double time_s) {
-    if (hand_) hand_->set_hand(hand_in_motion(geometry_, time_s));
+    if (hand_) hand_->set_hand(calibration::hand_in_motion(geometry_, time_s));
   }
 
  private:
@@ -119,9 +119,10 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
   return false;
 }
 
-CountSamples record(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
-  const RecordingSettings settings{options.centre ? kHoldSeconds : options.move_s(),
-                                   kSamplePeriod_s};
+calibration::CountSamples record(const CalibrateOptions& options, const Profile& profile,
+                                 Bench& bench) {
+  const calibration::RecordingSettings settings{options.centre ? kHoldSeconds : options.move_s(),
+                                                kSamplePeriod_s};
   Progress progress(settings.seconds);
   std::optional<double> begin_s;
   const auto next_tick = [&](double time_s) {
@@ -139,7 +140,7 @@ CountSamples record(const CalibrateOptions& options, const Profile& profile, Ben
     progress.show(time_s);
     return !interrupted();
   };
-  return record_counts(bench.device(), profile, settings, next_tick);
+  return calibration::record_counts(bench.device(), profile, settings, next_tick);
 }
 
 std::string how(const CalibrateOptions& options) {
@@ -158,15 +159,15 @@ struct StatusText {
   const char* advice;
 };
 
-StatusText text_of(CalibrationStatus status) {
+StatusText text_of(calibration::Status status) {
   switch (status) {
-    case CalibrationStatus::kSolved:
+    case calibration::Status::kSolved:
       return {"solved", ""};
-    case CalibrationStatus::kUndetermined:
+    case calibration::Status::kUndetermined:
       return {"undetermined",
               "This motion does not determine everything that was asked for. Move further, turn "
               "the grip about every axis as well, take longer, or ask for less with --free.\n"};
-    case CalibrationStatus::kContradiction:
+    case calibration::Status::kContradiction:
       return {"contradiction",
               "The lengths contradict each other or the profile. Check that no string slips or is "
               "off its pulley and that the profile is correct, try --free exits,scale, or begin "
@@ -175,7 +176,8 @@ StatusText text_of(CalibrationStatus status) {
   return {};
 }
 
-void print_result(const Profile& profile, const CalibrationResult& result, const std::string& how) {
+void print_result(const Profile& profile, const calibration::Result& result,
+                  const std::string& how) {
   constexpr double kDegrees = 180 / M_PI;
   const auto [status, advice] = text_of(result.status);
   std::cout << profile.name << ": " << how << ", " << result.samples << " samples: " << status
@@ -198,7 +200,8 @@ void print_result(const Profile& profile, const CalibrationResult& result, const
   std::cout << (*advice ? "\n" : "") << advice;
 }
 
-Json result_json(const Profile& profile, const CalibrationResult& result, const std::string& how) {
+Json result_json(const Profile& profile, const calibration::Result& result,
+                 const std::string& how) {
   const int strings = profile.geometry.count;
   Json json{{"profile", profile.name},
             {"how", how},
@@ -233,25 +236,28 @@ int calibrate_command(const CalibrateOptions& options) {
   catch_signals();
   const bool wired_right = is_wired_right(options, profile, bench);
   if (!wired_right && !interrupted()) return kNotCalibrated;
-  const CountSamples counts = wired_right ? record(options, profile, bench) : CountSamples();
+  const calibration::CountSamples counts =
+      wired_right ? record(options, profile, bench) : calibration::CountSamples();
   if (interrupted()) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;
   }
 
-  CalibrationSettings settings;
+  calibration::Settings settings;
   settings.free_exits = options.frees("exits");
   settings.free_scale = options.frees("scale");
-  const CalibrationResult result =
-      options.centre ? calibrate_at_centre(profile, counts) : calibrate(profile, counts, settings);
+  const calibration::Result result = options.centre
+                                         ? calibration::calibrate_at_centre(profile, counts)
+                                         : calibration::calibrate(profile, counts, settings);
   if (options.json) {
     std::cout << json_text(result_json(profile, result, how(options)), 2) << '\n';
   } else {
     print_result(profile, result, how(options));
   }
-  if (result.status != CalibrationStatus::kSolved) return kNotCalibrated;
+  if (result.status != calibration::Status::kSolved) return kNotCalibrated;
   if (options.output) {
-    save_profile(calibrated_profile(profile, result, how(options)), options.output.path);
+    save_profile(calibration::calibrated_profile(profile, result, how(options)),
+                 options.output.path);
     std::cerr << "written: " << options.output.path << '\n';
   }
   return kDone;

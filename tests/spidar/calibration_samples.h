@@ -49,12 +49,13 @@ inline void add_to_offsets(Random& random, double largest_m, Profile& device) {
 
 /// Rounded counts of `device` with normal noise of `noise_counts` before rounding, at the poses
 /// that `pose_at` gives for the time in seconds.
-inline CountSamples counts_of(const Profile& device, int samples, double period_s, Random& random,
-                              double noise_counts, const std::function<Pose(double)>& pose_at) {
+inline calibration::CountSamples counts_of(const Profile& device, int samples, double period_s,
+                                           Random& random, double noise_counts,
+                                           const std::function<Pose(double)>& pose_at) {
   std::normal_distribution<double> normal;
   const int strings = device.geometry.count;
   const StringVector zero_m = device.zero_count_length_m();
-  CountSamples counts(samples, strings);
+  calibration::CountSamples counts(samples, strings);
   for (int k = 0; k < samples; ++k) {
     const StringVector length_m = string_lengths_m(device.geometry, pose_at(k * period_s));
     for (int i = 0; i < strings; ++i) {
@@ -67,17 +68,17 @@ inline CountSamples counts_of(const Profile& device, int samples, double period_
 }
 
 /// The same with the hand of `spidarctl calibrate sim`.
-inline CountSamples moved_counts(const Profile& device, int samples, double period_s,
-                                 Random& random, double noise_counts) {
+inline calibration::CountSamples moved_counts(const Profile& device, int samples, double period_s,
+                                              Random& random, double noise_counts) {
   const double phase_rad = uniform(random, M_PI);
   return counts_of(device, samples, period_s, random, noise_counts, [&](double time_s) {
-    return hand_in_motion(device.geometry, time_s, phase_rad);
+    return calibration::hand_in_motion(device.geometry, time_s, phase_rad);
   });
 }
 
 /// Error of the lengths at zero count, for any choice of D.
 inline StringVector zero_length_errors_m(const Profile& profile, const Profile& device,
-                                         const CalibrationResult& result) {
+                                         const calibration::Result& result) {
   StringGeometry found = profile.geometry;
   found.exit_m = result.exit_m;
   return string_lengths_m(found, {}) + result.home_offset_m - device.zero_count_length_m();

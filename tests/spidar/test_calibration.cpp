@@ -23,7 +23,7 @@ double noise_m(const Profile& profile) {
 }
 
 double largest_error_m(const Profile& profile, const Profile& device,
-                       const CalibrationResult& result) {
+                       const calibration::Result& result) {
   return zero_length_errors_m(profile, device, result).cwiseAbs().maxCoeff();
 }
 
@@ -41,10 +41,10 @@ TEST(Calibration, OffsetsAndTheStartAreFound) {
       const Pose start = wrong_start(random, 0.05, 1.0);
       clear_counters_at(start, device);
       if (seed % 2) add_to_offsets(random, 3e-3, device);
-      const CalibrationResult result =
-          calibrate(profile, moved_counts(device, 400, kPeriod_s, random, 1.0));
-      ASSERT_EQ(result.status, CalibrationStatus::kSolved);
-      EXPECT_LT(largest_error_m(profile, device, result), kMaxCalibrationSd_m);
+      const calibration::Result result =
+          calibration::calibrate(profile, moved_counts(device, 400, kPeriod_s, random, 1.0));
+      ASSERT_EQ(result.status, calibration::Status::kSolved);
+      EXPECT_LT(largest_error_m(profile, device, result), calibration::kMaxSd_m);
       // Two of eight lengths are redundant: what is left of the noise has a quarter of its square.
       // A standard deviation of 2 x 400 values is known to 2.5 %; Huber's weights take 2 % away.
       EXPECT_NEAR(result.residual_m / (noise_m(profile) / 2), 1.0, 3 * 0.025 + 0.02);
@@ -72,16 +72,17 @@ TEST(Calibration, TheHandMayBeginBesideTheCentre) {
     Profile device = profile;
     clear_counters_at(wrong_start(random, 0.05, 1.0), device);
     const Pose beside = wrong_start(random, 0.02, M_PI / 9);
-    const CountSamples counts = counts_of(device, 400, kPeriod_s, random, 1.0, [&](double time_s) {
-      const double left = std::max(0.0, 1 - time_s / 2);
-      const Pose moved = hand_in_motion(device.geometry, time_s);
-      return Pose{
-          moved.position_m + left * beside.position_m,
-          Eigen::Quaterniond::Identity().slerp(left, beside.orientation) * moved.orientation};
-    });
-    const CalibrationResult result = calibrate(profile, counts);
-    ASSERT_EQ(result.status, CalibrationStatus::kSolved);
-    EXPECT_LT(largest_error_m(profile, device, result), kMaxCalibrationSd_m);
+    const calibration::CountSamples counts =
+        counts_of(device, 400, kPeriod_s, random, 1.0, [&](double time_s) {
+          const double left = std::max(0.0, 1 - time_s / 2);
+          const Pose moved = calibration::hand_in_motion(device.geometry, time_s);
+          return Pose{
+              moved.position_m + left * beside.position_m,
+              Eigen::Quaterniond::Identity().slerp(left, beside.orientation) * moved.orientation};
+        });
+    const calibration::Result result = calibration::calibrate(profile, counts);
+    ASSERT_EQ(result.status, calibration::Status::kSolved);
+    EXPECT_LT(largest_error_m(profile, device, result), calibration::kMaxSd_m);
   }
 }
 
@@ -100,13 +101,13 @@ TEST(Calibration, ExitsAndScaleAreFound) {
       device.drives[i].metres_per_count *= scale;
     }
     clear_counters_at(wrong_start(random, 0.02, 0.5), device);
-    const CalibrationResult result =
-        calibrate(profile, moved_counts(device, 3000, kPeriod_s, random, 0), {true, true});
-    ASSERT_EQ(result.status, CalibrationStatus::kSolved);
+    const calibration::Result result = calibration::calibrate(
+        profile, moved_counts(device, 3000, kPeriod_s, random, 0), {true, true});
+    ASSERT_EQ(result.status, calibration::Status::kSolved);
     // What "solved" promises.
     EXPECT_LT(std::abs(result.scale - scale) * string_lengths_m(profile.geometry, {}).mean(),
-              kMaxCalibrationSd_m);
-    EXPECT_LT(largest_error_m(profile, device, result), kMaxCalibrationSd_m);
+              calibration::kMaxSd_m);
+    EXPECT_LT(largest_error_m(profile, device, result), calibration::kMaxSd_m);
     Eigen::Matrix3Xd truth(3, n), wanted(3, n), found(3, n);
     for (int i = 0; i < n; ++i) {
       const auto k = static_cast<size_t>(i);
@@ -116,7 +117,7 @@ TEST(Calibration, ExitsAndScaleAreFound) {
     }
     const Eigen::Matrix4d to_profile = Eigen::umeyama(truth, wanted, false);
     const Eigen::Matrix3Xd exits = (to_profile * truth.colwise().homogeneous()).topRows<3>();
-    EXPECT_LT((found - exits).cwiseAbs().maxCoeff(), kMaxCalibrationSd_m);
+    EXPECT_LT((found - exits).cwiseAbs().maxCoeff(), calibration::kMaxSd_m);
   }
 }
 
@@ -128,10 +129,11 @@ TEST(Calibration, WrongGeometryIsAContradictionUnlessItIsFree) {
   Random random(3);
   Profile device = profile;
   device.geometry.exit_m[2].x() += 2e-3;
-  const CountSamples counts = moved_counts(device, 2000, kPeriod_s, random, 0);
-  const CalibrationResult wrong = calibrate(profile, counts);
-  EXPECT_EQ(wrong.status, CalibrationStatus::kContradiction);
-  EXPECT_EQ(calibrate(profile, counts, {true, false}).status, CalibrationStatus::kSolved);
+  const calibration::CountSamples counts = moved_counts(device, 2000, kPeriod_s, random, 0);
+  const calibration::Result wrong = calibration::calibrate(profile, counts);
+  EXPECT_EQ(wrong.status, calibration::Status::kContradiction);
+  EXPECT_EQ(calibration::calibrate(profile, counts, {true, false}).status,
+            calibration::Status::kSolved);
 }
 
 // One string is slack by 5 mm for a tenth of the time. Plain least squares would be off by about a
@@ -141,12 +143,12 @@ TEST(Calibration, SlackStringHardlyPulls) {
   Random random(4);
   Profile device = profile;
   clear_counters_at(wrong_start(random, 0.03, 0.5), device);
-  CountSamples counts = moved_counts(device, 1000, kPeriod_s, random, 1.0);
+  calibration::CountSamples counts = moved_counts(device, 1000, kPeriod_s, random, 1.0);
   const double slack_counts = 5e-3 / profile.drives[3].metres_per_count;
   counts.block(400, 3, 100, 1).array() += profile.drives[3].encoder_sign * slack_counts;
-  const CalibrationResult result = calibrate(profile, counts);
-  ASSERT_EQ(result.status, CalibrationStatus::kSolved);
-  EXPECT_LT(largest_error_m(profile, device, result), kMaxCalibrationSd_m);
+  const calibration::Result result = calibration::calibrate(profile, counts);
+  ASSERT_EQ(result.status, calibration::Status::kSolved);
+  EXPECT_LT(largest_error_m(profile, device, result), calibration::kMaxSd_m);
 }
 
 // Offsets of before the slip would be wrong afterwards, however few samples came after it.
@@ -154,9 +156,10 @@ TEST(Calibration, StringThatSlipsForGoodIsAContradiction) {
   const Profile profile = load_profile("spidar-gcc");
   for (const int after : {500, 100}) {
     Random random(5);
-    CountSamples counts = moved_counts(profile, 1000, kPeriod_s, random, 0);
+    calibration::CountSamples counts = moved_counts(profile, 1000, kPeriod_s, random, 0);
     counts.block(1000 - after, 6, after, 1).array() += 2e-3 / profile.drives[6].metres_per_count;
-    EXPECT_EQ(calibrate(profile, counts).status, CalibrationStatus::kContradiction) << after;
+    EXPECT_EQ(calibration::calibrate(profile, counts).status, calibration::Status::kContradiction)
+        << after;
   }
 }
 
@@ -166,9 +169,9 @@ TEST(Calibration, HeldStillDeterminesTooLittle) {
   const Profile profile = load_profile("spidar-gcc");
   for (const double noise : {0.0, 1.0}) {
     Random random(6);
-    const CalibrationResult result = calibrate(
+    const calibration::Result result = calibration::calibrate(
         profile, counts_of(profile, 500, kPeriod_s, random, noise, [](double) { return Pose{}; }));
-    EXPECT_EQ(result.status, CalibrationStatus::kUndetermined) << noise;
+    EXPECT_EQ(result.status, calibration::Status::kUndetermined) << noise;
     if (noise == 0) {
       EXPECT_EQ(result.samples, 1);
     }
@@ -187,9 +190,9 @@ TEST(Calibration, MotionAlongOneAxisIsReported) {
       pose.position_m[axis] = 0.03 * std::sin(2 * time_s);
       return pose;
     };
-    const CalibrationResult result =
-        calibrate(profile, counts_of(profile, 500, kPeriod_s, random, 0, along));
-    EXPECT_EQ(result.status, CalibrationStatus::kUndetermined);
+    const calibration::Result result =
+        calibration::calibrate(profile, counts_of(profile, 500, kPeriod_s, random, 0, along));
+    EXPECT_EQ(result.status, calibration::Status::kUndetermined);
   }
 }
 
@@ -204,10 +207,10 @@ TEST(Calibration, ExitsNeedRotation) {
                                              std::sin(2.9 * time_s + 2));
     return pose;
   };
-  const CountSamples counts = counts_of(profile, 1000, kPeriod_s, random, 0, shift);
-  EXPECT_EQ(calibrate(profile, counts).status, CalibrationStatus::kSolved);
-  const CalibrationResult result = calibrate(profile, counts, {true, false});
-  EXPECT_EQ(result.status, CalibrationStatus::kUndetermined);
+  const calibration::CountSamples counts = counts_of(profile, 1000, kPeriod_s, random, 0, shift);
+  EXPECT_EQ(calibration::calibrate(profile, counts).status, calibration::Status::kSolved);
+  const calibration::Result result = calibration::calibrate(profile, counts, {true, false});
+  EXPECT_EQ(result.status, calibration::Status::kUndetermined);
 }
 
 TEST(Calibration, CentreMakesTheCountsThereZero) {
@@ -215,9 +218,9 @@ TEST(Calibration, CentreMakesTheCountsThereZero) {
   Random random(9);
   Profile device = profile;
   clear_counters_at(wrong_start(random, 0.03, 0.5), device);
-  const CalibrationResult result = calibrate_at_centre(
+  const calibration::Result result = calibration::calibrate_at_centre(
       profile, counts_of(device, 100, kPeriod_s, random, 1.0, [](double) { return Pose{}; }));
-  EXPECT_EQ(result.status, CalibrationStatus::kSolved);
+  EXPECT_EQ(result.status, calibration::Status::kSolved);
   // Of a hundred counts, each off by one, a mean is known to a tenth: five times that, and
   // rounding.
   EXPECT_LT(largest_error_m(profile, device, result), profile.drives[0].metres_per_count);

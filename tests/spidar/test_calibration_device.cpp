@@ -48,18 +48,19 @@ TEST(CalibrationDevice, LoopFindsTheGripOfACalibratedDevice) {
   clear_counters_at(wrong_start(random, 0.04, 0.8), real);
   add_to_offsets(random, 3e-3, real);
   SimulatedDevice device(real, SimulatedDevice::Time::kFixedStep);
-  const CountSamples counts = record_counts(device, profile, {10, 0.005}, [&](double time_s) {
-    device.set_hand(hand_in_motion(real.geometry, time_s));
-    return true;
-  });
+  const calibration::CountSamples counts =
+      calibration::record_counts(device, profile, {10, 0.005}, [&](double time_s) {
+        device.set_hand(calibration::hand_in_motion(real.geometry, time_s));
+        return true;
+      });
   EXPECT_EQ(counts.rows(), 2000);
-  const CalibrationResult result = calibrate(profile, counts);
-  ASSERT_EQ(result.status, CalibrationStatus::kSolved);
+  const calibration::Result result = calibration::calibrate(profile, counts);
+  ASSERT_EQ(result.status, calibration::Status::kSolved);
 
   const std::string path = (std::filesystem::temp_directory_path() /
                             ("spidar-calibrated-" + std::to_string(getpid()) + ".toml"))
                                .string();
-  save_profile(calibrated_profile(profile, result, "a test"), path);
+  save_profile(calibration::calibrated_profile(profile, result, "a test"), path);
   const Profile calibrated = load_profile(path);
   std::filesystem::remove(path);
   for (const bool use_it : {true, false}) {
@@ -88,7 +89,7 @@ TEST(CalibrationDevice, StringsAreEnergisedAndReleasedByRamps) {
   const Profile profile = load_profile("spidar-gcc");
   for (const bool stopped : {false, true}) {
     FakeDevice device;
-    const CountSamples counts = record_counts(
+    const calibration::CountSamples counts = calibration::record_counts(
         device, profile, {0.1, 0.001}, [&](double time_s) { return !(stopped && time_s >= 0.05); });
     EXPECT_EQ(counts.rows(), stopped ? 50 : 100);
     EXPECT_EQ(counts.cols(), 8);
@@ -106,12 +107,12 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
   const auto never = [](double) { return true; };
   FakeDevice lost;
   lost.log().answer = LinkFault::kGone;
-  EXPECT_THROW(record_counts(lost, profile, {1, 0.001}, never), DeviceError);
+  EXPECT_THROW(calibration::record_counts(lost, profile, {1, 0.001}, never), DeviceError);
   EXPECT_EQ(lost.log().closed, 1);
 
   FakeDevice silent;
   silent.log().answer = LinkFault::kTimeout;
-  EXPECT_THROW(record_counts(silent, profile, {1, 0.001}, never), DeviceError);
+  EXPECT_THROW(calibration::record_counts(silent, profile, {1, 0.001}, never), DeviceError);
   EXPECT_EQ(silent.log().closed, 1);
 
   FakeDevice good;
@@ -119,7 +120,7 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
     if (time_s > 0) throw std::runtime_error("stop");
     return true;
   };
-  EXPECT_THROW(record_counts(good, profile, {1, 0.001}, throws), std::runtime_error);
+  EXPECT_THROW(calibration::record_counts(good, profile, {1, 0.001}, throws), std::runtime_error);
   EXPECT_EQ(good.log().closed, 1);
 }
 

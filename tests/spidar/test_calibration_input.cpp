@@ -28,7 +28,7 @@ void expect_contains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
 }
 
-CountSamples good_counts(const Profile& profile) {
+calibration::CountSamples good_counts(const Profile& profile) {
   Random random(1);
   return moved_counts(profile, 100, 0.05, random, 0);
 }
@@ -37,30 +37,34 @@ CountSamples good_counts(const Profile& profile) {
 
 TEST(CalibrationInput, TooFewSamples) {
   const Profile profile = load_profile("spidar-gcc");
-  const CountSamples counts = good_counts(profile).topRows(19);
-  expect_contains(error_of([&] { calibrate(profile, counts); }), "19 samples, must be at least 20");
-  expect_contains(error_of([&] { calibrate_at_centre(profile, counts); }), "19 samples");
+  const calibration::CountSamples counts = good_counts(profile).topRows(19);
+  expect_contains(error_of([&] { calibration::calibrate(profile, counts); }),
+                  "19 samples, must be at least 20");
+  expect_contains(error_of([&] { calibration::calibrate_at_centre(profile, counts); }),
+                  "19 samples");
 }
 
 TEST(CalibrationInput, NotANumber) {
   const Profile profile = load_profile("spidar-gcc");
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    CountSamples counts = good_counts(profile);
+    calibration::CountSamples counts = good_counts(profile);
     counts(17, 3) = bad;
-    expect_contains(error_of([&] { calibrate(profile, counts); }), "sample 17, string 3: ");
-    expect_contains(error_of([&] { calibrate_at_centre(profile, counts); }), "must be finite");
+    expect_contains(error_of([&] { calibration::calibrate(profile, counts); }),
+                    "sample 17, string 3: ");
+    expect_contains(error_of([&] { calibration::calibrate_at_centre(profile, counts); }),
+                    "must be finite");
   }
 }
 
 TEST(CalibrationInput, WrongStringCount) {
   Profile profile = load_profile("spidar-gcc");
-  const CountSamples counts = good_counts(profile);
-  const CountSamples seven = counts.leftCols(7);
-  expect_contains(error_of([&] { calibrate(profile, seven); }),
+  const calibration::CountSamples counts = good_counts(profile);
+  const calibration::CountSamples seven = counts.leftCols(7);
+  expect_contains(error_of([&] { calibration::calibrate(profile, seven); }),
                   "counts of 7 strings, must have 8 as profile \"spidar-gcc\"");
   profile.geometry.count = 6;
-  expect_contains(error_of([&] { calibrate(profile, counts.leftCols(6)); }),
+  expect_contains(error_of([&] { calibration::calibrate(profile, counts.leftCols(6)); }),
                   "has 6 strings, must have at least 7");
 }
 
@@ -71,23 +75,26 @@ TEST(CalibrationInput, SevenStringsDo) {
   profile.geometry.count = 7;
   Profile device = profile;
   clear_counters_at(wrong_start(random, 0.02, 0.3), device);
-  const CalibrationResult result = calibrate(profile, moved_counts(device, 2000, 0.01, random, 0));
-  ASSERT_EQ(result.status, CalibrationStatus::kSolved);
+  const calibration::Result result =
+      calibration::calibrate(profile, moved_counts(device, 2000, 0.01, random, 0));
+  ASSERT_EQ(result.status, calibration::Status::kSolved);
   EXPECT_LT(zero_length_errors_m(profile, device, result).cwiseAbs().maxCoeff(),
-            kMaxCalibrationSd_m);
+            calibration::kMaxSd_m);
 }
 
 TEST(CalibrationInput, GripThatMovesIsNotHeldAtTheCentre) {
   const Profile profile = load_profile("spidar-gcc");
-  expect_contains(error_of([&] { calibrate_at_centre(profile, good_counts(profile)); }),
-                  "not held still");
+  expect_contains(
+      error_of([&] { calibration::calibrate_at_centre(profile, good_counts(profile)); }),
+      "not held still");
 }
 
 TEST(CalibrationInput, OnlyASolvedResultMakesAProfile) {
   const Profile profile = load_profile("spidar-gcc");
-  CalibrationResult result;
-  result.status = CalibrationStatus::kUndetermined;
-  expect_contains(error_of([&] { calibrated_profile(profile, result, "a test"); }), "not solved");
+  calibration::Result result;
+  result.status = calibration::Status::kUndetermined;
+  expect_contains(error_of([&] { calibration::calibrated_profile(profile, result, "a test"); }),
+                  "not solved");
 }
 
 }  // namespace spidar::test::calibration_input_test

@@ -103,8 +103,8 @@ TEST(ProfileWriter, CalibrationComesBack) {
   const Folder folder;
   const Profile profile = load_profile("spidar-gcc");
   Random random(1);
-  CalibrationResult result;
-  result.status = CalibrationStatus::kSolved;
+  calibration::Result result;
+  result.status = calibration::Status::kSolved;
   result.samples = 1234;
   result.residual_m = 1.0 / 3e5;
   result.scale = 1 + uniform(random, 0.01);
@@ -113,8 +113,9 @@ TEST(ProfileWriter, CalibrationComesBack) {
     result.exit_m[i] = profile.geometry.exit_m[i] + uniform_vector(random, 1e-3);
     result.home_offset_m[static_cast<Eigen::Index>(i)] = uniform(random, 0.02);
   }
-  Profile once = calibrated_profile(profile, result, "first \"try\"\twith\nodd characters");
-  const Profile twice = calibrated_profile(once, result, "second try");
+  Profile once =
+      calibration::calibrated_profile(profile, result, "first \"try\"\twith\nodd characters");
+  const Profile twice = calibration::calibrated_profile(once, result, "second try");
   // Scale and offsets replace those of before; so does what is said about them.
   EXPECT_EQ(twice.provenance.size(), profile.provenance.size() + 3);
   EXPECT_EQ(twice.provenance.back().source, "second try");
