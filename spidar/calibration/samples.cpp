@@ -107,8 +107,8 @@ CountSamples record_counts(StringDevice& device, const Profile& profile,
   const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));
   std::vector<DeviceReading> kept;
   int64_t tick = -kRise;  // the next one
-  StringHold hold(device, profile,
-                  [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
+  selftest::StringHold hold(device, profile,
+                            [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
   if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) {
     hold.stay(settings.seconds, [&](const DeviceReading& reading) {
       if ((tick - 1) % period == 0) kept.push_back(reading);

@@ -14,12 +14,12 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
-constexpr double kFade_s = DelayTestSettings::kFade_s;
-constexpr double kBegin_s = kFade_s + DelayTestSettings::kSettle_s;
-constexpr double kRound_s = DelayTestSettings::kRound_s;
+constexpr double kFade_s = DelaySettings::kFade_s;
+constexpr double kBegin_s = kFade_s + DelaySettings::kSettle_s;
+constexpr double kRound_s = DelaySettings::kRound_s;
 /// Wrenches are scheduled this long before they are due, so that none is late and faded in.
 constexpr int64_t kAhead_ns = 20 * kTick_ns;
 /// A wrench holds for this long if the next one is late; then the loop ramps to rest.
@@ -38,7 +38,7 @@ double envelope(double time_s) {
 class DelayRun {
  public:
   DelayRun(StringDevice& device, const Profile& profile, const Pace& pace,
-           const MonotonicClock& now_ns, const DelayTestSettings& settings)
+           const MonotonicClock& now_ns, const DelaySettings& settings)
       : device_(device),
         loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
                                            limits(settings))),
@@ -56,7 +56,7 @@ class DelayRun {
 
  private:
   /// The loop's default limits, with the force limited to the configured peak.
-  static SafetyLimits limits(const DelayTestSettings& settings) {
+  static SafetyLimits limits(const DelaySettings& settings) {
     SafetyLimits limits;
     limits.max_force_N = std::min(limits.max_force_N, settings.peak_N);
     return limits;
@@ -200,11 +200,11 @@ class DelayRun {
 
   void judge() {
     result_.periods = static_cast<int>(periods_.size());
-    if (result_.periods < DelayTestSettings::kFewestPeriods) {
+    if (result_.periods < DelaySettings::kFewestPeriods) {
       fail("only " + std::to_string(result_.periods) + " of " +
            std::to_string(settings_.most_periods()) +
            " seconds were without a pause of 10 ms or an exchange without answer; at least " +
-           std::to_string(DelayTestSettings::kFewestPeriods) + " are needed");
+           std::to_string(DelaySettings::kFewestPeriods) + " are needed");
       return;
     }
     result_.fit = fit_lag(average(periods_), result_.periods);
@@ -215,7 +215,7 @@ class DelayRun {
   const std::unique_ptr<HapticLoop> loop_;
   const Pace& pace_;
   const MonotonicClock& now_ns_;
-  const DelayTestSettings settings_;
+  const DelaySettings settings_;
   DelayTest result_;
   TickRecord record_;
   int reopened_ = 0;
@@ -229,11 +229,11 @@ class DelayRun {
 }  // namespace
 
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
-                        const MonotonicClock& now_ns, const DelayTestSettings& settings) {
-  if (settings.periods < DelayTestSettings::kFewestPeriods) {
+                        const MonotonicClock& now_ns, const DelaySettings& settings) {
+  if (settings.periods < DelaySettings::kFewestPeriods) {
     throw std::invalid_argument("measure_delay: " + std::to_string(settings.periods) +
                                 " periods, must be at least " +
-                                std::to_string(DelayTestSettings::kFewestPeriods));
+                                std::to_string(DelaySettings::kFewestPeriods));
   }
   return DelayRun(device, profile, pace, now_ns, settings).run();
 }
@@ -249,4 +249,4 @@ LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_n
   return verdict;
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -13,9 +13,9 @@
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/lag_fit.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
-struct DelayTestSettings {
+struct DelaySettings {
   double peak_N = 0.4;  ///< peak force
   int periods = 12;     ///< number of one-second periods, at least kFewestPeriods
   uint32_t seed = 1;    ///< of the random phases
@@ -56,7 +56,7 @@ using MonotonicClock = std::function<int64_t()>;
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
 /// be opened.
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
-                        const MonotonicClock& now_ns, const DelayTestSettings& settings = {});
+                        const MonotonicClock& now_ns, const DelaySettings& settings = {});
 
 /// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;
@@ -74,4 +74,4 @@ struct LagVerdict {
 /// are added to the lag.
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

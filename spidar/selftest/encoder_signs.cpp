@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 constexpr double kLargestMove_m = 0.03;
@@ -66,4 +66,4 @@ bool encoders_agree(const Profile& profile, const HandMoves& moves) {
                      [](EncoderSign sign) { return sign == EncoderSign::kAsProfile; });
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -11,7 +11,7 @@
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 /// The counts of the encoders while a hand held the grip at the centre, and then at these
 /// positions.
@@ -46,4 +46,4 @@ std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const
 /// All strings are kAsProfile.
 bool encoders_agree(const Profile& profile, const HandMoves& moves);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -6,7 +6,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns) {
   if (fault == LinkFault::kStoodStill) {
@@ -109,4 +109,4 @@ LinkFault ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {
   return grip_.exchange(command_);
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

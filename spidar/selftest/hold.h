@@ -18,7 +18,7 @@
 #include "spidar/loop/loop_time.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 /// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
@@ -179,4 +179,4 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
   GripCommand command_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -12,7 +12,7 @@
 
 #include "spidar/selftest/report_text.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 constexpr double kTurn = 2 * M_PI / Multisine::kPeriod_s;
@@ -252,4 +252,4 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   return result;
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace spidar {
+namespace spidar::selftest {
 
 /// A sum of sines with equal amplitudes and random phases. Each completes a whole number of cycles
 /// per second.
@@ -126,4 +126,4 @@ constexpr double kVagueLagFraction = 0.15;
 /// `periods` is the number of periods that the lines average.
 LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -10,7 +10,7 @@
 
 #include "spidar/loop/stiffness_limit.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 /// Signs in a profile of the device as it is wired.
@@ -153,4 +153,4 @@ Json lag_json(const DelayTest& test, const LagVerdict& verdict) {
           {"most_stiffness_N_m", most_stiffness_N_m(verdict.safe_lag_s)}};
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

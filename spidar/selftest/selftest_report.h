@@ -9,7 +9,7 @@
 #include "spidar/selftest/report_text.h"
 #include "spidar/selftest/wiring_report.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 /// On standard error: what to do with the hand before unclear motors are pulled again.
 void tell_to_hold_still(const WiringReport& report);
@@ -23,4 +23,4 @@ void print_lag(std::ostream& out, const Profile& profile, const DelayTest& test,
                const LagVerdict& verdict);
 Json lag_json(const DelayTest& test, const LagVerdict& verdict);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

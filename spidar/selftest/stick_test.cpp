@@ -10,7 +10,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/selftest/hold.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 constexpr double kRamp_s = 0.05, kPush_s = 0.15, kReturn_s = 0.3, kAverage_s = 0.02;
@@ -174,4 +174,4 @@ std::string stick_report(const StickTest& test, const GripAbilities& can,
   return text;
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -12,7 +12,7 @@
 #include "spidar/grip/grip.h"
 #include "spidar/selftest/hold.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 struct StickTest {
   /// Less is no answer: a hand holds it, the force does not overcome friction, or it has no motor.
@@ -41,4 +41,4 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N);
 std::string stick_report(const StickTest& test, const GripAbilities& can,
                          const Eigen::Vector2d& reach_m, const std::string& device);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -9,7 +9,7 @@
 
 #include "spidar/loop/haptic_loop.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 constexpr double kRunaway_m = 0.03;
@@ -21,7 +21,7 @@ constexpr double kSteady = 0.25;
 class Asking {
  public:
   Asking(StringDevice& device, const Profile& profile, const Pace& pace,
-         const WiringTestSettings& settings)
+         const WiringSettings& settings)
       : device_(device),
         profile_(profile),
         settings_(settings),
@@ -186,7 +186,7 @@ class Asking {
 
   StringDevice& device_;
   const Profile& profile_;
-  const WiringTestSettings settings_;
+  const WiringSettings settings_;
   const StringVector rest_N_;
   StringHold hold_;
   int pulling_ = -1;
@@ -206,7 +206,7 @@ double smallest_answer_m(const Profile& profile) {
 }
 
 WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                         const WiringTestSettings& settings) {
+                         const WiringSettings& settings) {
   WiringAnswers answers;
   std::array<bool, kMaxStrings> all{};
   all.fill(true);
@@ -215,9 +215,9 @@ WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pac
 }
 
 void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
-               const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
+               const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers) {
   Asking(device, profile, pace, settings).run(motors, answers);
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -11,9 +11,9 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/selftest/hold.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
-struct WiringTestSettings {
+struct WiringSettings {
   double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
   double ramp_s = 0.05;  ///< time to build up the pull, and to release it
   double settle_s = 0.1;
@@ -42,15 +42,15 @@ struct WiringAnswers {
 /// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
 /// hand gives way, the motor unwinds the string or nobody holds the grip.
 WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                         const WiringTestSettings& settings = {});
+                         const WiringSettings& settings = {});
 
 /// Pulls these motors again, and replaces their answers.
 void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
-               const WiringTestSettings& settings, const std::array<bool, kMaxStrings>& motors,
+               const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers);
 
 /// Smallest change of length that counts as an answer, metres: some counts, above the tremor of a
 /// hand.
 double smallest_answer_m(const Profile& profile);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

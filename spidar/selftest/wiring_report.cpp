@@ -11,7 +11,7 @@
 #include "core/quantile.h"
 #include "spidar/simulation/grip_model.h"
 
-namespace spidar {
+namespace spidar::selftest {
 namespace {
 
 /// By how much each assumed fault lowers the score of an explanation, as a fraction of a perfect
@@ -276,7 +276,7 @@ Profile rewired_profile(const Profile& profile, const WiringReport& report,
 }
 
 WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                       const WiringTestSettings& settings,
+                       const WiringSettings& settings,
                        const std::function<void(const WiringReport&)>& repeat) {
   WiringTest test;
   test.answers = ask_wiring(device, profile, pace, settings);
@@ -308,4 +308,4 @@ std::string unclear_motors(const WiringReport& report) {
   return names;
 }
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -11,7 +11,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/selftest/wiring_answers.h"
 
-namespace spidar {
+namespace spidar::selftest {
 
 /// One channel of the board.
 struct WiringChannel {
@@ -67,10 +67,10 @@ struct WiringTest {
 /// all, and something has moved, calls `repeat`, when all tensions are zero, and asks the motors
 /// again that are unclear, or all if none is. Throws DeviceError like ask_wiring().
 WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                       const WiringTestSettings& settings,
+                       const WiringSettings& settings,
                        const std::function<void(const WiringReport&)>& repeat = {});
 
 /// Text like " 2, 5": the motors whose answers are unclear.
 std::string unclear_motors(const WiringReport& report);
 
-}  // namespace spidar
+}  // namespace spidar::selftest

@@ -101,7 +101,7 @@ class Progress {
 /// False, with a message, when it is not as in the profile, or when interrupted.
 bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
   bool told = false;
-  const Pace pace = [&, next = every_millisecond()] {
+  const selftest::Pace pace = [&, next = every_millisecond()] {
     // Only now is the device open.
     if (!std::exchange(told, true)) {
       std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the "
@@ -109,12 +109,13 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
     }
     return next();
   };
-  WiringTestSettings settings;
+  selftest::WiringSettings settings;
   settings.try_reversed = can_reverse(options.device, profile);
-  const WiringTest test = test_wiring(bench.device(), profile, pace, settings, tell_to_hold_still);
+  const selftest::WiringTest test =
+      selftest::test_wiring(bench.device(), profile, pace, settings, selftest::tell_to_hold_still);
   if (!test.answers.complete) return false;
   if (test.report.as_profile()) return true;
-  print_wiring(std::cerr, profile, test.answers, test.report);
+  selftest::print_wiring(std::cerr, profile, test.answers, test.report);
   std::cerr << "nothing is calibrated: spidarctl selftest finds out what to change\n";
   return false;
 }

@@ -23,7 +23,8 @@ bool is_line_there() {
 }
 
 /// The counts when the person has pressed Enter. False when interrupted.
-bool read_when_there(StringHold& hold, const std::string& question, EncoderScale::Counts& counts) {
+bool read_when_there(selftest::StringHold& hold, const std::string& question,
+                     EncoderScale::Counts& counts) {
   std::cerr << question << " and press Enter.\n";
   const bool whole = hold.stay(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
     counts = reading.count;
@@ -37,40 +38,42 @@ bool read_when_there(StringHold& hold, const std::string& question, EncoderScale
 }
 
 /// False when interrupted.
-bool move_by_hand(ChosenDevice& chosen, HandMoves& moves) {
-  moves.distance_m = hand_move_m(chosen.profile.geometry);
-  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+bool move_by_hand(ChosenDevice& chosen, selftest::HandMoves& moves) {
+  moves.distance_m = selftest::hand_move_m(chosen.profile.geometry);
+  selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
   bool whole =
       read_when_there(hold, "Pull all strings taut, hold the grip still at the centre, not turned,",
                       moves.counts[0]);
-  for (size_t side = 0; whole && side < HandMoves::kSides.size(); ++side) {
+  for (size_t side = 0; whole && side < selftest::HandMoves::kSides.size(); ++side) {
     whole = read_when_there(hold,
                             std::to_string(side + 1) + " of 6: from the centre, pull the grip " +
                                 as_text(1e3 * moves.distance_m) + " mm " +
-                                HandMoves::kSides[side].name + ", hold it there",
+                                selftest::HandMoves::kSides[side].name + ", hold it there",
                             moves.counts[side + 1]);
   }
   return whole;
 }
 
-const char* text_of(EncoderSign sign) {
+const char* text_of(selftest::EncoderSign sign) {
   switch (sign) {
-    case EncoderSign::kAsProfile:
+    case selftest::EncoderSign::kAsProfile:
       return "as in the profile";
-    case EncoderSign::kReversed:
+    case selftest::EncoderSign::kReversed:
       return "counts the other way";
-    case EncoderSign::kStill:
+    case selftest::EncoderSign::kStill:
       return "did not count";
-    case EncoderSign::kUnclear:
+    case selftest::EncoderSign::kUnclear:
       return "unclear";
   }
   return "";
 }
 
-void print_others(const ChosenDevice& chosen, const HandMoves& moves) {
+void print_others(const ChosenDevice& chosen, const selftest::HandMoves& moves) {
   std::string others;
   for (const std::string& name : fitting_profiles(chosen.board)) {
-    if (encoders_agree(load_profile(name), moves)) others += (others.empty() ? "" : ", ") + name;
+    if (selftest::encoders_agree(load_profile(name), moves)) {
+      others += (others.empty() ? "" : ", ") + name;
+    }
   }
   std::cout << (others.empty() ? "no profile of this board has encoders that count so"
                                : "profiles whose encoders count so: " + others)
@@ -90,21 +93,22 @@ int choose(const DeviceOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kOff);
   require_serial(board, options.profile);
   catch_signals();
-  HandMoves moves;
+  selftest::HandMoves moves;
   if (!move_by_hand(chosen, moves)) return kInterrupted;
-  const auto signs = encoder_signs(chosen.profile, moves);
+  const auto signs = selftest::encoder_signs(chosen.profile, moves);
   std::cout << "  string  encoder\n";
   for (int i = 0; i < chosen.profile.geometry.count; ++i) {
     std::cout << "  " << i << "       " << text_of(signs[static_cast<size_t>(i)]) << '\n';
   }
-  const bool counted = std::any_of(signs.begin(), signs.end(),
-                                   [](EncoderSign sign) { return sign != EncoderSign::kStill; });
+  const bool counted = std::any_of(signs.begin(), signs.end(), [](selftest::EncoderSign sign) {
+    return sign != selftest::EncoderSign::kStill;
+  });
   if (!counted) {
     std::cout << "no encoder counted: check that they are connected to the board and that the "
                  "strings run over them, and move the grip as far as is asked for\n";
     return kFailed;
   }
-  if (!encoders_agree(chosen.profile, moves)) {
+  if (!selftest::encoders_agree(chosen.profile, moves)) {
     print_others(chosen, moves);
     return kFailed;
   }

@@ -119,7 +119,7 @@ bool interrupted();
 
 /// Waits until a millisecond after the last call, or not at all if that has passed; returns false
 /// when interrupted.
-Pace every_millisecond();
+selftest::Pace every_millisecond();
 
 /// What `work` returns or throws, which moves a device: it runs as the haptic loop does, with
 /// real-time priority where that is permitted. A guardian allows no pause of more than kSilence_ms.

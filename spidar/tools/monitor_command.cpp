@@ -144,7 +144,7 @@ int monitor(const MonitorOptions& options) {
   }
   catch_signals();
   Monitor monitor(chosen.profile, options.json);
-  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+  selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
   if (options.taut) hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s);
   hold.stay(options.seconds, [&](const DeviceReading& reading) {
     monitor.show(reading);

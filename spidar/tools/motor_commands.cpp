@@ -24,10 +24,10 @@ int zero(const DeviceOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kZeroed);
   bool answered = false;
   if (chosen.grip) {
-    ForceHold hold(*chosen.grip, every_millisecond());
+    selftest::ForceHold hold(*chosen.grip, every_millisecond());
     hold.stay(0.02, [&](const GripReading&) { return answered = true; });
   } else {
-    StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+    selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
     hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
   }
   if (!answered) {
@@ -85,7 +85,7 @@ Lengths run(ChosenDevice& chosen, const PullOptions& pull) {
       return true;
     };
   };
-  StringHold hold(*chosen.device, profile, every_millisecond());
+  selftest::StringHold hold(*chosen.device, profile, every_millisecond());
   lengths.complete = hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s) &&
                      hold.stay(kRamp_s, newest(lengths.before_m)) && hold.go(pulled_N, kRamp_s) &&
                      hold.stay(pull.seconds, newest(lengths.pulled_m)) &&
@@ -117,7 +117,7 @@ void print(const PullOptions& pull, int strings, const Lengths& lengths) {
 std::string silence_of(const PullOptions& pull, const Profile& profile, const Lengths& lengths) {
   if (pull.tension_N <= profile.drives[static_cast<size_t>(pull.string)].min_tension_N) return {};
   const StringVector change_m = lengths.change_m();
-  const double least_m = smallest_answer_m(profile);
+  const double least_m = selftest::smallest_answer_m(profile);
   const std::string string = std::to_string(pull.string);
   if (change_m.cwiseAbs().maxCoeff() < least_m) {
     return "no string has answered: switch on the supply of the motors, and check that string " +

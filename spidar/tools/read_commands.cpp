@@ -102,7 +102,7 @@ struct FoundBoard {
 /// False when nothing was read.
 bool read_strings(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
-  StringHold hold(*chosen.device, chosen.profile, every_millisecond());
+  selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
   hold.stay(0.1, [&](const DeviceReading& reading) {
     found.reading = reading;
     return read = true;
@@ -114,7 +114,7 @@ bool read_strings(ChosenDevice& chosen, FoundBoard& found) {
 
 bool read_position(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
-  ForceHold hold(*chosen.grip, every_millisecond());
+  selftest::ForceHold hold(*chosen.grip, every_millisecond());
   hold.stay(0.1, [&](const GripReading& reading) {
     found.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (reading.knows_pose()) found.position_m = reading.pose.position_m;
@@ -129,7 +129,7 @@ FoundBoard read(ChosenDevice& chosen) {
   FoundBoard found;
   const bool read = chosen.grip ? read_position(chosen, found) : read_strings(chosen, found);
   if (!read && !interrupted()) {
-    throw DeviceError(loss_text(chosen.name(), found.health.last_fault, 0));
+    throw DeviceError(selftest::loss_text(chosen.name(), found.health.last_fault, 0));
   }
   return found;
 }

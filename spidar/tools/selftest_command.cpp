@@ -28,13 +28,13 @@ struct SelftestOptions : DeviceOptions {
 };
 
 /// `lag`: what was measured of the drives, if it was.
-void write(const SelftestOptions& options, const Profile& profile, const WiringReport& report,
-           const std::optional<LagVerdict>& lag) {
+void write(const SelftestOptions& options, const Profile& profile,
+           const selftest::WiringReport& report, const std::optional<selftest::LagVerdict>& lag) {
   if (!report.fixable()) {
     std::cerr << options.output.path << " is not written: a profile cannot express this wiring\n";
     return;
   }
-  Profile rewired = rewired_profile(profile, report, "spidarctl selftest");
+  Profile rewired = selftest::rewired_profile(profile, report, "spidarctl selftest");
   if (lag) {
     rewired.drive_lag_s = lag->safe_lag_s;
     rewired.drive_lag_known = true;
@@ -53,8 +53,8 @@ bool is_stick(const std::string& device) {
 }
 
 const char* side_of(double moved_m) {
-  if (moved_m >= StickTest::kLeast_m) return "moves with the force";
-  return moved_m <= -StickTest::kLeast_m ? "moves against the force" : "does not move";
+  if (moved_m >= selftest::StickTest::kLeast_m) return "moves with the force";
+  return moved_m <= -selftest::StickTest::kLeast_m ? "moves against the force" : "does not move";
 }
 
 constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
@@ -69,8 +69,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   }
   catch_signals();
   const double push_N = stick ? chosen.grip->abilities().largest_force_N / 2 : options.newton;
-  const StickTest test =
-      in_real_time([&] { return test_stick(*chosen.grip, every_millisecond(), push_N); });
+  const selftest::StickTest test =
+      in_real_time([&] { return selftest::test_stick(*chosen.grip, every_millisecond(), push_N); });
   if (!test.complete) {
     std::cerr << "interrupted; the force is zero\n";
     return kInterrupted;
@@ -78,7 +78,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const GripAbilities can = chosen.grip->abilities();
   if (stick) {
     std::cout << test.description << '\n'
-              << stick_report(test, can, half_picture_m(chosen.profile.geometry), options.device);
+              << selftest::stick_report(test, can, half_picture_m(chosen.profile.geometry),
+                                        options.device);
   }
   if (stick && is_simulated(options.device)) {
     std::cout << "This one is simulated, with a hand that holds it: nothing is wrong.\n";
@@ -87,7 +88,7 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   for (size_t axis = 0; axis < kSides.size(); ++axis) {
     if (!can.force[axis]) continue;
     if (!stick) std::cout << kSides[axis] << "  " << side_of(test.moved_m[axis]) << '\n';
-    right = right && test.moved_m[axis] >= StickTest::kLeast_m;
+    right = right && test.moved_m[axis] >= selftest::StickTest::kLeast_m;
   }
   return right ? kDone : kFailed;
 }
@@ -97,15 +98,15 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
 std::optional<std::string> pulse(Grip& grip, double push_N) {
   constexpr double kRise_s = 0.05, kPulse_s = 0.5;
   const GripAbilities can = grip.abilities();
-  ForceHold hold(grip, every_millisecond());
+  selftest::ForceHold hold(grip, every_millisecond());
   const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
-  bool whole = repeated(
+  bool whole = selftest::repeated(
       hold, [] { return true; }, begin);
   for (size_t axis = 0; axis < (can.direction ? kSides.size() : 1) && whole; ++axis) {
     if (!can.force[axis]) continue;
     std::cout << (can.direction ? kSides[axis] : "strength") << "  a pulse of 0.5 s" << std::endl;
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
-    whole = repeated(hold, begin, [&] {
+    whole = selftest::repeated(hold, begin, [&] {
       return hold.go(push_N * along, kRise_s) && hold.stay(kPulse_s) &&
              hold.go(Eigen::Vector3d::Zero(), kRise_s) && hold.stay(kPulse_s);
     });
@@ -143,21 +144,23 @@ bool answers_pushes(Grip& grip) {
 bool is_confirmed(const SelftestOptions& options, const std::string& device) {
   std::string question = "Pull the strings of " + device + " one after the other";
   if (options.lag) {
-    question += formatted(", and shake the grip with up to %g N for %.0f s",
-                          DelayTestSettings().peak_N, DelayTestSettings().most_seconds());
+    question +=
+        formatted(", and shake the grip with up to %g N for %.0f s",
+                  selftest::DelaySettings().peak_N, selftest::DelaySettings().most_seconds());
   }
   return may_move(options.device, options.yes,
                   question + "? The grip will move; hold it loosely at the centre.");
 }
 
-DelayTest shake(StringDevice& device, const Profile& profile) {
+selftest::DelayTest shake(StringDevice& device, const Profile& profile) {
   std::cerr << formatted(
       "Hold the grip loosely at the centre, and still. It is shaken along the line of sight with "
       "up "
       "to %g N for %.0f s; Ctrl-C ends that.\n",
-      DelayTestSettings().peak_N, DelayTestSettings().seconds());
-  return in_real_time(
-      [&] { return measure_delay(device, profile, every_millisecond(), monotonic_now_ns); });
+      selftest::DelaySettings().peak_N, selftest::DelaySettings().seconds());
+  return in_real_time([&] {
+    return selftest::measure_delay(device, profile, every_millisecond(), monotonic_now_ns);
+  });
 }
 
 int interrupted_test() {
@@ -165,7 +168,7 @@ int interrupted_test() {
   return kInterrupted;
 }
 
-int selftest(const SelftestOptions& options) {
+int run_selftest(const SelftestOptions& options) {
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
   if (chosen.grip) {
     return answers_pushes(*chosen.grip) ? test_push_command(options, chosen)
@@ -176,33 +179,34 @@ int selftest(const SelftestOptions& options) {
   if (!is_confirmed(options, chosen.name())) return kFailed;
   catch_signals();
   const Profile& profile = chosen.profile;
-  WiringTestSettings settings;
+  selftest::WiringSettings settings;
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.device, profile);
   const auto [answers, report] = in_real_time([&] {
-    return test_wiring(*chosen.device, profile, every_millisecond(), settings, tell_to_hold_still);
+    return selftest::test_wiring(*chosen.device, profile, every_millisecond(), settings,
+                                 selftest::tell_to_hold_still);
   });
   if (!answers.complete) return interrupted_test();
   Json json;
   if (options.json) {
-    json = wiring_json(profile, answers, report);
+    json = selftest::wiring_json(profile, answers, report);
   } else {
-    print_wiring(std::cout, profile, answers, report);
+    selftest::print_wiring(std::cout, profile, answers, report);
   }
   bool right = report.as_profile();
-  std::optional<LagVerdict> lag;
+  std::optional<selftest::LagVerdict> lag;
   // Forces that a wrong wiring would turn round are not tried.
   if (options.lag && right) {
-    const DelayTest test = shake(*chosen.device, profile);
+    const selftest::DelayTest test = shake(*chosen.device, profile);
     if (!test.complete) return interrupted_test();
     if (test.measured()) {
-      lag = judge_lag(profile, *test.fit, chosen.device->health().round_trip_p99_ns);
+      lag = selftest::judge_lag(profile, *test.fit, chosen.device->health().round_trip_p99_ns);
     }
     right = lag && lag->stated_enough;
     if (options.json) {
-      json["drive_lag"] = lag_json(test, lag.value_or(LagVerdict()));
+      json["drive_lag"] = selftest::lag_json(test, lag.value_or(selftest::LagVerdict()));
     } else {
-      print_lag(std::cout, profile, test, lag.value_or(LagVerdict()));
+      selftest::print_lag(std::cout, profile, test, lag.value_or(selftest::LagVerdict()));
     }
   }
   if (options.json) std::cout << json_text(json, 2) << '\n';
@@ -214,7 +218,7 @@ int selftest(const SelftestOptions& options) {
 
 void add_selftest(Program& program) {
   const auto [app, options] = add_command(
-      program, "selftest", "find motors and encoders that are swapped or reversed", selftest);
+      program, "selftest", "find motors and encoders that are swapped or reversed", run_selftest);
   add_device(app, options);
   app.add_option("--newton", options.newton,
                  "tension of a pull above the minimum tension, or force of a push (default 0.5)")

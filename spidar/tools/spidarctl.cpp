@@ -112,7 +112,7 @@ bool interrupted() {
   return signalled;
 }
 
-Pace every_millisecond() {
+selftest::Pace every_millisecond() {
   return [next_ns = monotonic_now_ns()]() mutable {
     next_ns = std::max(next_ns + kTick_ns, monotonic_now_ns());
     sleep_until_ns(next_ns);

@@ -50,7 +50,7 @@ struct StoppedTime {
   SimulatedClock clock() {
     return [this] { return now_ns; };
   }
-  Pace pace() {
+  selftest::Pace pace() {
     return [this] {
       now_ns += kTick_ns;
       return now_ns < end_ns;
@@ -58,8 +58,8 @@ struct StoppedTime {
   }
 };
 
-DelayTest measure(const std::string& board, const Profile& profile, const GripModel& model,
-                  uint32_t seed) {
+selftest::DelayTest measure(const std::string& board, const Profile& profile,
+                            const GripModel& model, uint32_t seed) {
   StoppedTime time;
   std::unique_ptr<StringDevice> device;
   if (board == "sim") {
@@ -71,19 +71,19 @@ DelayTest measure(const std::string& board, const Profile& profile, const GripMo
     device = std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(simulated)),
                                           settings_of_simulation());
   }
-  DelayTestSettings settings;
+  selftest::DelaySettings settings;
   settings.seed = seed;
-  return measure_delay(*device, profile, time.pace(), time.clock(), settings);
+  return selftest::measure_delay(*device, profile, time.pace(), time.clock(), settings);
 }
 
 /// The interval is 99.7 % wide, and the seeds are given: the true lag is in each, or something is
 /// wrong. LagFitter bounds how wide it may be.
-void expect_right(const DelayTest& test, const Profile& profile, const GripModel& model) {
+void expect_right(const selftest::DelayTest& test, const Profile& profile, const GripModel& model) {
   ASSERT_TRUE(test.measured()) << test.error;
   const double lag_s = true_lag_s(profile, model);
   EXPECT_LE(test.fit->least_s, lag_s);
   EXPECT_GE(test.fit->most_s, lag_s);
-  EXPECT_EQ(test.periods, DelayTestSettings().periods);
+  EXPECT_EQ(test.periods, selftest::DelaySettings().periods);
 }
 
 TEST(Delay, OfTheSimulatedDeviceIsFound) {
@@ -95,7 +95,7 @@ TEST(Delay, OfTheSimulatedDeviceIsFound) {
       model.motor_time_constant_s = 1e-3 * lag_ms;
       expect_right(measure("sim", profile, model, seed), profile, model);
       std::swap(model.motor_time_constant_s, model.motor_delay_s);
-      const DelayTest delayed = measure("sim", profile, model, seed);
+      const selftest::DelayTest delayed = measure("sim", profile, model, seed);
       expect_right(delayed, profile, model);
       // Nothing but a delay: its phase is told best.
       EXPECT_LT(delayed.fit->error_s, 50e-6);
@@ -136,7 +136,7 @@ TEST(Delay, WithAHandThatTremblesIsFound) {
   StoppedTime time;
   const GripModel model = light_hand();
   SimulatedDevice device(profile, SimulatedDevice::Time::kClock, model, time.clock());
-  const Pace pace = [&, tick = time.pace()] {
+  const selftest::Pace pace = [&, tick = time.pace()] {
     const double t = 1e-9 * static_cast<double>(time.now_ns);
     Pose hand;
     hand.position_m.x() = 1e-3 * std::sin(2 * M_PI * 0.31 * t);
@@ -145,7 +145,7 @@ TEST(Delay, WithAHandThatTremblesIsFound) {
     device.set_hand(hand);
     return tick();
   };
-  expect_right(measure_delay(device, profile, pace, time.clock()), profile, model);
+  expect_right(selftest::measure_delay(device, profile, pace, time.clock()), profile, model);
 }
 
 TEST(Delay, GivesNoNumberWhenTheGripCannotMove) {
@@ -155,7 +155,7 @@ TEST(Delay, GivesNoNumberWhenTheGripCannotMove) {
     GripModel clamped;
     clamped.hand_stiffness_N_m = stiffness_N_m;
     clamped.hand_damping_N_s_m = 20;
-    const DelayTest test = measure("sim", profile, clamped, 1);
+    const selftest::DelayTest test = measure("sim", profile, clamped, 1);
     EXPECT_FALSE(test.measured());
     EXPECT_TRUE(test.complete);
     EXPECT_FALSE(test.is_of_device);
@@ -174,15 +174,15 @@ struct Watched {
   double last_V = 0;
 
   /// `happen` at this time.
-  DelayTest measure(double at_s, const std::function<void()>& happen) {
-    const Pace pace = [&, tick = time.pace()] {
+  selftest::DelayTest measure(double at_s, const std::function<void()>& happen) {
+    const selftest::Pace pace = [&, tick = time.pace()] {
       if (time.now_ns == std::llround(1e3 * at_s) * kTick_ns) happen();
       largest_N = std::max(largest_N, sim.felt().wrench.force_N.norm());
       last_V = 0;
       for (const double volt : device.volts().volt) last_V = std::max(last_V, std::abs(volt));
       return tick();
     };
-    return measure_delay(device, profile, pace, time.clock());
+    return selftest::measure_delay(device, profile, pace, time.clock());
   }
 };
 
@@ -190,14 +190,15 @@ struct Watched {
 // string.
 TEST(Delay, PushesNoHarderThanItSays) {
   Watched watched;
-  const DelayTest test = watched.measure(1, [] {});
+  const selftest::DelayTest test = watched.measure(1, [] {});
   EXPECT_TRUE(test.measured()) << test.error;
-  const double peak_N = DelayTestSettings().peak_N;
+  const double peak_N = selftest::DelaySettings().peak_N;
   EXPECT_GT(watched.largest_N, 0.9 * peak_N);
   const double step_N = watched.profile.dac_max_V / ((1 << watched.profile.dac_bits) - 1) *
                         watched.profile.drives[0].newtons_per_volt;
   EXPECT_LE(watched.largest_N, peak_N + 8 * step_N / 2 + 0.06);  // and 0.06 N at rest (safety.md)
-  EXPECT_NEAR(1e-9 * static_cast<double>(watched.time.now_ns), DelayTestSettings().seconds(), 0.5);
+  EXPECT_NEAR(1e-9 * static_cast<double>(watched.time.now_ns), selftest::DelaySettings().seconds(),
+              0.5);
 }
 
 TEST(Delay, StopsAtAnyFault) {
@@ -223,7 +224,7 @@ TEST(Delay, StopsAtAnyFault) {
   for (const Fault& fault : faults) {
     SCOPED_TRACE(fault.says);
     Watched watched;
-    const DelayTest test = watched.measure(3, [&] { fault.happen(watched); });
+    const selftest::DelayTest test = watched.measure(3, [&] { fault.happen(watched); });
     EXPECT_FALSE(test.measured());
     EXPECT_NE(test.error.find(fault.says), std::string::npos) << test.error;
     EXPECT_LT(watched.time.now_ns, 4000 * kTick_ns);
@@ -236,7 +237,7 @@ TEST(Delay, StopsAtAnyFault) {
 TEST(Delay, InterruptedReleasesTheStrings) {
   Watched watched;
   watched.time.end_ns = 2000 * kTick_ns;
-  const DelayTest test = watched.measure(1, [] {});
+  const selftest::DelayTest test = watched.measure(1, [] {});
   EXPECT_FALSE(test.complete);
   EXPECT_FALSE(test.measured());
   // The ramp to zero, 50 ms.
@@ -250,27 +251,30 @@ TEST(Delay, SecondsWithAPauseAreTriedAgain) {
   for (const int pause_ms : {15, 90}) {
     SCOPED_TRACE(pause_ms);
     Watched watched;
-    const DelayTest test = watched.measure(3, [&] { watched.time.now_ns += pause_ms * kTick_ns; });
+    const selftest::DelayTest test =
+        watched.measure(3, [&] { watched.time.now_ns += pause_ms * kTick_ns; });
     expect_right(test, watched.profile, light_hand());
     const double took_s = 1e-9 * static_cast<double>(watched.time.now_ns);
-    EXPECT_NEAR(took_s, DelayTestSettings().seconds() + DelayTestSettings::kRound_s, 0.5);
+    EXPECT_NEAR(took_s, selftest::DelaySettings().seconds() + selftest::DelaySettings::kRound_s,
+                0.5);
   }
 }
 
 // A machine that is too busy all the time.
 TEST(Delay, TooFewSecondsGiveNoNumber) {
   Watched watched;
-  const Pace pace = [&, tick = watched.time.pace()] {
+  const selftest::Pace pace = [&, tick = watched.time.pace()] {
     if (watched.time.now_ns % (700 * kTick_ns) == 0) watched.time.now_ns += 20 * kTick_ns;
     return tick();
   };
-  const DelayTest test = measure_delay(watched.sim, watched.profile, pace, watched.time.clock());
+  const selftest::DelayTest test =
+      selftest::measure_delay(watched.sim, watched.profile, pace, watched.time.clock());
   EXPECT_FALSE(test.measured());
   EXPECT_NE(test.error.find("only 0 of 18 seconds"), std::string::npos) << test.error;
 }
 
 TEST(LagVerdict, SaysWhetherTheProfileIsRight) {
-  LagFit fit;
+  selftest::LagFit fit;
   fit.least_s = 0.0018;
   fit.lag_s = 0.0020;
   fit.most_s = 0.00223;
@@ -279,20 +283,20 @@ TEST(LagVerdict, SaysWhetherTheProfileIsRight) {
   for (const auto& [stated_s, enough] :
        {std::pair{0.0017, false}, std::pair{0.0018, true}, std::pair{0.0023, true}}) {
     profile.drive_lag_s = stated_s;
-    EXPECT_EQ(judge_lag(profile, fit, kInTime_ns).stated_enough, enough) << stated_s;
+    EXPECT_EQ(selftest::judge_lag(profile, fit, kInTime_ns).stated_enough, enough) << stated_s;
   }
-  EXPECT_NEAR(judge_lag(profile, fit, 0).safe_lag_s, 0.0023, 1e-12);
-  EXPECT_NEAR(judge_lag(profile, fit, kInTime_ns).safe_lag_s, 0.0023, 1e-12);
+  EXPECT_NEAR(selftest::judge_lag(profile, fit, 0).safe_lag_s, 0.0023, 1e-12);
+  EXPECT_NEAR(selftest::judge_lag(profile, fit, kInTime_ns).safe_lag_s, 0.0023, 1e-12);
   // Answers that the loop does not wait for count a tick later, or two.
-  EXPECT_NEAR(judge_lag(profile, fit, kInTime_ns + 1).safe_lag_s, 0.0033, 1e-12);
-  EXPECT_FALSE(judge_lag(profile, fit, kInTime_ns + 1).stated_enough);
-  EXPECT_NEAR(judge_lag(profile, fit, 2'000'000).safe_lag_s, 0.0043, 1e-12);
+  EXPECT_NEAR(selftest::judge_lag(profile, fit, kInTime_ns + 1).safe_lag_s, 0.0033, 1e-12);
+  EXPECT_FALSE(selftest::judge_lag(profile, fit, kInTime_ns + 1).stated_enough);
+  EXPECT_NEAR(selftest::judge_lag(profile, fit, 2'000'000).safe_lag_s, 0.0043, 1e-12);
   // A lag below zero is none: what acts before it is told is not to be had.
   fit.least_s = -0.0004;
   fit.most_s = -0.0001;
   profile.drive_lag_s = 0;
-  EXPECT_TRUE(judge_lag(profile, fit, 0).stated_enough);
-  EXPECT_EQ(judge_lag(profile, fit, 0).safe_lag_s, 0);
+  EXPECT_TRUE(selftest::judge_lag(profile, fit, 0).stated_enough);
+  EXPECT_EQ(selftest::judge_lag(profile, fit, 0).safe_lag_s, 0);
 }
 
 TEST(StiffnessLimit, IsThatOfTheDelay) {

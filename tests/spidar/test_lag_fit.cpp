@@ -25,11 +25,12 @@ Complex grip_of(double w) {
 
 /// With errors of `noise` of the response, rms, and a variance that says so.
 template <typename Response>
-std::vector<ResponseLine> lines_of(const Response& response, double noise, uint32_t seed) {
+std::vector<selftest::ResponseLine> lines_of(const Response& response, double noise,
+                                             uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, 1 / std::sqrt(2.0));
-  std::vector<ResponseLine> lines;
-  for (const double frequency_Hz : Multisine::kFrequency_Hz) {
+  std::vector<selftest::ResponseLine> lines;
+  for (const double frequency_Hz : selftest::Multisine::kFrequency_Hz) {
     const Complex exact = response(2 * M_PI * frequency_Hz);
     const double sd = noise * std::abs(exact);
     const Complex error = sd * Complex(normal(random), normal(random));
@@ -46,7 +47,7 @@ TEST(LagFit, OfTwoStagesIsHardlyTooLong) {
   const auto response = [&](double w) {
     return grip_of(w) / ((1.0 + kJ * w * 0.001) * (1.0 + kJ * w * 0.0015));
   };
-  const LagFit fit = fit_lag(lines_of(response, 0.005, 1), kPeriods);
+  const selftest::LagFit fit = selftest::fit_lag(lines_of(response, 0.005, 1), kPeriods);
   EXPECT_EQ(fit.error, "");
   EXPECT_GE(fit.most_s, 0.0025);
   EXPECT_LE(fit.least_s, 0.0025 + 76e-6);
@@ -54,14 +55,14 @@ TEST(LagFit, OfTwoStagesIsHardlyTooLong) {
 
 /// A grip of 0.1 kg in fingers of `spring` N/m and `damper` N s/m, and those on a hand of 0.4 kg
 /// that an arm of 300 N/m and 8 N s/m carries, behind a drive of 2 ms.
-LagFit in_fingers_of(double spring, double damper) {
+selftest::LagFit in_fingers_of(double spring, double damper) {
   const auto response = [&](double w) {
     const Complex fingers = spring + kJ * w * damper;
     const Complex hand = 300.0 - 0.4 * w * w + kJ * w * 8.0;
     const Complex held = fingers * hand / (fingers + hand);
     return std::exp(-kJ * w * 0.002) / (held - 0.1 * w * w);
   };
-  return fit_lag(lines_of(response, 0.01, 1), kPeriods);
+  return selftest::fit_lag(lines_of(response, 0.01, 1), kPeriods);
 }
 
 // The mass of a hand is not in the model. Soft fingers keep it away from the grip; hard ones make
@@ -72,10 +73,10 @@ TEST(LagFit, OfAHandOnFingersIsRightOrRefused) {
   for (const double spring : {100.0, 300.0, 1000.0, 3000.0, 10000.0}) {
     for (const double damper : {0.5, 2.0, 8.0}) {
       SCOPED_TRACE(testing::Message() << spring << " N/m, " << damper << " N s/m");
-      const LagFit fit = in_fingers_of(spring, damper);
+      const selftest::LagFit fit = in_fingers_of(spring, damper);
       if (!fit.error.empty()) continue;
       ++found;
-      EXPECT_NEAR(fit.lag_s, 0.002, kVagueLag_s);
+      EXPECT_NEAR(fit.lag_s, 0.002, selftest::kVagueLag_s);
     }
   }
   EXPECT_GT(found, 0);
@@ -83,7 +84,7 @@ TEST(LagFit, OfAHandOnFingersIsRightOrRefused) {
 
 TEST(LagFit, GivesNoNumberWhereThereIsNone) {
   const auto expect_error = [](const auto& response, double noise, const char* part) {
-    const LagFit fit = fit_lag(lines_of(response, noise, 1), kPeriods);
+    const selftest::LagFit fit = selftest::fit_lag(lines_of(response, noise, 1), kPeriods);
     EXPECT_NE(fit.error.find(part), std::string::npos) << part << ": " << fit.error;
   };
   const auto delayed = [](double w) { return grip_of(w) * std::exp(-kJ * w * 0.002); };

@@ -71,8 +71,8 @@ class ProfileChoice : public testing::Test {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (stop > 0) {
         Pose pose;
-        pose.position_m =
-            hand_move_m(real.geometry) * HandMoves::kSides[static_cast<size_t>(stop) - 1].direction;
+        pose.position_m = selftest::hand_move_m(real.geometry) *
+                          selftest::HandMoves::kSides[static_cast<size_t>(stop) - 1].direction;
         length_m = length_m.cwiseMax(string_lengths_m(real.geometry, pose));
       }
       EncoderScale::Counts counts{};

@@ -95,7 +95,7 @@ class MovingStick {
   std::thread thread_;
 };
 
-StickTest tested(size_t number, const char* option, int right, int up) {
+selftest::StickTest tested(size_t number, const char* option, int right, int up) {
   const MovingStick stick(number, right, up);
   BoardSettings settings;
   settings.guardian = false;
@@ -106,7 +106,7 @@ StickTest tested(size_t number, const char* option, int right, int up) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return true;
   };
-  return test_stick(*grip, pace, grip->abilities().largest_force_N / 2);
+  return selftest::test_stick(*grip, pace, grip->abilities().largest_force_N / 2);
 }
 
 // A test takes six seconds in real time, so all sticks are tested at once.
@@ -124,7 +124,7 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
                                                     // With the option that mends it.
                                                     {",flip=x", -1, 1, 1, 1},
                                                     {",flip=xy", -1, -1, 1, 1, true}}};
-  std::array<std::future<StickTest>, kSticks.size()> tests;
+  std::array<std::future<selftest::StickTest>, kSticks.size()> tests;
   for (size_t i = 0; i < kSticks.size(); ++i)
     // A driver that turns the centring spring on, until it is told to switch it off.
     plug_evdev(i, EvdevKind::kStick, "hid-generic").keeps_spring = kSticks[i].keeps_spring;
@@ -132,11 +132,11 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
     tests[i] = std::async(std::launch::async, tested, i, kSticks[i].option, kSticks[i].right,
                           kSticks[i].up);
   const auto side = [](double m) {
-    return (m >= StickTest::kLeast_m) - (m <= -StickTest::kLeast_m);
+    return (m >= selftest::StickTest::kLeast_m) - (m <= -selftest::StickTest::kLeast_m);
   };
   for (size_t i = 0; i < kSticks.size(); ++i) {
     SCOPED_TRACE(i);
-    const StickTest test = tests[i].get();
+    const selftest::StickTest test = tests[i].get();
     EXPECT_TRUE(test.complete);
     EXPECT_EQ(side(test.moved_m[0]), kSticks[i].found_right);
     EXPECT_EQ(side(test.moved_m[1]), kSticks[i].found_up);
@@ -171,7 +171,7 @@ class SteppedStick final : public EmulatedMotors {
 };
 
 /// How a stick answers along x, and where it is when it is pushed all the way.
-std::pair<StickTest, double> stepped_test(double spring_s, double inertia_s) {
+std::pair<selftest::StickTest, double> stepped_test(double spring_s, double inertia_s) {
   ForceBench bench("ff");
   const auto stick = std::make_shared<SteppedStick>(spring_s, inertia_s);
   ForceGrip grip(
@@ -182,14 +182,15 @@ std::pair<StickTest, double> stepped_test(double spring_s, double inertia_s) {
     stick->pass(kTick_s);
     return true;
   };
-  const StickTest test = test_stick(grip, pace, grip.abilities().largest_force_N / 2);
+  const selftest::StickTest test =
+      selftest::test_stick(grip, pace, grip.abilities().largest_force_N / 2);
   return {test, half_picture_m(bench.profile.geometry).x()};
 }
 
 TEST(StickSpring, IsMeasuredAgainstThePush) {
   for (const double spring_s : {0.02, 0.5, 1.0, 3.0, 10.0, 50.0}) {
     SCOPED_TRACE(spring_s);
-    const StickTest test = stepped_test(spring_s, 0).first;
+    const selftest::StickTest test = stepped_test(spring_s, 0).first;
     // A push of 0.22 s, in which ramps count half, moves it to this fraction of the place where the
     // spring balances the push.
     const double true_spring = 1 - std::exp(-spring_s * 0.22);
@@ -213,17 +214,18 @@ TEST(StickSpring, IsNoneOnAStickThatMovesOn) {
 
 constexpr const char* kStays = ", and stays there: no spring of more than ";
 
-std::string report(const StickTest& test, const std::string& device, bool two_axes = true) {
+std::string report(const selftest::StickTest& test, const std::string& device,
+                   bool two_axes = true) {
   GripAbilities can;
   can.force = {true, two_axes, false};
-  return stick_report(test, can, {0.03, 0.03}, device);
+  return selftest::stick_report(test, can, {0.03, 0.03}, device);
 }
 
 TEST(StickReport, SaysWhatWasFoundAndWhatToDo) {
   const auto contains = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" is not in:\n" << text;
   };
-  StickTest test;
+  selftest::StickTest test;
   test.moved_m = {0.012, -0.006, 0};
   test.least_spring = {0.03, 0.06, 0};
   test.spring = {0, 0.61, 0};

@@ -25,10 +25,10 @@ namespace spidar::test::wiring_test {
 namespace {
 
 /// "2 reads 5" for every channel that is not as in the profile.
-std::string faults_of(const WiringReport& report) {
+std::string faults_of(const selftest::WiringReport& report) {
   std::string text;
   for (int i = 0; i < report.count; ++i) {
-    const WiringChannel& c = report.channel[static_cast<size_t>(i)];
+    const selftest::WiringChannel& c = report.channel[static_cast<size_t>(i)];
     const std::string name = std::to_string(i);
     if (c.motor_string != i)
       text += "motor " + name + " pulls " + std::to_string(c.motor_string) + "; ";
@@ -45,20 +45,21 @@ bool at_once() {
   return true;
 }
 
-WiringReport test_of(const Profile& profile, const std::string& faults, bool try_reversed = true) {
+selftest::WiringReport test_of(const Profile& profile, const std::string& faults,
+                               bool try_reversed = true) {
   auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
   MiswiredDevice device(std::move(sim), faults);
-  WiringTestSettings settings;
+  selftest::WiringSettings settings;
   settings.try_reversed = try_reversed;
-  const WiringAnswers answers = ask_wiring(device, profile, at_once, settings);
+  const selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, at_once, settings);
   EXPECT_TRUE(answers.complete);
-  return judge_wiring(profile, answers);
+  return selftest::judge_wiring(profile, answers);
 }
 
 TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
-  const std::string known = loss_text("usb", LinkFault::kStoodStill, 250'000'000);
+  const std::string known = selftest::loss_text("usb", LinkFault::kStoodStill, 250'000'000);
   EXPECT_NE(known.find("stood still for 250 ms, because"), std::string::npos) << known;
-  const std::string unknown = loss_text("usb", LinkFault::kStoodStill, 0);
+  const std::string unknown = selftest::loss_text("usb", LinkFault::kStoodStill, 0);
   EXPECT_NE(unknown.find("stood still, because"), std::string::npos) << unknown;
 }
 
@@ -99,15 +100,16 @@ class PausedDevice final : public StringDevice {
 TEST(Wiring, IsFoundAlthoughTheProgramStoodStill) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice undisturbed(profile, SimulatedDevice::Time::kFixedStep);
-  const WiringAnswers right = ask_wiring(undisturbed, profile, at_once);
+  const selftest::WiringAnswers right = selftest::ask_wiring(undisturbed, profile, at_once);
   // While the strings are tightened, in pulls, and in the release.
   for (const std::vector<int>& pauses :
        {std::vector<int>{50}, {700, 1900, 2500}, {400, 401, 402}, {8000, 8100, 8200, 8300}}) {
     PausedDevice device(profile, pauses);
-    const WiringAnswers answers = ask_wiring(device, profile, at_once);
+    const selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, at_once);
     EXPECT_TRUE(answers.complete);
-    EXPECT_EQ(faults_of(judge_wiring(profile, answers)), faults_of(judge_wiring(profile, right)));
-    EXPECT_TRUE(judge_wiring(profile, answers).as_profile());
+    EXPECT_EQ(faults_of(selftest::judge_wiring(profile, answers)),
+              faults_of(selftest::judge_wiring(profile, right)));
+    EXPECT_TRUE(selftest::judge_wiring(profile, answers).as_profile());
   }
 }
 
@@ -116,14 +118,14 @@ TEST(Wiring, IsNotLookedForOnAMachineThatStandsStillForEver) {
   std::vector<int> always(100'000);
   std::iota(always.begin(), always.end(), 100);
   PausedDevice device(profile, always);
-  EXPECT_THROW(ask_wiring(device, profile, at_once), StoodStill);
+  EXPECT_THROW(selftest::ask_wiring(device, profile, at_once), selftest::StoodStill);
   EXPECT_EQ(device.opened, 11);
 }
 
 TEST(Wiring, OfEveryShippedProfileIsFoundToBeRight) {
   for (const std::string& name : list_profiles()) {
     SCOPED_TRACE(name);
-    const WiringReport report = test_of(load_profile(name), "");
+    const selftest::WiringReport report = test_of(load_profile(name), "");
     EXPECT_TRUE(report.as_profile()) << faults_of(report) << report.correlation;
     // But for the rotation's fraction and the encoders' steps the answers are those expected.
     EXPECT_GT(report.correlation, 0.98);
@@ -135,20 +137,20 @@ TEST(Wiring, EveryExchangeOfTwoIsFound) {
   for (const std::string name : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-g6x4", "spidar-i7"}) {
     const Profile profile = load_profile(name);
     SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-    const WiringAnswers right = ask_wiring(device, profile, at_once);
+    const selftest::WiringAnswers right = selftest::ask_wiring(device, profile, at_once);
     for (int a = 0; a < profile.geometry.count; ++a) {
       for (int b = a + 1; b < profile.geometry.count; ++b) {
         for (const bool motors : {false, true}) {
           for (const bool encoders : {false, true}) {
             SCOPED_TRACE(name + " " + std::to_string(a) + "," + std::to_string(b));
-            WiringAnswers answers = right;
+            selftest::WiringAnswers answers = right;
             if (motors) answers.counts.col(a).swap(answers.counts.col(b));
             if (encoders) answers.counts.row(a).swap(answers.counts.row(b));
-            const WiringReport report = judge_wiring(profile, answers);
+            const selftest::WiringReport report = selftest::judge_wiring(profile, answers);
             EXPECT_TRUE(report.understood());
             for (int i = 0; i < report.count; ++i) {
               const int other = i == a ? b : i == b ? a : i;
-              const WiringChannel& c = report.channel[static_cast<size_t>(i)];
+              const selftest::WiringChannel& c = report.channel[static_cast<size_t>(i)];
               EXPECT_EQ(c.motor_string, motors ? other : i) << faults_of(report);
               EXPECT_EQ(c.encoder_string, encoders ? other : i) << faults_of(report);
             }
@@ -173,7 +175,7 @@ TEST(Wiring, ReversedAndCutWiresAreFound) {
   };
   for (const auto& [wiring, faults] : cases) {
     SCOPED_TRACE(wiring);
-    const WiringReport report = test_of(profile, wiring);
+    const selftest::WiringReport report = test_of(profile, wiring);
     EXPECT_TRUE(report.understood());
     EXPECT_FALSE(report.as_profile());
     EXPECT_EQ(faults_of(report), faults);
@@ -187,16 +189,16 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   profile.drives[3].home_offset_m = 0.001;
   profile.calibration = CalibrationRecord{};
   const std::string wiring = "swap-strings:1,2;reverse-motor:5;reverse-encoder:6";
-  const WiringReport report = test_of(profile, wiring);
+  const selftest::WiringReport report = test_of(profile, wiring);
   ASSERT_TRUE(report.fixable()) << faults_of(report);
   std::ostringstream text;
-  print_wiring(text, profile, {}, report);
+  selftest::print_wiring(text, profile, {}, report);
   for (const char* line :
        {"\n        1  pulls string 2       reads string 2 ",
         "\n        5  reversed             ok ", "\n        6  ok                   reversed ",
         "\nwiring: not as in the profile\n"})
     EXPECT_NE(text.str().find(line), std::string::npos) << line << text.str();
-  const Profile rewired = rewired_profile(profile, report, "test");
+  const Profile rewired = selftest::rewired_profile(profile, report, "test");
   EXPECT_EQ(rewired.geometry.exit_m[1], profile.geometry.exit_m[2]);
   EXPECT_EQ(rewired.geometry.grip_m[2], profile.geometry.grip_m[1]);
   EXPECT_EQ(rewired.drives[5].motor_sign, -profile.drives[5].motor_sign);
@@ -207,35 +209,37 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   // The new profile's answers, as the device with that wiring gives them.
   auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
   MiswiredDevice device(std::move(sim), wiring);
-  const WiringReport again = judge_wiring(rewired, ask_wiring(device, rewired, at_once));
+  const selftest::WiringReport again =
+      selftest::judge_wiring(rewired, selftest::ask_wiring(device, rewired, at_once));
   EXPECT_TRUE(again.as_profile()) << faults_of(again);
 }
 
 TEST(Wiring, WhatAProfileCannotExpressIsNotWritten) {
   const Profile profile = load_profile("spidar-gcc");
   for (const std::string wiring : {"swap-motors:0,2", "cut-motor:1", "cut-encoder:1"}) {
-    const WiringReport report = test_of(profile, wiring);
+    const selftest::WiringReport report = test_of(profile, wiring);
     EXPECT_FALSE(report.fixable()) << wiring;
-    EXPECT_THROW(rewired_profile(profile, report, "test"), std::invalid_argument);
+    EXPECT_THROW(selftest::rewired_profile(profile, report, "test"), std::invalid_argument);
   }
 }
 
 TEST(Wiring, AnotherDevicesAnswersAreNotUnderstood) {
   const Profile profile = load_profile("spidar-gcc");
-  WiringAnswers answers;
+  selftest::WiringAnswers answers;
   answers.pulled_N.setConstant(0.5);
   std::mt19937 random(1);
   std::normal_distribution<double> counts(0, 100);
   for (double& count : answers.counts.reshaped()) count = counts(random);
-  EXPECT_FALSE(judge_wiring(profile, answers).understood());
-  EXPECT_FALSE(judge_wiring(profile, {}).understood());
+  EXPECT_FALSE(selftest::judge_wiring(profile, answers).understood());
+  EXPECT_FALSE(selftest::judge_wiring(profile, {}).understood());
 }
 
 TEST(Wiring, PullingEndsWithTheMotorsAtZero) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
   int ticks = 0;
-  const WiringAnswers answers = ask_wiring(device, profile, [&ticks] { return ++ticks < 1000; });
+  const selftest::WiringAnswers answers =
+      selftest::ask_wiring(device, profile, [&ticks] { return ++ticks < 1000; });
   EXPECT_FALSE(answers.complete);
   EXPECT_EQ(device.felt().tension_N.norm(), 0);
 }
@@ -247,7 +251,7 @@ TEST(Wiring, AStringThatRunsAwayEndsTheTest) {
   nobody.hand_damping_N_s_m = 0.5;
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep, nobody);
   try {
-    ask_wiring(device, profile, at_once);
+    selftest::ask_wiring(device, profile, at_once);
     FAIL() << "nothing ran away";
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("hold the grip"), std::string::npos) << error.what();
@@ -265,9 +269,9 @@ TEST(Wiring, LostDeviceEndsTheTest) {
       return true;
     };
   };
-  EXPECT_THROW(ask_wiring(device, profile, fail_at(LinkFault::kGone)), DeviceError);
+  EXPECT_THROW(selftest::ask_wiring(device, profile, fail_at(LinkFault::kGone)), DeviceError);
   device.set_fault(LinkFault::kNone);
-  EXPECT_THROW(ask_wiring(device, profile, fail_at(LinkFault::kTimeout)), DeviceError);
+  EXPECT_THROW(selftest::ask_wiring(device, profile, fail_at(LinkFault::kTimeout)), DeviceError);
 }
 
 }  // namespace spidar::test::wiring_test

@@ -76,8 +76,8 @@ TEST(Wiring, AnUnrulyHandDoesNotMakeAGoodDeviceFail) {
     const Profile profile = load_profile(kThree[seed % 3]);
     UnrulyHand device(profile, "", seed, kMean_s);
     bool again = false;
-    const WiringTest test =
-        test_wiring(device, profile, without_pauses, {}, [&](const WiringReport& report) {
+    const selftest::WiringTest test = selftest::test_wiring(
+        device, profile, without_pauses, {}, [&](const selftest::WiringReport& report) {
           again = true;
           EXPECT_FALSE(report.understood());
         });
@@ -97,7 +97,7 @@ TEST(Wiring, AnUnrulyHandNeverMakesABadDevicePass) {
     std::string fault = kFaults[seed % 6] + std::to_string(channel);
     if (fault[0] == 's') fault += channel == 0 ? ",1" : ",0";
     UnrulyHand device(profile, fault, seed, kMean_s);
-    const WiringTest test = test_wiring(device, profile, without_pauses, {});
+    const selftest::WiringTest test = selftest::test_wiring(device, profile, without_pauses, {});
     EXPECT_FALSE(test.report.as_profile()) << profile.name << ", " << fault << ", seed " << seed;
   }
 }
@@ -106,12 +106,12 @@ TEST(Wiring, AnUnrulyHandNeverMakesABadDevicePass) {
 TEST(Wiring, OnlyDoubtfulMotorsArePulledAgain) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  WiringAnswers answers = ask_wiring(device, profile, without_pauses);
-  const CountChanges right = answers.counts;
+  selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, without_pauses);
+  const selftest::CountChanges right = answers.counts;
   answers.counts.setConstant(1);
   std::array<bool, kMaxStrings> doubtful{};
   doubtful[2] = true;
-  ask_again(device, profile, without_pauses, {}, doubtful, answers);
+  selftest::ask_again(device, profile, without_pauses, {}, doubtful, answers);
   EXPECT_TRUE(answers.complete);
   // To a count: both are averages of readings that are rounded.
   EXPECT_LE((answers.counts.col(2) - right.col(2)).cwiseAbs().maxCoeff(), 1);
