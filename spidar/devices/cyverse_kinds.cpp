@@ -35,7 +35,7 @@ DeviceKind sh4_kind() {
   kind.usb = {sh4::kVendor, sh4::kProduct, {sh4::kEndpointOut, sh4::kEndpointIn}};
   kind.board = "sh4";
   kind.attach = attach<Sh4Board>;
-  kind.emulate = emulate<EmulatedSh4>;
+  kind.emulate = emulate<emulated::Sh4>;
   return kind;
 }
 
@@ -48,7 +48,7 @@ DeviceKind simple_kind() {
               {usb_simple::kEndpointOut, usb_simple::kEndpointIn}};
   kind.board = "simple";
   kind.attach = attach<SimpleBoard>;
-  kind.emulate = emulate<EmulatedSimple>;
+  kind.emulate = emulate<emulated::Simple>;
   return kind;
 }
 

@@ -52,10 +52,10 @@ struct DeviceKind : BoardKind {
   const char* note = "";  ///< what is inferred
   BoardTraits traits;     ///< of a board with strings: what profiles have to fit
   /// The emulation of the board, connected to these motors.
-  std::unique_ptr<EmulatedBoard> (*emulate)(std::shared_ptr<EmulatedMotors> motors) = nullptr;
+  std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
   /// The motors of the simulation, and the hand that holds them.
-  std::shared_ptr<EmulatedMotors> (*simulated_motors)(
-      const Profile& profile, const SimulatedMechanics& mechanics) = nullptr;
+  std::shared_ptr<emulated::Motors> (*simulated_motors)(
+      const Profile& profile, const emulated::SimulatedMechanics& mechanics) = nullptr;
 
   // Not for boards on USB.
 

@@ -31,27 +31,28 @@ AnyBoard attach(const std::string& name, const Profile& profile,
 
 /// For DeviceKind::emulate.
 template <typename Emulated>
-std::unique_ptr<EmulatedBoard> emulate(std::shared_ptr<EmulatedMotors> motors) {
+std::unique_ptr<emulated::Board> emulate(std::shared_ptr<emulated::Motors> motors) {
   return std::make_unique<Emulated>(std::move(motors));
 }
 
 // For DeviceKind::simulated_motors:
 
 /// What the board puts out has no effect.
-inline std::shared_ptr<EmulatedMotors> unconnected_motors(const Profile&,
-                                                          const SimulatedMechanics&) {
-  return std::make_shared<EmulatedMotors>();
+inline std::shared_ptr<emulated::Motors> unconnected_motors(const Profile&,
+                                                            const emulated::SimulatedMechanics&) {
+  return std::make_shared<emulated::Motors>();
 }
 
 template <uint16_t inputs>
-std::shared_ptr<EmulatedMotors> simulated_hand(const Profile&, const SimulatedMechanics&) {
-  return std::make_shared<SpringHand>(inputs);
+std::shared_ptr<emulated::Motors> simulated_hand(const Profile&,
+                                                 const emulated::SimulatedMechanics&) {
+  return std::make_shared<emulated::SpringHand>(inputs);
 }
 
 template <DacScale (*dac)(const Profile&)>
-std::shared_ptr<EmulatedMotors> simulated_strings(const Profile& profile,
-                                                  const SimulatedMechanics& mechanics) {
-  return std::make_shared<SimulatedMotors>(profile, dac(profile), mechanics);
+std::shared_ptr<emulated::Motors> simulated_strings(const Profile& profile,
+                                                    const emulated::SimulatedMechanics& mechanics) {
+  return std::make_shared<emulated::SimulatedMotors>(profile, dac(profile), mechanics);
 }
 
 /// The number from 1 to `largest` in "NAME=NUMBER", of which `name` has the equals sign; 0 if

@@ -38,11 +38,11 @@ const DeviceKind* simulated_kind(const DeviceName& name) {
 }
 
 AnyBoard simulated_board(const DeviceKind& kind, const std::string& name, const Profile& profile,
-                         const SimulatedMechanics& mechanics) {
+                         const emulated::SimulatedMechanics& mechanics) {
   auto emulated = kind.emulate(kind.simulated_motors(profile, mechanics));
-  return kind.attach(
-      name, profile,
-      std::make_unique<EmulatedTransport>(std::move(emulated), std::make_shared<EmulatedWire>()));
+  return kind.attach(name, profile,
+                     std::make_unique<emulated::Transport>(std::move(emulated),
+                                                           std::make_shared<emulated::Wire>()));
 }
 
 }  // namespace spidar

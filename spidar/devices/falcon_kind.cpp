@@ -17,8 +17,8 @@ DeviceKind falcon_kind() {
   kind.names = "falcon, falcon:ID";
   kind.note = "reach and scale of the force are inferred";
   kind.attach = attach<FalconBoard>;
-  kind.emulate = emulate<EmulatedFalcon>;
-  kind.simulated_motors = simulated_hand<EmulatedFalcon::kHomed>;
+  kind.emulate = emulate<emulated::Falcon>;
+  kind.simulated_motors = simulated_hand<emulated::Falcon::kHomed>;
   return kind;
 }
 

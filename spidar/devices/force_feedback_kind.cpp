@@ -84,7 +84,7 @@ DeviceKind force_feedback_kind() {
   kind.board = "ff";
   kind.names = "ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT";
   kind.attach = attach_force_feedback;
-  kind.emulate = emulate<EmulatedForceFeedback>;
+  kind.emulate = emulate<emulated::ForceFeedback>;
   kind.simulated_motors = unconnected_motors;
   kind.make = make_force_feedback;
   kind.list = list_force_feedback_boards;

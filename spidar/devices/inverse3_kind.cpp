@@ -56,7 +56,7 @@ DeviceKind inverse3_kind() {
   kind.names = "inverse3, inverse3:ID";
   kind.verification = Verification::kInferred;
   kind.attach = attach_inverse3;
-  kind.emulate = emulate<EmulatedInverse3>;
+  kind.emulate = emulate<emulated::Inverse3>;
   kind.simulated_motors = simulated_hand<0>;
   kind.make = make_inverse3;
   kind.list = list_inverse3;

@@ -19,7 +19,7 @@ DeviceKind mouse_kind() {
   kind.verification = Verification::kInferred;
   kind.note = "other devices have this id; asked when it is opened";
   kind.attach = attach<MouseBoard>;
-  kind.emulate = emulate<EmulatedMouse>;
+  kind.emulate = emulate<emulated::Mouse>;
   kind.simulated_motors = unconnected_motors;
   return kind;
 }

@@ -41,7 +41,7 @@ DeviceKind sound_kind() {
   kind.board = "sound";
   kind.names = "sound:CARD, sound:CARD,CHANNEL=DIRECTION";
   kind.attach = attach<SoundBoard>;
-  kind.emulate = emulate<EmulatedSound>;
+  kind.emulate = emulate<emulated::Sound>;
   kind.simulated_motors = unconnected_motors;
   kind.make = make_sound;
   kind.list = list_sound;

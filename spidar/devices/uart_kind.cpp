@@ -43,10 +43,10 @@ AnyBoard make_uart(const std::string& name, const std::string& paths, const Prof
 }
 
 /// Two boards of four motors, like the published pair of a SPIDAR-G.
-std::unique_ptr<EmulatedBoard> emulate_uart(std::shared_ptr<EmulatedMotors> motors) {
+std::unique_ptr<emulated::Board> emulate_uart(std::shared_ptr<emulated::Motors> motors) {
   constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
-  return std::make_unique<EmulatedUart>(std::move(motors),
-                                        std::vector<EmulatedUart::Station>{{0, kB3M}, {1, kB3M}});
+  return std::make_unique<emulated::Uart>(
+      std::move(motors), std::vector<emulated::Uart::Station>{{0, kB3M}, {1, kB3M}});
 }
 
 std::vector<BoardInfo> list_uart() {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spidar {
+namespace spidar::emulated {
 namespace {
 
 template <size_t N>
@@ -25,7 +25,7 @@ size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
 
 }  // namespace
 
-void EmulatedSh4::receive(ByteView bytes) noexcept {
+void Sh4::receive(ByteView bytes) noexcept {
   sh4::DacDigits digits{};
   if (!sh4::decode_update(bytes, digits)) return;
   motors_->put_out(as_ints(digits));
@@ -40,11 +40,11 @@ void EmulatedSh4::receive(ByteView bytes) noexcept {
   due_ = true;
 }
 
-size_t EmulatedSh4::reply(MutableBytes bytes) noexcept {
+size_t Sh4::reply(MutableBytes bytes) noexcept {
   return copy_out(packet_, bytes, due_);
 }
 
-void EmulatedSimple::receive(ByteView bytes) noexcept {
+void Simple::receive(ByteView bytes) noexcept {
   usb_simple::HostPacket said;
   if (!usb_simple::decode_command(bytes, said)) return;
   switch (said.command) {
@@ -65,11 +65,11 @@ void EmulatedSimple::receive(ByteView bytes) noexcept {
   }
 }
 
-size_t EmulatedSimple::reply(MutableBytes bytes) noexcept {
+size_t Simple::reply(MutableBytes bytes) noexcept {
   return copy_out(packet_, bytes, due_);
 }
 
-void EmulatedMouse::receive(ByteView bytes) noexcept {
+void Mouse::receive(ByteView bytes) noexcept {
   mouse::Command command{};
   mouse::Force force;
   if (!mouse::decode_command(bytes, command, force)) return;
@@ -86,13 +86,13 @@ void EmulatedMouse::receive(ByteView bytes) noexcept {
   }
 }
 
-size_t EmulatedMouse::reply(MutableBytes bytes) noexcept {
+size_t Mouse::reply(MutableBytes bytes) noexcept {
   mouse::Report report;
   mouse::encode_state(report);
   return copy_out(report, bytes, due_);
 }
 
-void EmulatedUart::receive(ByteView bytes) noexcept {
+void Uart::receive(ByteView bytes) noexcept {
   for (size_t i = 0; i < bytes.size; ++i) {
     if (!station_) {
       begin(bytes.u8(i));
@@ -104,7 +104,7 @@ void EmulatedUart::receive(ByteView bytes) noexcept {
 }
 
 /// A byte between commands: a zero gives time for a reply, anything else is a header.
-void EmulatedUart::begin(uint8_t header) noexcept {
+void Uart::begin(uint8_t header) noexcept {
   if (header == 0) return;
   first_ = 0;
   for (const Station& station : stations_) {
@@ -121,13 +121,13 @@ void EmulatedUart::begin(uint8_t header) noexcept {
   }
 }
 
-void EmulatedUart::put_reply(ByteView reply) noexcept {
+void Uart::put_reply(ByteView reply) noexcept {
   const size_t length = std::min(reply.size, reply_.size() - due_);
   std::copy_n(reply.data, length, reply_.begin() + static_cast<long>(due_));
   due_ += length;
 }
 
-void EmulatedUart::end_of_command() noexcept {
+void Uart::end_of_command() noexcept {
   const Station& station = *station_;
   station_ = nullptr;
   const ByteView command(command_.data(), taken_);
@@ -151,7 +151,7 @@ void EmulatedUart::end_of_command() noexcept {
   }
 }
 
-size_t EmulatedUart::reply(MutableBytes bytes) noexcept {
+size_t Uart::reply(MutableBytes bytes) noexcept {
   const size_t length = std::min(bytes.size, due_);
   std::copy_n(reply_.begin(), length, bytes.data);
   std::copy(reply_.begin() + static_cast<long>(length), reply_.begin() + static_cast<long>(due_),
@@ -160,4 +160,4 @@ size_t EmulatedUart::reply(MutableBytes bytes) noexcept {
   return length;
 }
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -11,11 +11,11 @@
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/protocols/uart_motor.h"
 
-namespace spidar {
+namespace spidar::emulated {
 
-class EmulatedSh4 final : public EmulatedBoard {
+class Sh4 final : public Board {
  public:
-  using EmulatedBoard::EmulatedBoard;
+  using Board::Board;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
@@ -24,9 +24,9 @@ class EmulatedSh4 final : public EmulatedBoard {
   bool due_ = false;
 };
 
-class EmulatedSimple final : public EmulatedBoard {
+class Simple final : public Board {
  public:
-  using EmulatedBoard::EmulatedBoard;
+  using Board::Board;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
@@ -36,9 +36,9 @@ class EmulatedSimple final : public EmulatedBoard {
 };
 
 /// Its digits are the force in millinewtons, x and y.
-class EmulatedMouse final : public EmulatedBoard {
+class Mouse final : public Board {
  public:
-  using EmulatedBoard::EmulatedBoard;
+  using Board::Board;
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
 
@@ -48,7 +48,7 @@ class EmulatedMouse final : public EmulatedBoard {
 };
 
 /// Takes the bytes of the line in pieces of any size, as the interrupts of the boards do.
-class EmulatedUart final : public EmulatedBoard {
+class Uart final : public Board {
  public:
   struct Station {
     int id = 0;
@@ -56,8 +56,8 @@ class EmulatedUart final : public EmulatedBoard {
   };
 
   /// `motors` are numbered in the order of the stations.
-  EmulatedUart(std::shared_ptr<EmulatedMotors> motors, std::vector<Station> stations)
-      : EmulatedBoard(std::move(motors)), stations_(std::move(stations)) {}
+  Uart(std::shared_ptr<Motors> motors, std::vector<Station> stations)
+      : Board(std::move(motors)), stations_(std::move(stations)) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -80,4 +80,4 @@ class EmulatedUart final : public EmulatedBoard {
   size_t due_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -10,7 +10,7 @@
 
 #include "spidar/boards/falcon_kinematics.h"
 
-namespace spidar {
+namespace spidar::emulated {
 namespace {
 
 /// Data of a packet while the firmware runs: its answers come in two parts.
@@ -32,7 +32,7 @@ Eigen::Vector3d force_N(const std::array<int, 3>& digit, const Eigen::Vector3d& 
 
 }  // namespace
 
-bool EmulatedFalcon::control(const VendorRequest& request) noexcept {
+bool Falcon::control(const VendorRequest& request) noexcept {
   if (request.request == ftdi::kSetBaud) {
     memory_->baud = request.value;
     loader_ = loader_ && request.value != falcon::kRunBaud;
@@ -46,7 +46,7 @@ bool EmulatedFalcon::control(const VendorRequest& request) noexcept {
   return true;
 }
 
-void EmulatedFalcon::receive(ByteView bytes) noexcept {
+void Falcon::receive(ByteView bytes) noexcept {
   for (size_t i = 0; i < bytes.size; ++i) {
     if (memory_->baud == falcon::kHelloBaud) {
       hello(bytes.u8(i));
@@ -59,14 +59,14 @@ void EmulatedFalcon::receive(ByteView bytes) noexcept {
 }
 
 /// Returns true when `length` bytes have been collected.
-bool EmulatedFalcon::feed(uint8_t byte, size_t length) noexcept {
+bool Falcon::feed(uint8_t byte, size_t length) noexcept {
   packet_[taken_++] = byte;
   if (taken_ < length) return false;
   taken_ = 0;
   return true;
 }
 
-void EmulatedFalcon::hello(uint8_t byte) noexcept {
+void Falcon::hello(uint8_t byte) noexcept {
   if (!loader_ || !feed(byte, falcon::kHello.size())) return;
   if (std::equal(falcon::kHello.begin(), falcon::kHello.end(), packet_.begin())) {
     answer(falcon::kHelloAnswer);
@@ -74,20 +74,20 @@ void EmulatedFalcon::hello(uint8_t byte) noexcept {
 }
 
 /// Echoes everything; what follows the first byte is the firmware.
-void EmulatedFalcon::load(uint8_t byte) noexcept {
+void Falcon::load(uint8_t byte) noexcept {
   if (!loader_) return;
   answer({&byte, 1});
   if (takes_firmware_) memory_->loaded = true;
   takes_firmware_ = true;
 }
 
-void EmulatedFalcon::run(uint8_t byte) noexcept {
+void Falcon::run(uint8_t byte) noexcept {
   falcon::Command command;
   if (!memory_->loaded || !feed(byte, falcon::kPacketSize)) return;
   if (falcon::decode_command(packet_, command)) handle(command);
 }
 
-void EmulatedFalcon::handle(const falcon::Command& command) noexcept {
+void Falcon::handle(const falcon::Command& command) noexcept {
   const Eigen::Vector3d at_m = position_m(*motors_);
   // Beyond its reach, the grip stays where it was.
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
@@ -104,14 +104,14 @@ void EmulatedFalcon::handle(const falcon::Command& command) noexcept {
   answer(packet);
 }
 
-void EmulatedFalcon::answer(ByteView bytes) noexcept {
+void Falcon::answer(ByteView bytes) noexcept {
   timer_first_ = due_ == 0;
   const size_t length = std::min(bytes.size, answer_.size() - due_);
   std::copy_n(bytes.data, length, answer_.begin() + static_cast<long>(due_));
   due_ += length;
 }
 
-size_t EmulatedFalcon::reply(MutableBytes bytes) noexcept {
+size_t Falcon::reply(MutableBytes bytes) noexcept {
   if (due_ == 0 || bytes.size <= ftdi::kStatusSize) return 0;
   bytes.put_u16(0, 0x6001);  // modem and line status of an idle chip
   const size_t part = memory_->baud == falcon::kRunBaud ? kPart : falcon::kPieceSize;
@@ -124,7 +124,7 @@ size_t EmulatedFalcon::reply(MutableBytes bytes) noexcept {
   return ftdi::kStatusSize + length;
 }
 
-ff::Description EmulatedForceFeedback::stick() noexcept {
+ff::Description ForceFeedback::stick() noexcept {
   ff::Description description;
   description.constant = description.rumble = description.gain = description.autocentre = 1;
   description.effects = 16;
@@ -135,13 +135,13 @@ ff::Description EmulatedForceFeedback::stick() noexcept {
 }
 
 template <typename Structure>
-void EmulatedForceFeedback::answer(const Structure& structure) noexcept {
+void ForceFeedback::answer(const Structure& structure) noexcept {
   static_assert(sizeof structure <= sizeof(ff::Description));
   std::memcpy(reply_.data(), &structure, sizeof structure);
   due_ = sizeof structure;
 }
 
-void EmulatedForceFeedback::upload(const ff::Effect& effect) noexcept {
+void ForceFeedback::upload(const ff::Effect& effect) noexcept {
   const size_t room = std::min<size_t>(slots_.size(), description_.effects);
   size_t at = static_cast<size_t>(effect.number);
   if (effect.number == ff::kNewEffect) {
@@ -155,7 +155,7 @@ void EmulatedForceFeedback::upload(const ff::Effect& effect) noexcept {
   put_out();
 }
 
-void EmulatedForceFeedback::receive(ByteView bytes) noexcept {
+void ForceFeedback::receive(ByteView bytes) noexcept {
   if (bytes.size == ff::kDescribeSize) {
     answer(description_);
   } else if (bytes.size == ff::kPositionSize) {
@@ -170,7 +170,7 @@ void EmulatedForceFeedback::receive(ByteView bytes) noexcept {
   }
 }
 
-void EmulatedForceFeedback::put_out() noexcept {
+void ForceFeedback::put_out() noexcept {
   double right = 0, up = 0, rumble = 0;
   for (const Slot& slot : slots_) {
     if (!slot.plays) continue;
@@ -183,20 +183,20 @@ void EmulatedForceFeedback::put_out() noexcept {
                     static_cast<int>(std::lround(rumble * ff::kFullStrength))});
 }
 
-size_t EmulatedForceFeedback::reply(MutableBytes bytes) noexcept {
+size_t ForceFeedback::reply(MutableBytes bytes) noexcept {
   const size_t length = std::min(bytes.size, due_);
   std::copy_n(reply_.begin(), length, bytes.data);
   due_ = 0;
   return length;
 }
 
-void EmulatedInverse3::receive(ByteView bytes) noexcept {
+void Inverse3::receive(ByteView bytes) noexcept {
   due_ = true;
   Eigen::Vector3d force_N;
   if (inverse3::decode_force(bytes, state.id, force_N)) put_out_N(*motors_, force_N);
 }
 
-size_t EmulatedInverse3::reply(MutableBytes bytes) noexcept {
+size_t Inverse3::reply(MutableBytes bytes) noexcept {
   if (!due_) return 0;
   due_ = false;
   state.position_m = position_m(*motors_);
@@ -204,7 +204,7 @@ size_t EmulatedInverse3::reply(MutableBytes bytes) noexcept {
   return inverse3::encode_state(state, bytes);
 }
 
-void EmulatedSound::receive(ByteView bytes) noexcept {
+void Sound::receive(ByteView bytes) noexcept {
   sound::Levels levels;
   if (bytes.size != sizeof levels) return;
   std::memcpy(&levels, bytes.data, sizeof levels);
@@ -216,10 +216,10 @@ void EmulatedSound::receive(ByteView bytes) noexcept {
   due_ = true;
 }
 
-size_t EmulatedSound::reply(MutableBytes bytes) noexcept {
+size_t Sound::reply(MutableBytes bytes) noexcept {
   if (!std::exchange(due_, false) || bytes.size < sizeof state) return 0;
   std::memcpy(bytes.data, &state, sizeof state);
   return sizeof state;
 }
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -18,25 +18,25 @@
 #include "spidar/protocols/sound.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::emulated {
 
 /// For motors whose digits are the force in millinewtons and whose counts are the position in
 /// micrometres: to the right, up, towards the viewer.
-inline void put_out_N(EmulatedMotors& motors, const Eigen::Vector3d& force_N) noexcept {
+inline void put_out_N(Motors& motors, const Eigen::Vector3d& force_N) noexcept {
   std::array<int, kMaxStrings> milli_N{};
   for (size_t i = 0; i < 3; ++i) {
     milli_N[i] = static_cast<int>(std::lround(1e3 * force_N[static_cast<Eigen::Index>(i)]));
   }
   motors.put_out(milli_N);
 }
-inline Eigen::Vector3d position_m(EmulatedMotors& motors) noexcept {
+inline Eigen::Vector3d position_m(Motors& motors) noexcept {
   const std::array<int32_t, kMaxStrings> at_um = motors.counts();
   return 1e-6 * Eigen::Vector3d(at_um[0], at_um[1], at_um[2]);
 }
 
 /// A hand that holds the grip at the centre, as a spring and a damper, and moves with the force, in
 /// the units of put_out_N() and position_m().
-class SpringHand final : public EmulatedMotors {
+class SpringHand final : public Motors {
  public:
   explicit SpringHand(uint16_t inputs = 0) noexcept : inputs_(inputs) {}
 
@@ -89,14 +89,13 @@ struct FalconMemory {
 /// encoders whose marks have been passed (bits 4–6). Nothing has friction or weight. Any firmware
 /// will do. Each answer comes in three packets: only status bytes, as when the chip's timer is
 /// faster than the firmware, and two parts.
-class EmulatedFalcon final : public EmulatedBoard {
+class Falcon final : public Board {
  public:
   static constexpr uint16_t kHomed = 0x70;  ///< inputs: every encoder has passed its mark
 
-  explicit EmulatedFalcon(
-      std::shared_ptr<EmulatedMotors> motors,
-      std::shared_ptr<FalconMemory> memory = FalconMemory::with_firmware()) noexcept
-      : EmulatedBoard(std::move(motors)), memory_(std::move(memory)) {}
+  explicit Falcon(std::shared_ptr<Motors> motors,
+                  std::shared_ptr<FalconMemory> memory = FalconMemory::with_firmware()) noexcept
+      : Board(std::move(motors)), memory_(std::move(memory)) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -124,14 +123,14 @@ class EmulatedFalcon final : public EmulatedBoard {
 /// Its digits are the sum of the playing effects: level to the right, level upwards, and strength
 /// of the rumble. Its counts are the position of the stick, of ff::Position::kFull: to the right
 /// and upwards.
-class EmulatedForceFeedback final : public EmulatedBoard {
+class ForceFeedback final : public Board {
  public:
   /// A stick with two axes, gain, autocentre and room for sixteen effects.
   static ff::Description stick() noexcept;
 
-  explicit EmulatedForceFeedback(std::shared_ptr<EmulatedMotors> motors,
-                                 const ff::Description& description = stick()) noexcept
-      : EmulatedBoard(std::move(motors)), description_(description) {}
+  explicit ForceFeedback(std::shared_ptr<Motors> motors,
+                         const ff::Description& description = stick()) noexcept
+      : Board(std::move(motors)), description_(description) {}
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -156,11 +155,11 @@ class EmulatedForceFeedback final : public EmulatedBoard {
 
 /// Its digits are the force in millinewtons, its counts the position in micrometres: to the right,
 /// up, towards the viewer. The inputs are the buttons.
-class EmulatedInverse3 final : public EmulatedBoard {
+class Inverse3 final : public Board {
  public:
-  explicit EmulatedInverse3(std::shared_ptr<EmulatedMotors> motors,
-                            inverse3::Version version = inverse3::Version::k35)
-      : EmulatedBoard(std::move(motors)) {
+  explicit Inverse3(std::shared_ptr<Motors> motors,
+                    inverse3::Version version = inverse3::Version::k35)
+      : Board(std::move(motors)) {
     state.id = "049D";
     state.version = version;
   }
@@ -175,9 +174,9 @@ class EmulatedInverse3 final : public EmulatedBoard {
 };
 
 /// Its digits are the levels of the channels in thousandths.
-class EmulatedSound final : public EmulatedBoard {
+class Sound final : public Board {
  public:
-  using EmulatedBoard::EmulatedBoard;
+  using Board::Board;
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
@@ -188,4 +187,4 @@ class EmulatedSound final : public EmulatedBoard {
   bool due_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -16,13 +16,13 @@
 #include "spidar/protocols/ftdi.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::emulated {
 
 /// The device that is connected to an emulated board. This one has neither motors nor encoders:
 /// what it gets has no effect.
-class EmulatedMotors {
+class Motors {
  public:
-  virtual ~EmulatedMotors() = default;
+  virtual ~Motors() = default;
   /// The board has set the D/A to these digits.
   virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
   /// Counts as the host should receive them.
@@ -32,10 +32,10 @@ class EmulatedMotors {
 };
 
 /// A board without its wire, and the motors to which it is connected. Not thread-safe.
-class EmulatedBoard {
+class Board {
  public:
-  explicit EmulatedBoard(std::shared_ptr<EmulatedMotors> motors) : motors_(std::move(motors)) {}
-  virtual ~EmulatedBoard() = default;
+  explicit Board(std::shared_ptr<Motors> motors) : motors_(std::move(motors)) {}
+  virtual ~Board() = default;
   /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
   /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
@@ -45,20 +45,20 @@ class EmulatedBoard {
   virtual bool control(const VendorRequest&) noexcept { return false; }
 
  protected:
-  std::shared_ptr<EmulatedMotors> motors_;
+  std::shared_ptr<Motors> motors_;
 };
 
 /// Faults to be caused on the wire; must outlive the transport. Thread-safe.
-struct EmulatedWire {
+struct Wire {
   /// The fault of every exchange. With kStall and kGone packets do not arrive; kBabble, kShort and
   /// kWrongReply spoil the reply.
   std::atomic<LinkFault> fault{LinkFault::kNone};
 };
 
 /// No time passes: a reply is available at once or not at all.
-class EmulatedTransport final : public Transport {
+class Transport final : public spidar::Transport {
  public:
-  EmulatedTransport(std::unique_ptr<EmulatedBoard> board, std::shared_ptr<EmulatedWire> wire)
+  Transport(std::unique_ptr<Board> board, std::shared_ptr<Wire> wire)
       : board_(std::move(board)), wire_(std::move(wire)) {}
 
   void open() override {
@@ -105,9 +105,9 @@ class EmulatedTransport final : public Transport {
   void close() noexcept override { open_ = false; }
 
  private:
-  const std::unique_ptr<EmulatedBoard> board_;
-  const std::shared_ptr<EmulatedWire> wire_;
+  const std::unique_ptr<Board> board_;
+  const std::shared_ptr<Wire> wire_;
   bool open_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -11,7 +11,7 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/simulation/simulated_device.h"
 
-namespace spidar {
+namespace spidar::emulated {
 
 /// The mechanics that a simulated board drives.
 struct SimulatedMechanics {
@@ -20,7 +20,7 @@ struct SimulatedMechanics {
 };
 
 /// Grip, hand and motors are those of SimulatedDevice, which moves when the board puts out digits.
-class SimulatedMotors final : public EmulatedMotors {
+class SimulatedMotors final : public Motors {
  public:
   /// `dac` is that of the board. Throws std::invalid_argument as SimulatedDevice does.
   SimulatedMotors(const Profile& profile, const DacScale& dac, const SimulatedMechanics& mechanics)
@@ -44,4 +44,4 @@ class SimulatedMotors final : public EmulatedMotors {
   DeviceReading reading_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::emulated

@@ -25,7 +25,7 @@ struct UsbPort {
 
   std::array<std::atomic<int>, 8> digit{};      ///< digits of the D/A; mouse, Falcon: mN
   std::array<std::atomic<int32_t>, 8> count{};  ///< counts of the encoders; Falcon: µm
-  std::atomic<uint16_t> inputs{0};   ///< bits 4–7: rotary switch; or see EmulatedFalcon
+  std::atomic<uint16_t> inputs{0};   ///< bits 4–7: rotary switch; or see emulated::Falcon
   std::atomic<uint64_t> updates{0};  ///< how often the digits were set
 
   /// Applied to all transfers until it is changed. kGone is reserved for unplug().
@@ -33,7 +33,7 @@ struct UsbPort {
   std::atomic<bool> forbidden{false};   ///< open() gives EACCES
   std::atomic<bool> has_driver{false};  ///< a kernel driver that must be detached first
   std::atomic<uint64_t> halts_cleared{0};
-  FalconMemory falcon;
+  emulated::FalconMemory falcon;
 
   bool at_rest() const {
     for (const auto& d : digit)

@@ -17,7 +17,7 @@
 namespace spidar::test {
 
 /// Motors and encoders of a port.
-class PortMotors final : public EmulatedMotors {
+class PortMotors final : public emulated::Motors {
  public:
   explicit PortMotors(UsbPort& port) : port_(port) {}
   void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
@@ -36,15 +36,16 @@ class PortMotors final : public EmulatedMotors {
 };
 
 /// `falcon` must outlive the board.
-inline std::unique_ptr<EmulatedBoard> make_board(UsbKind kind,
-                                                 std::shared_ptr<EmulatedMotors> motors,
-                                                 FalconMemory& falcon) {
+inline std::unique_ptr<emulated::Board> make_board(UsbKind kind,
+                                                   std::shared_ptr<emulated::Motors> motors,
+                                                   emulated::FalconMemory& falcon) {
   if (kind == UsbKind::kFalcon)
-    return std::make_unique<EmulatedFalcon>(
-        std::move(motors), std::shared_ptr<FalconMemory>(std::shared_ptr<void>(), &falcon));
-  if (kind == UsbKind::kSimple) return std::make_unique<EmulatedSimple>(std::move(motors));
-  if (kind == UsbKind::kMouse) return std::make_unique<EmulatedMouse>(std::move(motors));
-  return std::make_unique<EmulatedSh4>(std::move(motors));
+    return std::make_unique<emulated::Falcon>(
+        std::move(motors),
+        std::shared_ptr<emulated::FalconMemory>(std::shared_ptr<void>(), &falcon));
+  if (kind == UsbKind::kSimple) return std::make_unique<emulated::Simple>(std::move(motors));
+  if (kind == UsbKind::kMouse) return std::make_unique<emulated::Mouse>(std::move(motors));
+  return std::make_unique<emulated::Sh4>(std::move(motors));
 }
 
 /// The negative errno with which usbfs ends a transfer on such a link; 0: the transfer succeeds.

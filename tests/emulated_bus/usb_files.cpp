@@ -42,7 +42,7 @@ struct UsbFile {
   SharedFile& shared;
   const size_t port_number;
   UsbPort& port;
-  std::unique_ptr<EmulatedBoard> board;
+  std::unique_ptr<emulated::Board> board;
   int file = -1;
   int other_end = -1;  // −1: held by another process
   int claim_lock = -1;

@@ -49,7 +49,7 @@ void attach(int socket, bool full_speed) {
 
 }  // namespace
 
-UsbipBoard::UsbipBoard(std::shared_ptr<EmulatedMotors> motors, std::string serial, UsbKind kind)
+UsbipBoard::UsbipBoard(std::shared_ptr<emulated::Motors> motors, std::string serial, UsbKind kind)
     : motors_(std::move(motors)), serial_(std::move(serial)), kind_(kind) {}
 
 UsbipBoard::~UsbipBoard() {

@@ -21,7 +21,7 @@ namespace spidar::test {
 class UsbipBoard {
  public:
   /// Initially not plugged in.
-  UsbipBoard(std::shared_ptr<EmulatedMotors> motors, std::string serial,
+  UsbipBoard(std::shared_ptr<emulated::Motors> motors, std::string serial,
              UsbKind kind = UsbKind::kSh4);
   ~UsbipBoard();
   UsbipBoard(const UsbipBoard&) = delete;
@@ -50,7 +50,7 @@ class UsbipBoard {
   bool reply_with(const UsbipRequest& request, const std::string& data);
   std::string descriptor(uint8_t type, uint8_t index) const;
 
-  const std::shared_ptr<EmulatedMotors> motors_;
+  const std::shared_ptr<emulated::Motors> motors_;
   const std::string serial_;
   const UsbKind kind_;
   std::thread thread_;
@@ -58,8 +58,8 @@ class UsbipBoard {
   std::atomic<size_t> abandoned_{0};
   int socket_ = -1;
   // Of the thread.
-  FalconMemory falcon_;
-  EmulatedBoard* board_ = nullptr;
+  emulated::FalconMemory falcon_;
+  emulated::Board* board_ = nullptr;
   std::deque<UsbipRequest> waiting_;  // IN, for the board to say something
 };
 

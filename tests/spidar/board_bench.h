@@ -23,7 +23,7 @@ struct BoardBench {
   /// "sh4"
   explicit BoardBench(const std::string& board) : kind(kind_of(board)), is_uart(board == "uart") {}
 
-  std::unique_ptr<Transport> transport_to(std::unique_ptr<EmulatedBoard> emulated) {
+  std::unique_ptr<Transport> transport_to(std::unique_ptr<emulated::Board> emulated) {
     return wire_to(std::move(emulated), wire);
   }
 
@@ -46,7 +46,7 @@ struct BoardBench {
   const Profile profile = load_profile(is_uart ? "spidar-g6x" : kind.profile);
   MotorBench motors;
   std::shared_ptr<RecordedMotors> recorded = std::make_shared<RecordedMotors>(motors);
-  std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>();
+  std::shared_ptr<emulated::Wire> wire = std::make_shared<emulated::Wire>();
 };
 
 inline MotorVolts all_volts(double volt) {

@@ -25,7 +25,7 @@ struct ForceBench {
   /// "mouse"
   explicit ForceBench(const std::string& board)
       : kind(kind_of(board)), is_falcon(board == "falcon") {
-    if (is_falcon) motors.inputs = EmulatedFalcon::kHomed;
+    if (is_falcon) motors.inputs = emulated::Falcon::kHomed;
   }
 
   std::unique_ptr<ForceBoard> board() {
@@ -58,7 +58,7 @@ struct ForceBench {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
   MotorBench motors;
   std::shared_ptr<RecordedMotors> recorded = std::make_shared<RecordedMotors>(motors);
-  std::shared_ptr<EmulatedWire> wire = std::make_shared<EmulatedWire>();
+  std::shared_ptr<emulated::Wire> wire = std::make_shared<emulated::Wire>();
 };
 
 }  // namespace spidar::test

@@ -31,9 +31,9 @@ inline std::string name_of(const testing::TestParamInfo<std::string>& board) {
   return board.param;
 }
 
-inline std::unique_ptr<Transport> wire_to(std::unique_ptr<EmulatedBoard> emulated,
-                                          const std::shared_ptr<EmulatedWire>& wire) {
-  return std::make_unique<EmulatedTransport>(std::move(emulated), wire);
+inline std::unique_ptr<Transport> wire_to(std::unique_ptr<emulated::Board> emulated,
+                                          const std::shared_ptr<emulated::Wire>& wire) {
+  return std::make_unique<emulated::Transport>(std::move(emulated), wire);
 }
 
 }  // namespace spidar::test

@@ -20,8 +20,8 @@ namespace {
 TEST(Uart, ReportsTooFewMotors) {
   BoardBench bench("uart");
   std::vector<std::unique_ptr<Transport>> lines;
-  lines.push_back(bench.transport_to(std::make_unique<EmulatedUart>(
-      bench.recorded, std::vector<EmulatedUart::Station>{{2, {5, 1, 4, 4, 0, 0}}})));
+  lines.push_back(bench.transport_to(std::make_unique<emulated::Uart>(
+      bench.recorded, std::vector<emulated::Uart::Station>{{2, {5, 1, 4, 4, 0, 0}}})));
   UartBoard board("uart:/dev/x", bench.profile, std::move(lines));
   try {
     board.open();
@@ -52,9 +52,9 @@ TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
 }
 
 /// The other end of the example in docs/extend.md.
-class EmulatedExample final : public EmulatedBoard {
+class EmulatedExample final : public emulated::Board {
  public:
-  using EmulatedBoard::EmulatedBoard;
+  using emulated::Board::Board;
   void receive(ByteView bytes) noexcept override {
     std::array<int, kMaxStrings> digits{};
     for (size_t i = 0; i < digits.size(); ++i) digits[i] = bytes.u16(2 * i);
@@ -119,7 +119,7 @@ class HeldTransport final : public Transport {
 TEST(StringLink, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
   BoardBench bench("sh4");
   auto transport = std::make_unique<HeldTransport>(
-      bench.transport_to(std::make_unique<EmulatedSh4>(bench.recorded)));
+      bench.transport_to(std::make_unique<emulated::Sh4>(bench.recorded)));
   HeldTransport& wire = *transport;
   StringLink device(std::make_unique<Sh4Board>("sh4", bench.profile, std::move(transport)), {});
   device.open();

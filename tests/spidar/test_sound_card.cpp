@@ -82,10 +82,10 @@ TEST_F(Sound, ACardThatFailsEachTimeIsLostAndDoesNotKeepAProcessorBusy) {
 }
 
 TEST(SoundBoard, SaysThatItRanDryMoreThanOnce) {
-  auto emulated = std::make_unique<EmulatedSound>(std::make_shared<EmulatedMotors>());
+  auto emulated = std::make_unique<emulated::Sound>(std::make_shared<emulated::Motors>());
   sound::State& state = emulated->state;
-  SoundBoard board("sound:a", std::make_unique<EmulatedTransport>(
-                                  std::move(emulated), std::make_shared<EmulatedWire>()));
+  SoundBoard board("sound:a", std::make_unique<emulated::Transport>(
+                                  std::move(emulated), std::make_shared<emulated::Wire>()));
   board.open();
   const auto warning_after = [&](int underruns) {
     state.underruns = underruns;

@@ -146,7 +146,7 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
 }
 
 /// In the time of the exchanges, one a millisecond.
-class SteppedStick final : public EmulatedMotors {
+class SteppedStick final : public emulated::Motors {
  public:
   /// Half of the level moves it by three tenths of its way in 0.2 s.
   static constexpr double kSpeed_s = 2 * 0.3 / 0.2;

@@ -110,10 +110,10 @@ TEST_F(UartLines, AskedForTwiceInOneProcess) {
 
 TEST_F(UartLines, TwoBoardsOnOneLineAndOnTwo) {
   for (const bool two_lines : {false, true}) {
-    std::vector<EmulatedUart::Station> stations{{1, kB3M}};
+    std::vector<emulated::Uart::Station> stations{{1, kB3M}};
     std::optional<UartLine> other;
     if (two_lines) {
-      other.emplace(EmulatedUart(second_motors, {{1, kB3M}}));
+      other.emplace(emulated::Uart(second_motors, {{1, kB3M}}));
     } else {
       stations.push_back({6, kB3M});
     }
@@ -149,13 +149,14 @@ TEST_F(UartLines, SilenceIsATimeOutAndPasses) {
 }
 
 TEST_F(UartLines, AHangUpIsAnUnplug) {
-  std::optional<UartLine> line(std::in_place, EmulatedUart(first_motors, {{0, kB3M}}));
+  std::optional<UartLine> line(std::in_place, emulated::Uart(first_motors, {{0, kB3M}}));
   // This one answers at once, so that each step of its ramp arrives.
   std::vector<std::unique_ptr<Transport>> lines;
   lines.push_back(std::make_unique<TtyTransport>("uart", line->path(), uart_motor::kBaud));
-  lines.push_back(std::make_unique<EmulatedTransport>(
-      std::make_unique<EmulatedUart>(second_motors, std::vector<EmulatedUart::Station>{{0, kB3M}}),
-      std::make_shared<EmulatedWire>()));
+  lines.push_back(std::make_unique<emulated::Transport>(
+      std::make_unique<emulated::Uart>(second_motors,
+                                       std::vector<emulated::Uart::Station>{{0, kB3M}}),
+      std::make_shared<emulated::Wire>()));
   BoardSettings settings;
   settings.guardian = settings.threaded = false;
   const auto board = std::make_unique<StringLink>(

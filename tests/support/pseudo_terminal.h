@@ -23,7 +23,7 @@ namespace spidar::test {
 /// Answers from a thread of its own until it is destroyed, which hangs up the line.
 class UartLine {
  public:
-  explicit UartLine(EmulatedUart boards) : boards_(std::move(boards)) {
+  explicit UartLine(emulated::Uart boards) : boards_(std::move(boards)) {
     if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
       throw std::runtime_error("no pseudo-terminal");
     path_ = ptsname(master_);
@@ -44,7 +44,7 @@ class UartLine {
 
   const std::string& path() const { return path_; }
   /// Other boards, behind the same adapter.
-  void connect(EmulatedUart boards) {
+  void connect(emulated::Uart boards) {
     stop_ = true;
     thread_.join();
     stop_ = false;
@@ -71,7 +71,7 @@ class UartLine {
   int master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   int slave_ = -1;
   std::string path_;
-  std::optional<EmulatedUart> boards_;
+  std::optional<emulated::Uart> boards_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> silent_{false};
   std::thread thread_;

@@ -27,7 +27,7 @@ struct MotorBench {
   }
 };
 
-class RecordedMotors final : public EmulatedMotors {
+class RecordedMotors final : public emulated::Motors {
  public:
   explicit RecordedMotors(MotorBench& bench) : bench_(bench) {}
 
