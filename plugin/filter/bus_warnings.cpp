@@ -13,7 +13,7 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 struct FaultWords {
@@ -151,4 +151,4 @@ void BusWarnings::check_pointer(const HapticSession* session) {
                        "pointer=mouse the mouse does."));
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -10,7 +10,7 @@
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Posts each warning once per stream, not once per frame. Streaming thread, and start() before it.
 class BusWarnings {
@@ -48,4 +48,4 @@ class BusWarnings {
 /// Why a frame is not analysed, for the log.
 const char* words_of(FrameFault fault);
 
-}  // namespace spidar
+}  // namespace spidar::filter

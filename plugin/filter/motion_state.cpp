@@ -7,7 +7,7 @@
 #include "plugin/frame/motion_message.h"
 #include "plugin/timing/frame_pacer.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 bool has_time(GstBuffer* buffer, const GstSegment& segment) {
@@ -155,4 +155,4 @@ void MotionState::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -25,7 +25,7 @@
 #include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/track_loader.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// The settings of an element, and the parts that its frames and events go through. Its functions
 /// involve several of these parts.
@@ -98,4 +98,4 @@ struct MotionState {
   uint32_t epoch_ = 0;     ///< FrameStamp; streaming thread
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

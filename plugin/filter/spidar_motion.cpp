@@ -57,7 +57,7 @@ GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 using spidar::MotionProperties;
-using spidar::MotionState;
+using spidar::filter::MotionState;
 
 #define CAPS \
   GST_VIDEO_CAPS_MAKE(SPIDAR_VIDEO_FORMATS) "; " GST_VIDEO_CAPS_MAKE(SPIDAR_UNPACKED_FORMATS)
@@ -240,7 +240,7 @@ static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;
   spidar::motion_properties().install(object_class);
-  spidar::register_motion_meta();
+  spidar::filter::register_motion_meta();
   find_presets();
   // gboolean save-window(const gchar *path): saves the contents of the debug window as a PNG file.
   g_signal_new_class_handler("save-window", GST_TYPE_SPIDAR_MOTION,

@@ -15,9 +15,9 @@ GST_ELEMENT_REGISTER_DECLARE(spidarmotion)
 
 G_END_DECLS
 
-namespace spidar {
+namespace spidar::filter {
 struct MotionState;
-}  // namespace spidar
+}  // namespace spidar::filter
 
 /// For tests that step the element by hand.
-spidar::MotionState& gst_spidar_motion_state(GstSpidarMotion* self);
+spidar::filter::MotionState& gst_spidar_motion_state(GstSpidarMotion* self);

@@ -13,7 +13,7 @@ GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 struct _GstSpidarMotion {
   GstVideoFilter parent;
 
-  spidar::MotionState* state;
+  spidar::filter::MotionState* state;
 };
 
 /// Class initialisation: frames and events on their way.

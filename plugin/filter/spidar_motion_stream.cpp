@@ -18,8 +18,8 @@
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 using spidar::FrameReport;
-using spidar::MotionState;
 using spidar::PointerKind;
+using spidar::filter::MotionState;
 
 static GstBaseTransformClass* parent_class() {
   return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
@@ -70,7 +70,7 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   spidar::FrameSettings& settings = state.frame_settings;
   if (settings.pointer == PointerKind::kGrip) {
     settings.analyzer.pointer =
-        spidar::grip_position(state.output).value_or(settings.analyzer.pointer);
+        spidar::filter::grip_position(state.output).value_or(settings.analyzer.pointer);
     state.warnings.check_pointer(state.output.session());
   }
   state.choice.complete(frame, state.orientation.turn(), settings);
@@ -79,7 +79,7 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
 static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.has_wrench()) {
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), words_of(report.fault));
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), spidar::filter::words_of(report.fault));
     return;
   }
   const spidar::Frame& found = report.frame;
@@ -192,7 +192,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_TAG: {
       GstTagList* tags;
       gst_event_parse_tag(event, &tags);
-      if (!spidar::follows_tag_upstream(trans->sinkpad)) state.orientation.take(tags);
+      if (!spidar::filter::follows_tag_upstream(trans->sinkpad)) state.orientation.take(tags);
       break;
     }
     case GST_EVENT_SEGMENT: {
@@ -232,11 +232,13 @@ static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
   const bool points = state.settings.pointer == PointerKind::kMouse;
   GST_OBJECT_UNLOCK(self);
   if (!points) return;
-  const auto mouse = spidar::window::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
+  const auto mouse = spidar::filter::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
   if (!mouse) return;
   // A hand that is led points, too, but its clicks are no choice of objects.
   const bool leads_hand = state.display.hand().take(*mouse);
-  if (!leads_hand || mouse->act == spidar::SinkMouse::Act::kMove) state.choice.mouse().take(*mouse);
+  if (!leads_hand || mouse->act == spidar::filter::SinkMouse::Act::kMove) {
+    state.choice.mouse().take(*mouse);
+  }
 }
 
 static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* event) {

@@ -125,7 +125,7 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
   std::map<std::string, std::string> settings = split(properties.settings);
   for (auto& [name, value] : result.values) {
     if (name != "feel") continue;
-    const NamedRules named = read_feel(value, film);
+    const filter::NamedRules named = filter::read_feel(value, film);
     value = named.rules ? named.rules->text() : "";
     settings.erase(name);
     if (!value.empty()) settings[name] = '"' + value + '"';

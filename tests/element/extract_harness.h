@@ -42,7 +42,7 @@ inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench,
   report.frame.stamp.running_ns = static_cast<int64_t>(pts);
   report.frame.interval_ns = static_cast<int64_t>(interval);
   report.frame.wrench = wrench;
-  attach_motion_meta(frame, report, 16, 16);
+  filter::attach_motion_meta(frame, report, 16, 16);
   return frame;
 }
 
@@ -51,7 +51,7 @@ class Extract : public testing::Test {
   void SetUp() override {
     static const bool registered = [] {
       gst_init(nullptr, nullptr);
-      register_motion_meta();
+      filter::register_motion_meta();
       return GST_ELEMENT_REGISTER(spidarextract, nullptr) != FALSE;
     }();
     ASSERT_TRUE(registered);

@@ -109,7 +109,7 @@ class LongTrack : public testing::TestWithParam<const char*> {
   std::string path;
   TrackLoader loader;
   std::shared_ptr<ReadAhead> blocks;
-  TrackReplay replay;
+  filter::TrackReplay replay;
   uint32_t epoch = 0;
 };
 
@@ -165,7 +165,7 @@ TEST(TrackReplay, BackwardsNothingIsLeftOutThatComesLate) {
   };
   for (int ms = 0; ms <= 960; ms += kBlock_ms) put(ms);
   blocks->interrupt();  // nothing waits for the next
-  TrackReplay replay;
+  filter::TrackReplay replay;
   replay.set_track(blocks);
   std::vector<int64_t> given_ms;
   const FrameStamp frame{1, 1000 * kMs_ns, 0, kFrame_ms * kMs_ns, -1.0};

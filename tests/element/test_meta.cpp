@@ -197,13 +197,13 @@ class MappedMeta : public Meta {
     GstVideoInfo out;
     gst_video_info_set_format(&out, GST_VIDEO_FORMAT_I420, static_cast<guint>(width),
                               static_cast<guint>(height));
-    MatrixTransform data{&h->info(), part, &out, {0, 0, width, height}, {}};
+    filter::MatrixTransform data{&h->info(), part, &out, {0, 0, width, height}, {}};
     for (size_t row = 0; row < 3; ++row)
       std::copy(matrix[row].begin(), matrix[row].end(), data.matrix[row]);
     GstCustomMeta* const meta = gst_buffer_get_custom_meta(frame_, GST_SPIDAR_MOTION_META_NAME);
     const GstMetaInfo* const info = gst_meta_get_info(GST_SPIDAR_MOTION_META_NAME);
-    return info->transform_func(to, reinterpret_cast<GstMeta*>(meta), frame_, matrix_transform(),
-                                &data) != FALSE;
+    return info->transform_func(to, reinterpret_cast<GstMeta*>(meta), frame_,
+                                filter::matrix_transform(), &data) != FALSE;
   }
 
   /// Its motion.

@@ -72,7 +72,7 @@ TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {
         stream_first ? felt_with({of_stream, of_film}) : felt_with({of_film, of_stream});
     EXPECT_EQ(felt.force_N.x(), -plain.force_N.x());
   }
-  StreamOrientation orientation;
+  filter::StreamOrientation orientation;
   GstTagList* tags = orientation_tags("rotate-90", GST_TAG_SCOPE_STREAM);
   orientation.take(tags);
   gst_tag_list_unref(tags);

@@ -59,7 +59,7 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   analysis.background = background;
   analysis.objects = {large, small, hidden};
   const auto at = [&](double x_px, double y_px) {
-    return touched_displacement_px(analysis, {0.5 + x_px / 320, 0.5 + y_px / 240});
+    return filter::touched_displacement_px(analysis, {0.5 + x_px / 320, 0.5 + y_px / 240});
   };
   constexpr double kRounding = 1e-12;
   EXPECT_NEAR((at(45, 5) - Eigen::Vector2d(0, 4)).norm(), 0, kRounding) << "the smaller one";
@@ -70,15 +70,16 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
        {PictureKind::kFirst, PictureKind::kWaiting, PictureKind::kSame, PictureKind::kAlike}) {
     Frame still = analysis;
     still.picture = says_nothing;
-    EXPECT_EQ(touched_displacement_px(still, {0.5, 0.5}).norm(), 0);
+    EXPECT_EQ(filter::touched_displacement_px(still, {0.5, 0.5}).norm(), 0);
   }
 }
 
 TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {
   Frame analysis = some_analysis();
   analysis.motion.velocity_px_s = {100, -50};
-  EXPECT_NEAR((touched_displacement_px(analysis, {0.1, 0.9}) - Eigen::Vector2d(4, -2)).norm(), 0,
-              1e-12);
+  EXPECT_NEAR(
+      (filter::touched_displacement_px(analysis, {0.1, 0.9}) - Eigen::Vector2d(4, -2)).norm(), 0,
+      1e-12);
 }
 
 /// The loop is not ticked, so that a test can inspect what was published.
@@ -89,10 +90,10 @@ struct Reliefs {
   const Profile profile = profile_of_simulation();
   SimulatedDevice device{profile, SimulatedDevice::Time::kFixedStep};
   std::unique_ptr<HapticLoop> loop;
-  ReliefStream stream;
+  filter::ReliefStream stream;
 };
 
-uint64_t number_of(const ReliefStream& stream, const char* field) {
+uint64_t number_of(const filter::ReliefStream& stream, const char* field) {
   GstStructure* stats = gst_structure_new_empty("stats");
   stream.describe(stats);
   guint64 value = 0;
@@ -110,10 +111,10 @@ TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
   reliefs.stream.add(luma, some_analysis(), 0, touch, {0.5, 0.5});
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u) << "off";
   touch.kind = TouchKind::kLuma;
-  for (size_t n = 0; n < ReliefStream::kSlots + 5; ++n) {
+  for (size_t n = 0; n < filter::ReliefStream::kSlots + 5; ++n) {
     reliefs.stream.add(luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch, {0.5, 0.5});
   }
-  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), ReliefStream::kSlots);
+  EXPECT_EQ(number_of(reliefs.stream, "reliefs"), filter::ReliefStream::kSlots);
   EXPECT_EQ(number_of(reliefs.stream, "reliefs-left-out"), 5u);
 }
 
@@ -262,7 +263,7 @@ TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
   EXPECT_NEAR(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m / 2, 1e-9);
   TouchProperties touch;
   touch.stiffness_N_m = 700;
-  const ContactSettings contact = contact_settings(touch, profile);
+  const ContactSettings contact = filter::contact_settings(touch, profile);
   EXPECT_NEAR(contact.stiffness_N_m, 400, 1e-9);
   EXPECT_NEAR(contact.delay_s, 0.007, 1e-12);
   EXPECT_NEAR(contact.damping_N_s_m(), 1.5 * 400 * 0.007, 1e-9);

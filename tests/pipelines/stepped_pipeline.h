@@ -100,7 +100,7 @@ class SteppedPipeline {
   GstElement* element_;
   GstElement* sink_;
   std::unique_ptr<MessageInbox> inbox_;
-  MotionState* state_;
+  filter::MotionState* state_;
   TickWatch watch_;
   std::map<GstClockTime, Wrench> wrenches_;
   unsigned messages_ = 0;                                 // types seen

@@ -35,7 +35,7 @@ class OtherElement {
   const std::string& device() { return state().output.session()->grip().name(); }
 
  private:
-  MotionState& state() { return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_)); }
+  filter::MotionState& state() { return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_)); }
 
   SteppedPipeline& pipeline_;
   GstElement* element_;

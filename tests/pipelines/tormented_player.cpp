@@ -60,7 +60,7 @@ TormentedPlayer::~TormentedPlayer() {
   gst_object_unref(pipeline_);
 }
 
-MotionState& TormentedPlayer::state() const {
+filter::MotionState& TormentedPlayer::state() const {
   return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_));
 }
 

@@ -39,7 +39,7 @@ class TormentedPlayer {
   /// "source", "size" or "sink"; the caller must unref it.
   GstElement* part(const char* name) const { return gst_bin_get_by_name(GST_BIN(pipeline_), name); }
   GstElement* element() const { return element_; }
-  MotionState& state() const;
+  filter::MotionState& state() const;
   /// Null while there is none. Not while another thread changes the state.
   SimulatedDevice* device() const;
 

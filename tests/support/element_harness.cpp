@@ -135,7 +135,7 @@ const std::vector<gint>& ElementHarness::qualities() {
   return qualities_;
 }
 
-MotionState& ElementHarness::state() {
+filter::MotionState& ElementHarness::state() {
   return gst_spidar_motion_state(GST_SPIDAR_MOTION(harness_->element));
 }
 

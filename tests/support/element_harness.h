@@ -56,7 +56,7 @@ class ElementHarness {
   GstElement* element() const { return harness_->element; }
   GstHarness* harness() const { return harness_; }
   const GstVideoInfo& info() const { return info_; }
-  MotionState& state();
+  filter::MotionState& state();
   /// Ticks the haptic loop of an element that waits for it, and checks the tick.
   TickRecord tick(int64_t now_ns) { return watch_.tick(state().output.session()->loop(), now_ns); }
 

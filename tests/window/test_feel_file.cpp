@@ -33,7 +33,7 @@ class FeelFile : public testing::Test {
   }
   std::string error(const std::string& feel, const std::string& of) const {
     try {
-      save_feel(feel, of, {kChoice});
+      filter::save_feel(feel, of, {kChoice});
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -48,9 +48,9 @@ class FeelFile : public testing::Test {
 };
 
 TEST_F(FeelFile, IsBesideTheFilmWhereItIsFoundAgain) {
-  EXPECT_EQ(save_feel("", film, {kChoice}), "film.avi.feel has 1 rule.");
+  EXPECT_EQ(filter::save_feel("", film, {kChoice}), "film.avi.feel has 1 rule.");
   EXPECT_EQ(text("film.avi.feel"), kChosen);
-  const NamedRules read = read_feel("auto", film);
+  const filter::NamedRules read = filter::read_feel("auto", film);
   ASSERT_TRUE(read.rules);
   EXPECT_EQ(read.rules->text() + "\n", kChosen);
   EXPECT_EQ(files(), 1u) << "nothing else is left";
@@ -58,17 +58,17 @@ TEST_F(FeelFile, IsBesideTheFilmWhereItIsFoundAgain) {
 
 TEST_F(FeelFile, IsTheOneThatIsThereOrThatTheElementReads) {
   write("film.feel", "0:05- largest\n");
-  EXPECT_EQ(save_feel("auto", film, {kChoice}), "film.feel has 2 rules.");
+  EXPECT_EQ(filter::save_feel("auto", film, {kChoice}), "film.feel has 2 rules.");
   EXPECT_EQ(text("film.feel"), kChosen + "0:05- largest\n");
-  EXPECT_EQ(save_feel(path("mine.feel"), film, {kChoice}), "mine.feel has 1 rule.");
+  EXPECT_EQ(filter::save_feel(path("mine.feel"), film, {kChoice}), "mine.feel has 1 rule.");
   EXPECT_EQ(text("mine.feel"), kChosen);
 }
 
 /// Whoever writes it meanwhile.
 TEST_F(FeelFile, KeepsTheRulesThatItHas) {
-  save_feel("", film, {kChoice});
+  filter::save_feel("", film, {kChoice});
   write("film.avi.feel", kChosen + "0:05- camera\n");
-  save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
+  filter::save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
   EXPECT_EQ(text("film.avi.feel"), kChosen + "0:03-0:04 object at 1,1\n0:05- camera\n");
   EXPECT_EQ(files(), 1u);
 }
@@ -78,19 +78,19 @@ TEST_F(FeelFile, KeepsItsPermissions) {
   write("film.avi.feel", kChosen);
   const fs::perms only_owner = fs::perms::owner_read | fs::perms::owner_write;
   fs::permissions(path("film.avi.feel"), only_owner);
-  save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
+  filter::save_feel("", film, {{3 * kSecond, 4 * kSecond, Eigen::Vector2d(1, 1)}});
   EXPECT_EQ(fs::status(path("film.avi.feel")).permissions(), only_owner);
 }
 
 TEST_F(FeelFile, WithRemarksOrMistakesIsKeptUnderAnotherName) {
   const std::string remark = "0:05- largest  # the dog\n", mistake = "biggest\n";
   write("film.avi.feel", remark);
-  EXPECT_EQ(save_feel("", film, {kChoice}),
+  EXPECT_EQ(filter::save_feel("", film, {kChoice}),
             "film.avi.feel has 2 rules; what it was before is in film.avi.feel~.");
   EXPECT_EQ(text("film.avi.feel"), kChosen + "0:05- largest\n");
   EXPECT_EQ(text("film.avi.feel~"), remark);
   write("film.avi.feel", mistake);
-  EXPECT_EQ(save_feel("", film, {kChoice}),
+  EXPECT_EQ(filter::save_feel("", film, {kChoice}),
             "film.avi.feel has 1 rule; what it was before is in film.avi.feel~~.");
   EXPECT_EQ(text("film.avi.feel"), kChosen);
   EXPECT_EQ(text("film.avi.feel~"), remark);
@@ -98,11 +98,11 @@ TEST_F(FeelFile, WithRemarksOrMistakesIsKeptUnderAnotherName) {
 }
 
 TEST_F(FeelFile, GoesWithItsLastRule) {
-  save_feel("", film, {kChoice});
-  EXPECT_EQ(save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
+  filter::save_feel("", film, {kChoice});
+  EXPECT_EQ(filter::save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
             "film.avi.feel has no rules left and is removed.");
   EXPECT_EQ(files(), 0u);
-  EXPECT_EQ(save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
+  EXPECT_EQ(filter::save_feel("", film, {{0, 9 * kSecond, std::nullopt}}),
             "film.avi.feel has no rules left and is removed.");
 }
 

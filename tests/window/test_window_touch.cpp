@@ -138,13 +138,13 @@ TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {
 }
 
 TEST(FeltLine, TellsAPauseFromASeekAndFromTheEnd) {
-  EXPECT_EQ(sentence_in_window(NoForceReason::kNoFrames, false), "The video is paused.");
-  EXPECT_EQ(sentence_in_window(NoForceReason::kNotPlaying, true),
+  EXPECT_EQ(filter::sentence_in_window(NoForceReason::kNoFrames, false), "The video is paused.");
+  EXPECT_EQ(filter::sentence_in_window(NoForceReason::kNotPlaying, true),
             "The video is seeking, or its clock stands still.");
   for (const bool is_playing : {false, true}) {
-    EXPECT_EQ(sentence_in_window(NoForceReason::kEnded, is_playing), "The film has ended.");
+    EXPECT_EQ(filter::sentence_in_window(NoForceReason::kEnded, is_playing), "The film has ended.");
   }
-  EXPECT_EQ(sentence_in_window(NoForceReason::kNone, true), "");
+  EXPECT_EQ(filter::sentence_in_window(NoForceReason::kNone, true), "");
 }
 
 }  // namespace

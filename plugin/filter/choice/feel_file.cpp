@@ -9,7 +9,7 @@
 #include "plugin/tracks/sidecar.h"
 #include "spidar/whole_file.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 namespace fs = std::filesystem;
 
@@ -105,4 +105,4 @@ std::string save_feel(const std::string& feel, const std::string& film,
          (copy.empty() ? "." : "; what it was before is in " + name_of(copy) + ".");
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -10,7 +10,7 @@
 #include "core/choice/feel_edit.h"
 #include "core/choice/feel_rules.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// What is appended to the name of a film.
 constexpr const char* kFeelEnd = ".feel";
@@ -35,4 +35,4 @@ bool is_feel_file(const std::string& feel);
 std::string save_feel(const std::string& feel, const std::string& film,
                       const std::vector<FeelEdit>& edits);
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -13,7 +13,7 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 /// Nobody minds a last rule that is a little longer than the film.
@@ -179,4 +179,4 @@ void MotionChoice::check(const Chosen& choice, const KeptObject& kept, GstClockT
   if (GST_CLOCK_TIME_IS_VALID(stream_time)) seen_ = stream_time;
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

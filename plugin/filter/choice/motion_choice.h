@@ -18,7 +18,7 @@
 #include "plugin/filter/choice/sink_mouse.h"
 #include "plugin/properties/motion_properties.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// The rules of `feel`, and the mouse. Streaming thread, unless another is named.
 class MotionChoice {
@@ -71,4 +71,4 @@ class MotionChoice {
   GstClockTime seen_ = 0;                       ///< stream time of the frame before
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -8,7 +8,7 @@
 #include <gst/video/navigation.h>
 #include <gst/video/video.h>
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 // Sinks of X send the wheel as buttons.
@@ -111,4 +111,4 @@ void MousePointer::reset() {
   kept_ = {};
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

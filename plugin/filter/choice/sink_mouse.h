@@ -11,7 +11,7 @@
 
 #include "core/choice/chosen.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// One action of the mouse.
 struct SinkMouse {
@@ -54,4 +54,4 @@ class MousePointer {
   KeptObject kept_;  ///< its position is that of the frame before it is turned
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -14,7 +14,7 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(held.get())
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 /// For as long as the element is read and not longer, because drawing may take long; null when it
@@ -247,4 +247,4 @@ std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticO
   return std::make_shared<ElementSource>(element, output, no_force, choice);
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -13,7 +13,7 @@
 #include "plugin/output/haptic_output.h"
 #include "plugin/window/window.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Why nothing is felt, for a window, which knows whether the film is paused: then there was no
 /// frame in the last second, whatever the film has.
@@ -31,4 +31,4 @@ std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticO
                                                     const NoForceWatch& no_force,
                                                     MotionChoice& choice);
 
-}  // namespace spidar
+}  // namespace spidar::filter

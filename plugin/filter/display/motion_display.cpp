@@ -13,7 +13,7 @@
 #include "plugin/frame/object_metas.h"
 #include "plugin/overlay/video_overlay.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame) {
   const DisplayProperties& properties = settings.display;
@@ -102,4 +102,4 @@ std::string MotionDisplay::save_window(const std::string& path) {
   return shown ? shown->take_picture(path, kTimeout) : "there is no debug window";
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

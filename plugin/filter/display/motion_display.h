@@ -19,7 +19,7 @@
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
@@ -73,4 +73,4 @@ class MotionDisplay {
   std::shared_ptr<window::Window> window_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

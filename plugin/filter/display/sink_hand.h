@@ -11,7 +11,7 @@
 #include "plugin/output/haptic_output.h"
 #include "plugin/window/view/mouse_hand.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// While the picture is touched, the mouse leads the hand as in the debug window, see
 /// window::MouseHand. Thread-safe.
@@ -60,4 +60,4 @@ class SinkHand {
   window::MouseHand hand_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -13,7 +13,7 @@
 #include "plugin/frame/frame_report.h"
 #include "plugin/output/haptic_output.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Where the grip points at the picture as it is shown; nothing while no device runs.
 inline std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output) {
@@ -46,4 +46,4 @@ inline void touch_frame(const PassingFrame& passing, const ImageView& luma, int6
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -10,7 +10,7 @@
 #include "plugin/filter/engine/frame_touch.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 /// With a fraction of 1 the result is the same bit for bit.
@@ -153,4 +153,4 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -17,7 +17,7 @@
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/wrench_backlog.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Streaming thread.
 class LiveSource {
@@ -69,4 +69,4 @@ class LiveSource {
   double motion_fraction_ = 1;     ///< of the newest frame's wrench
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

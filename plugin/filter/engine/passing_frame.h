@@ -8,7 +8,7 @@
 #include "core/frame_stamp.h"
 #include "plugin/properties/motion_properties.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 struct PassingFrame {
   const GstVideoFrame& video;
@@ -17,4 +17,4 @@ struct PassingFrame {
   const FrameStamp& stamp;
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -11,7 +11,7 @@
 #include "core/orientation.h"
 #include "plugin/gobject/downstream.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 inline Orientation turn_of(GstVideoOrientationMethod method) {
   switch (method) {
@@ -64,4 +64,4 @@ inline bool follows_tag_upstream(GstPad* sink) {
   });
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -9,7 +9,7 @@
 
 #include "core/force/motion_rendering.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 /// Where frames are missing for longer, so are the samples that they would be shown with.
@@ -227,4 +227,4 @@ void TrackSource::pass_gap(const FrameStamp& stamp) {
   play(stamp, unread);
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

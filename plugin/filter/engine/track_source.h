@@ -24,7 +24,7 @@
 #include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/read_ahead.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Gives the blocks of a track whose time it is, with their running times.
 class TrackReplay {
@@ -104,4 +104,4 @@ class TrackSource {
   std::atomic<uint64_t> frames_{0};
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -8,7 +8,7 @@
 #include "core/analysis/analysis_json.h"
 #include "spidar/realtime/line_writer.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 constexpr const char* kHeader =
@@ -66,4 +66,4 @@ int FrameTrace::write(const FrameReport& report) {
   return file_.status().error;
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

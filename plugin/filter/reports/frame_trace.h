@@ -9,7 +9,7 @@
 #include "plugin/frame/frame_report.h"
 #include "spidar/realtime/line_writer.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Where the name ends in .csv, CSV with a header line; in .jsonl, what json_line() gives, with
 /// objects and background; numbers are written without regard to the locale, with the digits that
@@ -33,4 +33,4 @@ class FrameTrace {
   std::string line_;  ///< of the frame before: its memory is used again
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -12,7 +12,7 @@
 
 #include "plugin/frame/motion_message.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 GstStructure* add_meta(GstBuffer* buffer) {
@@ -217,4 +217,4 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width,
   set_points(structure, points);
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -8,7 +8,7 @@
 
 #include "plugin/frame/frame_report.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// How GStreamer 1.28 and newer say that an element cuts, turns or mirrors a picture. It may be
 /// newer at run time than where this is built.
@@ -41,4 +41,4 @@ void register_motion_meta();
 /// those of the frame.
 void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height);
 
-}  // namespace spidar
+}  // namespace spidar::filter

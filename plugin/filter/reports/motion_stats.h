@@ -12,7 +12,7 @@
 #include "core/analysis/frame.h"
 #include "spidar/realtime/latency_histogram.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Since the stream began. Thread-safe.
 class MotionStats {
@@ -71,4 +71,4 @@ class MotionStats {
   AnalysisHistogram analysis_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter

@@ -8,7 +8,7 @@
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::filter {
 namespace {
 
 const MovingObject* object_at(const std::vector<MovingObject>& objects,
@@ -236,4 +236,4 @@ void ReliefStream::describe(GstStructure* structure) const {
                     stiffness_N_m_.load(), nullptr);
 }
 
-}  // namespace spidar
+}  // namespace spidar::filter

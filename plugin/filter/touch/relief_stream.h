@@ -25,7 +25,7 @@
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/touch/touch_rendering.h"
 
-namespace spidar {
+namespace spidar::filter {
 
 /// Returns the displacement from the previous frame to this one, in pixels of the frame: x right, y
 /// down. `position` is the position of the finger, with (0, 0) at the top left corner of the
@@ -110,4 +110,4 @@ class ReliefStream {
   LatencyHistogram took_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::filter
