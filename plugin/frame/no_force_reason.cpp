@@ -56,7 +56,7 @@ constexpr Wording kWordings[] = {
     {"nothing-moves", "Nothing moves in the picture."},
     {"too-weak",
      "The force is weaker than a hand feels (0.04 N): the motion is slow, or alpha, depth-gain, "
-     "roll-gain or max-force is small."},
+     "roll-gain, max-force or, with touch, motion-fraction is small."},
     {"silent-track", "The haptic track has no force here, or less than a hand feels (0.04 N)."},
     {"cannot-touch",
      "This device cannot touch the picture: it gives no force towards the viewer, or does not "

@@ -45,9 +45,9 @@ bool is_late(const LoopSnapshot& loop) {
 
 }  // namespace
 
-NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
+NoForceReason reason_in_frame(const Frame& frame, MotionKind motion, double fraction) {
   if (frame.picture == PictureKind::kFirst) return NoForceReason::kNothingToCompare;
-  if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
+  if (fraction * size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
   if (frame.height > 0 &&
@@ -59,8 +59,7 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
   const bool leaves_out_camera =
       frame.choice.is_free() ? motion == MotionKind::kObject || motion == MotionKind::kObjects
                              : frame.choice.is_kept || frame.choice.rule->is_about_objects();
-  const bool is_unknown = frame.background && frame.background->coverage == 0 &&
-                          frame.features >= static_cast<int>(kLeastVotes);
+  const bool is_unknown = frame.background && !frame.background->is_known;
   if (leaves_out_camera && is_unknown) return NoForceReason::kCameraUnknown;
   const bool camera_moves = frame.background && frame.background->model.kind != ModelKind::kStill;
   if (leaves_out_camera && camera_moves) return NoForceReason::kCameraOnly;

@@ -61,6 +61,18 @@ TEST_F(ForceLimitTest, EachOfTheFilm) {
   }
 }
 
+TEST_F(ForceLimitTest, WhileTouchingItIsThatOfThePartOfTheMotionThatIsRendered) {
+  open("device=sim motion=camera touch=luma motion-fraction=0");
+  play();
+  show_moved(kFrames, 2);
+  EXPECT_EQ(message_reason(), "too-weak");
+  EXPECT_EQ(stats_field("no-force-reason"), "too-weak");
+  g_object_set(h->element(), "motion-fraction", 1.0, nullptr);
+  show_moved(kFrames, 2);
+  EXPECT_EQ(message_reason(), "none");
+  EXPECT_EQ(stats_field("no-force-reason"), "none");
+}
+
 TEST_F(ForceLimitTest, FramesWithoutAPictureRepeatTheOneBefore) {
   open("device=sim motion=object");
   play();

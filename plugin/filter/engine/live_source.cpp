@@ -77,13 +77,13 @@ void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   const PacedTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
+  const Wrench wrench = frame ? scaled(frame->wrench, motion_fraction_) : Wrench();
   if (frame) {
-    schedule(*frame, time, true, turn.to_displayed(scaled(frame->wrench, motion_fraction_)));
+    schedule(*frame, time, true, turn.to_displayed(wrench));
   } else {
     run_out(static_cast<GstClockTime>(running_ns));
   }
-  no_force_.add(schedule_.at_sink_ns(running_ns), frame ? frame->wrench : Wrench(),
-                NoForceReason::kRepeatedFrames);
+  no_force_.add(schedule_.at_sink_ns(running_ns), wrench, NoForceReason::kRepeatedFrames);
   pacer_.pass(time);
 }
 
@@ -115,7 +115,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   analyzer_.configure(frame.settings.analyzer);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
                                    std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
-  report.no_force = reason_in_frame(report.frame, report.motion);
+  report.no_force = reason_in_frame(report.frame, report.motion, motion_fraction_);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
   report.visible.width = picture.width;
@@ -135,18 +135,18 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   const int64_t shown_ns = schedule_.at_sink_ns(frame.stamp.running_ns);
   const PacedTime time = pacer_.at(frame.stamp.running_ns, schedule_.rate_multiplier());
   const ImageView luma = luma_.view(frame.video);
+  const TouchProperties& touch = frame.settings.touch;
+  // This fraction of the film's motion is rendered, reported and shown in addition to touch.
+  motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
   report.analyzed = analyze(frame, luma, time.paced_ns, report);
   if (!report.analyzed) return;
   report.click = frame.settings.analyzer.kept.click;
 
   const bool moved = report.frame.interval_ns > 0 || report.frame.goes_on();
   pacer_.take(time, moved);
-  const TouchProperties& touch = frame.settings.touch;
+  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
   no_force_.set_touching(touch.kind != TouchKind::kOff);
-  // This fraction of the film's motion is rendered, reported and shown in addition to touch.
-  motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
-  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   if (!time.in_place) {
     touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
     schedule(report.frame, time, moved, report.frame.wrench);

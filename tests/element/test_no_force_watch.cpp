@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Reasons why there is no force: their texts, and which of them a second of frames has.
+// Reasons why there is no force, without an element: their texts, and which of them a frame and a
+// second of frames have.
 #include <cstring>
 #include <set>
 #include <string>
@@ -12,7 +13,7 @@
 #include "core/motion/camera/background.h"
 #include "plugin/frame/no_force_watch.h"
 
-namespace spidar::test::no_force_reason_test {
+namespace spidar::test::no_force_watch_test {
 namespace {
 
 constexpr int64_t kFrame_ns = 40'000'000;
@@ -62,11 +63,15 @@ TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
 TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
   Background background;
   background.coverage = 0;
+  background.is_known = false;
   Frame frame = unfelt();
   frame.background = background;
   EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kCameraUnknown);
   EXPECT_EQ(reason_in_frame(frame, MotionKind::kCamera), NoForceReason::kNothingMoves)
       << "nothing is left out";
+  frame.background->is_known = true;
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNothingMoves)
+      << "too few votes for any model are those of a plain background at rest";
 }
 
 /// Frames of one reason, 40 ms apart.
@@ -141,4 +146,4 @@ TEST(NoForceHistory, KeepsTheLatestFramesWhenThereAreTooMany) {
 }
 
 }  // namespace
-}  // namespace spidar::test::no_force_reason_test
+}  // namespace spidar::test::no_force_watch_test
