@@ -130,7 +130,7 @@ void draw_reasons(std::ostream& script, const std::vector<std::string>& words) {
   script << "unset ylabel\nset label 1 'not felt because' at graph 1.02, graph 0.5\nset yrange ["
          << static_cast<double>(words.size()) - 0.5 << ":-0.5]\nset ytics (";
   for (size_t i = 0; i < words.size(); ++i) {
-    script << (i == 0 ? "" : ", ") << spidar::gnuplot_string(words[i]) << ' ' << i;
+    script << (i == 0 ? "" : ", ") << spidar::tools::gnuplot_string(words[i]) << ' ' << i;
   }
   script << ") font ',9'\nplot $reasons using 1:2:3:(0) with vectors nohead linewidth 7 linecolor "
             "rgb '#808080' notitle\nset ytics auto font ',12'\nunset label 1\n";
@@ -250,7 +250,8 @@ std::string picture_script(const Record& record, double max_force_N, const std::
   write_frames(script, record);
   write_devices(script, record);
   write_reasons(script, record, reasons);
-  script << "set multiplot title " << spidar::gnuplot_string(title + ": motion felt at the grip")
+  script << "set multiplot title "
+         << spidar::tools::gnuplot_string(title + ": motion felt at the grip")
          << " noenhanced font ',15'\n";
   int top_px = kAbove_px;
   for (size_t i = 0; i < panels.size(); ++i) {

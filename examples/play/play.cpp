@@ -133,7 +133,7 @@ void draw(const Record& record, const Options& options, const std::string& title
           double max_force_N) {
   const std::string png = fs::path(options.output) / "spidar-play.png";
   spidar::PartFile picture(png, {true, ""});
-  spidar::draw_with_gnuplot(picture_script(record, max_force_N, title), picture);
+  spidar::tools::draw_with_gnuplot(picture_script(record, max_force_N, title), picture);
   picture.publish();
   std::printf("picture: %s\n", png.c_str());
 }
@@ -276,9 +276,9 @@ int main(int argc, char** argv) {
   try {
     const Options options = parse(app, argc, argv);
     gst_init(nullptr, nullptr);
-    return spidar::status_after_printing("play", play(options));
+    return spidar::tools::status_after_printing("play", play(options));
   } catch (const CLI::ParseError& error) {
-    return spidar::status_after_printing("play", app.exit(error) == 0 ? 0 : kMistake);
+    return spidar::tools::status_after_printing("play", app.exit(error) == 0 ? 0 : kMistake);
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kMistake;

@@ -181,9 +181,10 @@ void touch(const std::string& image, bool is_depth, const fs::path& folder) {
   std::printf("deepest:            %.1f mm below the surface\n", 1e3 * felt.deepest_m);
   std::printf("largest force:      %.2f N\n", felt.largest_N);
   PartFile drawing(png, {true, ""});
-  draw_with_gnuplot("title = " + gnuplot_string(fs::path(image).filename()) + "\n$relief << END\n" +
-                        relief + "END\n$ticks << END\n" + felt.csv + "END\n" + kScript,
-                    drawing);
+  tools::draw_with_gnuplot("title = " + tools::gnuplot_string(fs::path(image).filename()) +
+                               "\n$relief << END\n" + relief + "END\n$ticks << END\n" + felt.csv +
+                               "END\n" + kScript,
+                           drawing);
   drawing.publish();
   std::printf("drawn:              %s\n", png.c_str());
 }
@@ -206,9 +207,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     gst_init(nullptr, nullptr);
     touch(image, is_depth, folder);
-    return spidar::status_after_printing("touch", 0);
+    return spidar::tools::status_after_printing("touch", 0);
   } catch (const CLI::ParseError& error) {
-    return spidar::status_after_printing("touch", app.exit(error) == 0 ? 0 : kMistake);
+    return spidar::tools::status_after_printing("touch", app.exit(error) == 0 ? 0 : kMistake);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "touch: %s\n", error.what());
     return 1;

@@ -127,11 +127,11 @@ Options parse(int argc, char** argv) {
   if (argc < 2) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
   if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
     std::fputs(kHelp, stdout);
-    std::exit(spidar::status_after_printing("spidar-feel", 0));
+    std::exit(spidar::tools::status_after_printing("spidar-feel", 0));
   }
   if (std::strcmp(argv[1], "--version") == 0) {
     std::puts("spidar-feel " PACKAGE_VERSION);
-    std::exit(spidar::status_after_printing("spidar-feel", 0));
+    std::exit(spidar::tools::status_after_printing("spidar-feel", 0));
   }
   int at = 1;
   while (at < argc && is_property(argv[at])) options.properties.emplace_back(argv[at++]);

@@ -17,7 +17,7 @@
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Six funscripts for the six channels of a track, as players of several axes read them.
 struct AxisScript {
@@ -267,4 +267,4 @@ int convert_track(const ConvertOptions& options) {
   return kDone;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

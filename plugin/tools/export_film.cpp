@@ -20,7 +20,7 @@
 #include "plugin/tracks/film_reader.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ int export_film(const ExportOptions& options) {
   return kDone;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -11,7 +11,7 @@
 #include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 /// Upright, as a browser shows it.
@@ -56,4 +56,4 @@ std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string&
   return boxes;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace spidar {
+namespace spidar::tools {
 
 /// In one frame.
 struct FeltBox {
@@ -25,4 +25,4 @@ struct FeltBox {
 /// settings are not those of a track.
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -11,7 +11,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/file_pipeline.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 struct Encoder {
@@ -162,4 +162,4 @@ void KeptSound::keep(GstPad* sound) {
   gst_pad_link(sound, first.get());
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

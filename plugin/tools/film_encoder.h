@@ -9,7 +9,7 @@
 
 #include "plugin/tracks/part_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Elements from raw pictures to the file of `part`, whose name will end in .mp4 or .mkv, with a
 /// muxer "mux". Throws std::runtime_error, which names the package to install, when GStreamer has
@@ -63,4 +63,4 @@ class KeptSound {
   std::string missing_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

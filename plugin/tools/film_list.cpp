@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ FilmList list_films(const std::vector<std::string>& names) {
   return list;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace spidar {
+namespace spidar::tools {
 
 struct ListedFilm {
   std::string path;
@@ -28,4 +28,4 @@ struct FilmList {
 /// left out.
 FilmList list_films(const std::vector<std::string>& names);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -14,7 +14,7 @@
 #include "core/track/keyframes.h"
 #include "plugin/tools/film_page_html.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr int kZero = 128, kSteps = 127;  // of a byte that is a value
@@ -124,4 +124,4 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

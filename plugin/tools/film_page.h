@@ -11,7 +11,7 @@
 #include "core/track/track_format.h"
 #include "plugin/tools/felt_boxes.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 class FilmPage {
  public:
@@ -45,4 +45,4 @@ class FilmPage {
   std::array<std::vector<double>, 4> edges_;  ///< of FeltBox, from -1 to 1, of each step; or empty
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -40,7 +40,7 @@
 #include "plugin/tracks/track_file.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Records the haptic track of one film.
 struct FilmOutcome {
@@ -384,4 +384,4 @@ int run_film_process(int argc, char** argv) {
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

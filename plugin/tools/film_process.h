@@ -11,7 +11,7 @@
 #include "plugin/tools/record_options.h"
 #include "plugin/tracks/part_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 struct FilmJob {
   std::string film;
@@ -41,4 +41,4 @@ FilmResult inspect_in_process(const FilmJob& job);
 /// The main function of such a process; −1 when these are arguments of a user. Before gst_init().
 int run_film_process(int argc, char** argv);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -7,7 +7,7 @@
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 void set_properties(GstElement* motion, const RecordProperties& properties) {
   for (const auto& [name, value] : properties.values) {
@@ -39,4 +39,4 @@ GstPadProbeReturn FilmProgress::passes(GstPad* frames, GstPadProbeInfo* info, gp
   return GST_PAD_PROBE_OK;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

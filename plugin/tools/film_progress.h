@@ -9,7 +9,7 @@
 
 #include "plugin/tools/record_options.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// So long nothing may come from a slow network share.
 constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
@@ -36,4 +36,4 @@ class FilmProgress {
   int told_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -10,7 +10,7 @@
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_pipeline.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr auto kFlow =
@@ -179,4 +179,4 @@ std::string FilmWatch::felt() const {
   return text;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -14,8 +14,10 @@
 #include "plugin/frame/no_force_reason.h"
 
 namespace spidar {
-
 class FilePipeline;
+}  // namespace spidar
+
+namespace spidar::tools {
 
 /// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
 /// application to judge. Outlives the pipeline.
@@ -61,4 +63,4 @@ class FilmWatch {
   std::array<int, kNoForceReasons> frames_by_reason_{};  ///< that were measured
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

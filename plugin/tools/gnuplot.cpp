@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 using File = std::unique_ptr<FILE, int (*)(FILE*)>;
@@ -109,4 +109,4 @@ std::string gnuplot_string(const std::string& text) {
   return result + "'";
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

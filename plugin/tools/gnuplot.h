@@ -7,7 +7,7 @@
 
 #include "plugin/tracks/part_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Runs gnuplot once on `script`, which sets its terminal to a kind of PNG, has its data in it and
 /// does not set an output, and writes the picture into `picture`. Throws std::runtime_error, which
@@ -17,4 +17,4 @@ void draw_with_gnuplot(const std::string& script, const PartFile& picture);
 /// A text as a string of a script.
 std::string gnuplot_string(const std::string& text);
 
-}  // namespace spidar
+}  // namespace spidar::tools

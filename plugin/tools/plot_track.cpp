@@ -12,7 +12,7 @@
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr const char* kStyle = R"(set encoding utf8
@@ -105,4 +105,4 @@ int plot_track(const PlotOptions& options) {
   return kDone;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -25,7 +25,7 @@
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 /// A film that is done.
@@ -245,4 +245,4 @@ int record_films(const RecordOptions& options) {
   return FilmBatch(options).run() ? kDone : kFailed;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

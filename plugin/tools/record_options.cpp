@@ -16,7 +16,7 @@
 #include "plugin/properties/typed_property.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 namespace fs = std::filesystem;
 
@@ -196,4 +196,4 @@ void set_films(RecordOptions& options, const std::vector<std::string>& names,
   options.properties = parse_record_properties(properties, options.films.size());
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -10,7 +10,7 @@
 
 #include "plugin/tools/film_list.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 struct RecordProperties {
   /// Names and values, for gst_util_set_object_arg().
@@ -56,4 +56,4 @@ struct RecordOptions {
 void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr std::chrono::seconds kTellEvery{10};
@@ -138,4 +138,4 @@ void RecordReport::erase() const {
   if (is_terminal_) std::cout << "\r\033[K" << std::flush;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
 /// has a line below with the films that are in work and the time that is left; elsewhere, it is
@@ -57,4 +57,4 @@ class RecordReport {
   std::vector<std::pair<size_t, std::string>> failures_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -16,7 +16,7 @@
 #include "plugin/tracks/file_pipeline.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 /// Upright, because the arrow and the curve are drawn into pictures as they are shown.
@@ -74,4 +74,4 @@ int show_film(const ShowOptions& options) {
   return kDone;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -21,6 +21,7 @@
 namespace {
 
 using namespace spidar;
+using namespace spidar::tools;
 
 /// Those that the program may run on; g_get_num_processors() counts all.
 unsigned usable_processors() {

@@ -12,7 +12,7 @@
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/part_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 struct InfoOptions {
   std::string path;  ///< of a track or a film
@@ -67,4 +67,4 @@ int plot_track(const PlotOptions& options);
 int show_film(const ShowOptions& options);
 int export_film(const ExportOptions& options);
 
-}  // namespace spidar
+}  // namespace spidar::tools

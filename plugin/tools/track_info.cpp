@@ -14,7 +14,7 @@
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
@@ -120,4 +120,4 @@ int check_track(const CheckOptions& options) {
   return count == 0 && !is_silent ? kDone : kFailed;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -24,7 +24,7 @@
 #include "plugin/tracks/track_file.h"
 #include "spidar/whole_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr size_t kAtOnce = 4096;  // samples
@@ -299,4 +299,4 @@ void StoredSound::check(const PartFile& part) const {
   throw std::runtime_error(part.target() + ": what is read back is not what was written" + why);
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

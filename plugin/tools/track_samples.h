@@ -18,7 +18,7 @@
 #include "plugin/tracks/track_file.h"
 #include "plugin/tracks/track_input.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// A file of F32 samples beside the file that is made of them, which is removed with the object.
 class SampleFile {
@@ -113,4 +113,4 @@ class StoredSound {
                                                         g_checksum_free};
 };
 
-}  // namespace spidar
+}  // namespace spidar::tools

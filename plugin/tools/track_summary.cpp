@@ -7,7 +7,7 @@
 
 #include "core/force/motion_rendering.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 const char* channel_unit(size_t channel) {
   return channel < kTrackChannels / 2 ? " N" : " N m";
@@ -44,4 +44,4 @@ TrackSummary Summariser::summary() const {
   return summary;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

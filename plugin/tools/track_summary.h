@@ -10,7 +10,7 @@
 #include "core/track/track_format.h"
 #include "plugin/tracks/track_band.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Statistics of one channel, in fractions of the full scale.
 struct ChannelSummary {
@@ -46,4 +46,4 @@ class Summariser {
 /// " N" or " N m".
 const char* channel_unit(size_t channel);
 
-}  // namespace spidar
+}  // namespace spidar::tools

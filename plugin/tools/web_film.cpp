@@ -15,7 +15,7 @@
 #include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 /// Pictures and sound that all browsers decode. Of H.264 with 8 bits and 4:2:0.
@@ -93,4 +93,4 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part) 
   return sound.missing();
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -7,7 +7,7 @@
 
 #include "plugin/tracks/part_file.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// Why some browser does not play the film, as the end of a sentence: "their picture is
 /// video/x-h265". Empty when all do: H.264, VP8, VP9 or AV1 with AAC, MP3, Opus or Vorbis, in MP4
@@ -18,4 +18,4 @@ std::string why_no_browser(const std::string& film);
 /// it, as a sentence; usually empty. Throws std::runtime_error.
 std::string convert_for_browsers(const std::string& film, const PartFile& part);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -22,7 +22,7 @@
 #include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 constexpr int kNotCalibrated = 3;
@@ -292,4 +292,4 @@ void add_calibrate(Program& program) {
       "that was asked for or contradict the profile (nothing is written), 130 interrupted.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

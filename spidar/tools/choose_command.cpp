@@ -13,7 +13,7 @@
 #include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 /// Whether a line, or its end, waits on the standard input.
@@ -137,4 +137,4 @@ void add_choose(Program& program) {
       "number, or there is no device, 2 wrong usage, 130 interrupted.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -14,7 +14,7 @@
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 /// A finite number; CLI::Range takes NaN, too. `unit` is for the message: " s".
 inline CLI::Validator number(double least, double most, const std::string& unit = "") {
@@ -66,4 +66,4 @@ inline int exit_status_of(const CLI::App& program, const std::function<int()>& r
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

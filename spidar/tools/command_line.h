@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace spidar {
+namespace spidar::tools {
 
 // Exit statuses, as the manual pages list them.
 constexpr int kDone = 0;
@@ -37,4 +37,4 @@ inline int status_after_printing(const std::string& program, int status) {
   return status == kDone ? kFailed : status;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

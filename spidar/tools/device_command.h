@@ -18,7 +18,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/tools/cli_program.h"
 
-namespace spidar {
+namespace spidar::tools {
 
 struct Program {
   CLI::App app{"Lists, inspects, tests and calibrates SPIDARs.", "spidarctl"};
@@ -142,4 +142,4 @@ bool confirm(const std::string& question);
 /// that nothing moved if not.
 bool may_move(const std::string& device, bool yes, const std::string& question);
 
-}  // namespace spidar
+}  // namespace spidar::tools

@@ -11,7 +11,7 @@
 #include "spidar/simulation/grip_model.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 struct MonitorOptions : DeviceOptions {
@@ -174,4 +174,4 @@ void add_monitor(Program& program) {
       "board took to answer, and which faults there were.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

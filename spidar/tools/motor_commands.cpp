@@ -10,7 +10,7 @@
 #include "spidar/selftest/wiring_answers.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 struct PullOptions : DeviceOptions {
@@ -191,4 +191,4 @@ void add_pull(Program& program) {
       "or of the strings, or not confirmed, 2 wrong usage, 130 interrupted.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

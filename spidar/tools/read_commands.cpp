@@ -13,7 +13,7 @@
 #include "spidar/tools/device_command.h"
 #include "spidar/transports/tty_transport.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 struct ListOptions {
@@ -275,4 +275,4 @@ void add_info(Program& program) {
       "found: its strings, or the axes in which it gives a force and a position.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

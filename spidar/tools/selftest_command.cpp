@@ -18,7 +18,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 struct SelftestOptions : DeviceOptions {
@@ -252,4 +252,4 @@ void add_selftest(Program& program) {
       "was not found, or not confirmed, or no device, 2 wrong usage, 130 interrupted.");
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools

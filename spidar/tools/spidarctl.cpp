@@ -19,7 +19,7 @@
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
 
-namespace spidar {
+namespace spidar::tools {
 namespace {
 
 std::atomic<bool> signalled{false};
@@ -149,11 +149,11 @@ void OutputFile::check() const {
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tools
 
 int main(int argc, char** argv) {
-  using namespace spidar;
-  open_standard_descriptors();
+  using namespace spidar::tools;
+  spidar::open_standard_descriptors();
   Program program;
   program.app.set_help_flag("-h,--help", "Explain the program, or a command, and end");
   program.app.set_version_flag("--version", "spidarctl " SPIDAR_VERSION);

@@ -277,7 +277,8 @@ TEST(PlayPicture, IsDrawnOfAnyPlayback) {
   const std::string png = folder.path / "play.png";
   const auto height = [&](const Record& record, double max_force_N) {
     spidar::PartFile picture(png, {true, ""});
-    spidar::draw_with_gnuplot(picture_script(record, max_force_N, "it's | a 'film'"), picture);
+    spidar::tools::draw_with_gnuplot(picture_script(record, max_force_N, "it's | a 'film'"),
+                                     picture);
     picture.publish();
     std::ifstream file(png, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};

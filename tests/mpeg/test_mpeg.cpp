@@ -68,17 +68,17 @@ double difference(const std::vector<TrackSample>& a, const std::vector<TrackSamp
 
 std::vector<TrackSample> load(const std::string& path) {
   std::vector<TrackSample> samples;
-  read_track(path, [&samples](const TrackSample& sample) { samples.push_back(sample); });
+  tools::read_track(path, [&samples](const TrackSample& sample) { samples.push_back(sample); });
   return samples;
 }
 
 void save(const std::string& path, const std::vector<TrackSample>& samples,
-          const SaveOptions& options = {}) {
+          const tools::SaveOptions& options = {}) {
   PartFile part(path, PartFile::Replaces{});
-  SampleFile file(path);
+  tools::SampleFile file(path);
   for (const TrackSample& sample : samples) file.add(sample);
   file.flush();
-  save_track(part, file, options);
+  tools::save_track(part, file, options);
   part.publish();
 }
 
@@ -167,7 +167,7 @@ TEST_F(Mpeg, EncoderAndSynthesizerReadOurTracks) {
 }
 
 TEST_F(Mpeg, WithoutToleranceOnlyRoundingIsLeft) {
-  SaveOptions exact;
+  tools::SaveOptions exact;
   exact.tolerance = 0;
   save(path("in.hjif"), waves(), exact);
   std::vector<TrackSample> read = synthesized(path("in.hjif")), written = waves();
