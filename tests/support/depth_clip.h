@@ -39,7 +39,10 @@ class DepthClip {
 
  private:
   /// Grey level and opacity of a plane, each time at half the size of the one before.
-  struct Skin;
+  struct Skin {
+    int width = 0, height = 0;
+    std::vector<float> grey, opacity;
+  };
   /// A rectangle: a texel is a unit of length. At depth kFocus_px, it covers a pixel.
   struct Plane {
     std::vector<Skin> skins;
@@ -50,10 +53,6 @@ class DepthClip {
   struct View {
     Eigen::Vector3d from;
     Eigen::Matrix3d turned;
-  };
-  struct Skin {
-    int width = 0, height = 0;
-    std::vector<float> grey, opacity;
   };
   static constexpr double kFocus_px = 400;
 
