@@ -96,6 +96,12 @@ void replace_file(const std::filesystem::path& named_file, const std::string& te
   if (lstat(file.c_str(), &named) == 0 && !S_ISREG(named.st_mode)) {
     throw std::runtime_error(file.string() + ": cannot be written: it is no regular file");
   }
+  std::error_code ignored;
+  const std::filesystem::path folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+    throw std::runtime_error(file.string() + ": cannot be written: there is no folder " +
+                             folder.string());
+  }
   const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (opened < 0) fail();
   keep_permissions(opened, file);

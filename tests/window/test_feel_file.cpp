@@ -109,7 +109,7 @@ TEST_F(FeelFile, GoesWithItsLastRule) {
 TEST_F(FeelFile, SaysWhyItCannotBeWritten) {
   EXPECT_EQ(error("", ""), "what is played comes from no file, beside which rules could be kept");
   EXPECT_EQ(error("", path("none/film.avi")),
-            path("none/film.avi.feel") + ": there is no folder " + path("none"));
+            path("none/film.avi.feel") + ": cannot be written: there is no folder " + path("none"));
   fs::create_directory(path("film.avi.feel"));
   EXPECT_EQ(error("", film), path("film.avi.feel") + ": it is not a regular file");
 }
