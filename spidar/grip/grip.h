@@ -93,6 +93,7 @@ struct GripReport {
 /// The same, with what the loop alone needs.
 struct GripReading : GripReport {
   Wrench at_rest;              ///< what the strings exert of `delivered` without a command
+  double stored_J = 0;         ///< what the strings at rest give back on the way home
   GripMotion motion;           ///< of the poses; at rest while the pose is not known
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
   int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it

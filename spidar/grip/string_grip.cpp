@@ -168,6 +168,8 @@ void StringGrip::pull(const GripCommand& command) noexcept {
   reading_.delivered = {delivered.head<3>(), delivered.tail<3>()};
   const Eigen::Matrix<double, 6, 1> at_rest = W * profile_.min_tension_N();
   reading_.at_rest = {at_rest.head<3>(), at_rest.tail<3>()};
+  reading_.stored_J = profile_.min_tension_N().dot(
+      string_lengths_m(profile_.geometry, watch_.pose()) - string_lengths_m(profile_.geometry, {}));
   reading_.held_back = tension_command_.held_back();
 }
 

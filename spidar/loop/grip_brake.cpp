@@ -73,8 +73,9 @@ void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) 
   rest_N_ = at_rest.force_N;
 }
 
-void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
+void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
                     double dt_s) noexcept {
+  stored_J_ = stored_J;
   const Eigen::Vector3d& now_m_s = motion.velocity().linear_m_s;
   compare_with_force(position_m, now_m_s, dt_s);
   spun_s_ = motion.velocity().angular_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : 0;
@@ -93,6 +94,7 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
     from_m_ = position_m;
     gone_m_.setZero();
     pulled_N_.setZero();
+    film_N_.setZero();
     withstood_s_ = loose_s_ = 0;
     located_ = true;
   }
@@ -103,9 +105,11 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
   const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
   balanced_ = is_balanced(way_m);
   loose_s_ = has_yielded() || thrown || balanced_ ? kStored_s : loose_s_ - dt_s;
-  const double force_N = pulled_N_.norm();
+  film_N_ += fraction * (strings_N_ - rest_N_ - film_N_);
+  // Not by all that pulls: where the strings at rest balance the film, that is nothing.
+  const double force_N = film_N_.norm();
   if (force_N < kFirmForce_N) return;
-  const bool firm = kFirmHand_N_m * pulled_N_.dot(gone_m_) < force_N * force_N;
+  const bool firm = kFirmHand_N_m * film_N_.dot(gone_m_) < force_N * force_N;
   withstood_s_ = firm ? withstood_s_ + dt_s : 0;
 }
 
@@ -160,15 +164,22 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 
-/// A grip that nobody holds has the energy that the strings have given it.
+/// A grip that nobody holds has the energy that the strings have given it, and gets what those at
+/// rest have stored on its way back: a film may add what is left of kReleased_J.
 FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy =
       std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0);
   const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
   const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
                                     kLightestGrip_kg, kHeaviestGrip_kg);
-  return {kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s,
-          kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s, kDamping_1_s * mass_kg};
+  const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s;
+  const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s;
+  double share = 1;
+  if (!is_withstood()) {
+    const double left = std::sqrt(std::clamp(1 - stored_J_ / kReleased_J, 0.0, 1.0));
+    share = std::max(left, kSpeedError_m_s / from_m_s);
+  }
+  return {share * from_m_s, share * to_m_s, kDamping_1_s * mass_kg};
 }
 
 Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {

@@ -17,7 +17,7 @@ struct FadeBand {
   double damping_N_s_m = 0;
 };
 
-/// Four measures against a force that accelerates a released grip:
+/// Five measures against a force that accelerates a released grip:
 ///
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
 ///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
@@ -39,6 +39,9 @@ struct FadeBand {
 ///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
 ///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
 ///   that is reversed.
+/// - What the strings at rest have stored counts as well until a hand has withstood a force: the
+///   speeds are those of the energy that is left. Else a film pushes a heavy grip to where no
+///   string can brake it, and those at rest throw it back.
 ///
 /// What fades out ends at once, at no slew limit: 10 N that fell by 300 N/s would throw a grip of
 /// 50 g at 3.5 m/s. It returns at the slew limit.
@@ -58,8 +61,10 @@ class GripBrake {
   /// Nobody holds the grip.
   void release() noexcept;
 
-  /// Position and velocity after an exchange, `dt_s` after the last call.
-  void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double dt_s) noexcept;
+  /// Position and velocity after an exchange, `dt_s` after the last call, and what the strings at
+  /// rest have stored there.
+  void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
+           double dt_s) noexcept;
   /// The wrench that is commanded to the strings until the next exchange, and the one of their
   /// rest, which is a part of it.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
@@ -105,7 +110,9 @@ class GripBrake {
   bool located_ = false;  ///< whether from_m_ is known
   Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();  ///< by all tensions, …
+  Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();    ///< … by those above the rest's
+  double stored_J_ = 0;                                 ///< what the strings at rest give back
   double work_J_ = 0;  ///< what the strings have given the grip since it was last at rest
   // Of the last apply().
   GripVelocity then_;  ///< when its force will act

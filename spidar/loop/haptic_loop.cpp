@@ -300,7 +300,7 @@ void HapticLoop::follow(double dt_s) noexcept {
   // A hand does not turn a grip until its strings tangle.
   if (grip.pose_fault == PoseFault::kTurned) brake_.release();
   if (!grip.knows_pose()) return brake_.reset();
-  brake_.see(grip.pose.position_m, grip.motion, dt_s);
+  brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, dt_s);
   brake_.pull(grip.delivered, grip.at_rest, dt_s);
 }
 

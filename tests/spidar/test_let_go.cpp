@@ -32,22 +32,31 @@ GripModel held(const Profile& profile, double mass_kg, double stiffness_N_m) {
   return model;
 }
 
-struct Thrown {
-  double fastest_m_s = 0;
-  double by_force_J = 0;  ///< the most energy, without what the strings at rest have given back
+/// A film of up to `force_N`, and when the hand lets go.
+struct Push {
+  double force_N = 0;
+  Eigen::Vector3d towards = Eigen::Vector3d::UnitX();
+  double rate_Hz = 0;
+  int held_ms = 0;
 };
 
-/// After a hand has let go in a film of up to `force_N`, at a random moment.
-Thrown thrown(const Profile& profile, const GripModel& hand, double force_N, RandomMotion& random) {
-  const Eigen::Vector3d towards = random.direction();
-  const double rate_Hz = random.chance(0.5) ? 0 : random.uniform(0.2, 3);
-  const int held_ms = 300 + random.some(1000);
-  constexpr int kReleased_ms = 1200;  // the force rests, and begins to return
+Push random_push(double force_N, RandomMotion& random) {
+  Push push;
+  push.force_N = force_N;
+  push.towards = random.direction();
+  push.rate_Hz = random.chance(0.5) ? 0 : random.uniform(0.2, 3);
+  push.held_ms = 300 + random.some(1000);
+  return push;
+}
+
+/// The largest speed after a hand has let go.
+double thrown_m_s(const Profile& profile, const GripModel& hand, const Push& push) {
+  constexpr int kReleased_ms = 2200;  // the force rests for a second, and returns within another
   constexpr int64_t kFrame_ns = 20 * kTick_ns;
 
   LetGoDevice device(profile, hand, released(profile, hand.mass_kg));
   SafetyLimits limits;
-  limits.max_force_N = force_N;
+  limits.max_force_N = push.force_N;
   const auto loop =
       std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);
   loop->open();
@@ -59,22 +68,17 @@ Thrown thrown(const Profile& profile, const GripModel& hand, double force_N, Ran
   for (int ms = 0; ms < 250; ++ms) tick();
   const int64_t begun_ns = now_ns;
   loop->set_playback_clock({now_ns, 0, 1, true});
-  Thrown most;
-  double stored_J = 0;
-  for (int ms = 0; ms < held_ms + kReleased_ms; ++ms) {
+  double fastest_m_s = 0;
+  for (int ms = 0; ms < push.held_ms + kReleased_ms; ++ms) {
     for (; next_ns <= now_ns - begun_ns + kFrame_ns; next_ns += kFrame_ns) {
-      const double wave = std::cos(2 * M_PI * rate_Hz * 1e-9 * static_cast<double>(next_ns));
-      loop->schedule({next_ns, 2 * kFrame_ns, {force_N * wave * towards, Eigen::Vector3d::Zero()}});
+      const double wave = std::cos(2 * M_PI * push.rate_Hz * 1e-9 * static_cast<double>(next_ns));
+      loop->schedule({next_ns, 2 * kFrame_ns, {push.force_N * wave * push.towards, {0, 0, 0}}});
     }
-    if (ms == held_ms) device.let_go();
+    if (ms == push.held_ms) device.let_go();
     tick();
-    if (ms < held_ms) continue;
-    most.fastest_m_s = std::max(most.fastest_m_s, device.speed_m_s());
-    stored_J = std::max(stored_J, device.stored_J());
-    const double energy_J = 0.5 * hand.mass_kg * std::pow(device.speed_m_s(), 2);
-    most.by_force_J = std::max(most.by_force_J, energy_J - (stored_J - device.stored_J()));
+    if (ms >= push.held_ms) fastest_m_s = std::max(fastest_m_s, device.speed_m_s());
   }
-  return most;
+  return fastest_m_s;
 }
 
 // Before what throws a grip ended at once, 10 N threw 50 g at 3.5 m/s, and 20 N at 5.9 m/s.
@@ -86,7 +90,6 @@ TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
                                      "spidar-i05"};
   RandomMotion random(71);
   double most_J = 0;
-  int above = 0;
   std::map<std::pair<double, double>, double> fastest_m_s;  // by force and mass
   for (const std::string& name : names) {
     const Profile profile = load_profile(name);
@@ -97,21 +100,15 @@ TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
       for (const double mass_kg : {kLightestGrip_kg, 0.1, kHeaviestGrip_kg}) {
         for (int n = 0; n < (all ? 30 : 4); ++n) {
           const GripModel hand = held(profile, mass_kg, random.uniform(300, 1500));
-          const auto [speed_m_s, by_force_J] = thrown(profile, hand, force_N, random);
+          const Push push = random_push(force_N, random);
+          const double speed_m_s = thrown_m_s(profile, hand, push);
           double& worst_m_s = fastest_m_s[{std::round(force_N), mass_kg}];
           worst_m_s = std::max(worst_m_s, speed_m_s);
-          EXPECT_LE(speed_m_s, kReleased_m_s)
-              << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
-          // A heavy grip goes on to where strings cannot brake it. Until it turns there, those at
-          // rest take its energy, and they give it back while the film begins to push anew.
           const double energy_J = 0.5 * mass_kg * speed_m_s * speed_m_s;
           most_J = std::max(most_J, energy_J);
-          above += energy_J > kReleased_J ? 1 : 0;
-          if (mass_kg < kHeaviestGrip_kg) {
-            EXPECT_LE(energy_J, kReleased_J)
-                << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
-          }
-          EXPECT_LE(by_force_J, kReleased_J)
+          EXPECT_LE(speed_m_s, kReleased_m_s)
+              << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
+          EXPECT_LE(energy_J, kReleased_J)
               << name << ", " << force_N << " N, " << mass_kg << " kg, hand " << n;
         }
       }
@@ -119,7 +116,29 @@ TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
   }
   for (const auto& [of, speed_m_s] : fastest_m_s)
     std::printf("%2.0f N, %3.0f g: %.2f m/s\n", of.first, 1e3 * of.second, speed_m_s);
-  std::printf("at most %.1f mJ, %d times above %.0f\n", 1e3 * most_J, above, 1e3 * kReleased_J);
+  std::printf("at most %.1f mJ\n", 1e3 * most_J);
+}
+
+// The strings at rest take the energy of a heavy grip on its way out. While they did not count, the
+// film pushed it on to where no string can brake it, and on the way back it had 57 to 69 mJ.
+TEST(LetGo, WhatTheStringsAtRestStoreCounts) {
+  const struct {
+    const char* profile;
+    double mass_kg, stiffness_N_m;
+    Push push;
+  } grips[] = {
+      {"spidar-g6x5-l", 0.23, 351, {8.37, {0.29, 0.70, 0.66}, 0, 1165}},
+      {"spidar-g6x5-r", 0.268, 981, {6.29, {0.68, -0.69, -0.25}, 0, 308}},
+      {"spidar-g6x5-l", 0.264, 431, {6.83, {-0.15, -0.69, 0.71}, 0, 848}},
+      {"spidar-g6x5-r", 0.203, 1017, {8.87, {0.82, -0.47, -0.32}, 0, 483}},
+  };
+  for (const auto& grip : grips) {
+    const Profile profile = load_profile(grip.profile);
+    const GripModel hand = held(profile, grip.mass_kg, grip.stiffness_N_m);
+    const double speed_m_s = thrown_m_s(profile, hand, grip.push);
+    EXPECT_LE(0.5 * grip.mass_kg * speed_m_s * speed_m_s, kReleased_J)
+        << grip.profile << ", " << grip.push.force_N << " N, " << grip.mass_kg << " kg";
+  }
 }
 
 }  // namespace

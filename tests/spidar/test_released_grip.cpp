@@ -126,12 +126,12 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   GripBrake brake(0.03, 0);
   const auto is_held_after = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      brake.see(Eigen::Vector3d::Zero(), spins, 1e-3);
+      brake.see(Eigen::Vector3d::Zero(), spins, 0, 1e-3);
       brake.apply({}, spins, 1e-3);
     }
     return brake.held();
   };
-  const auto rest = [&] { brake.see(Eigen::Vector3d::Zero(), {}, 1e-3); };
+  const auto rest = [&] { brake.see(Eigen::Vector3d::Zero(), {}, 0, 1e-3); };
   EXPECT_TRUE(is_held_after(9));
   rest();
   EXPECT_TRUE(is_held_after(9));
@@ -150,7 +150,7 @@ TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
       pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
       motion.see(pose, i * kTick_ns);
       // No force has moved it: only the speed tells that there is no hand.
-      brake.see(pose.position_m, motion, 1e-3);
+      brake.see(pose.position_m, motion, 0, 1e-3);
     }
     brake.apply({}, motion, 1e-3);
     EXPECT_EQ(brake.held(), !is_faster);

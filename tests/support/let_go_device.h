@@ -23,12 +23,6 @@ class LetGoDevice final : public StringDevice {
 
   void let_go() { is_held_ = false; }
   double speed_m_s() const { return state_.velocity_m_s.norm(); }
-  /// What the strings at rest have taken from the grip since it was at its home, and give back: the
-  /// work of constant tensions, by how much longer the strings are.
-  double stored_J() const {
-    return profile_.min_tension_N().dot(string_lengths_m(profile_.geometry, state_.pose) -
-                                        string_lengths_m(profile_.geometry, {}));
-  }
 
   void open() override { state_ = {}; }
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
