@@ -216,7 +216,7 @@ TEST(Feel, WhatCannotBeSavedIsToldAndChangesNothing) {
   EXPECT_EQ(none.what,
             "Not saved: what is played comes from no file, beside which rules could be kept.");
   EXPECT_EQ(film.window().save("/nowhere/film.avi", {edit}).what,
-            "Not saved: film.avi.feel: there is no folder /nowhere.");
+            "Not saved: film.avi.feel: cannot be written: there is no folder /nowhere.");
   film.next();
   window::ElementState state;
   film.window().read(state);
