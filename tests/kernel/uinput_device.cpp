@@ -64,6 +64,10 @@ UinputDevice::UinputDevice(UinputKind kind, const std::string& name) : kind_(kin
   setup.ff_effects_max = static_cast<uint32_t>(effect_.size());
   name.copy(setup.name, sizeof setup.name - 1);
   check(ioctl(file_, UI_DEV_SETUP, &setup), "setup");
+  // Where it is plugged in, each time: what has neither a place nor a serial number never comes
+  // back as itself.
+  const std::string place = "usb-" + name + "/input0";
+  check(ioctl(file_, UI_SET_PHYS, place.c_str()), "place");
   check(ioctl(file_, UI_DEV_CREATE), "create");
   thread_ = std::thread([this] { run(); });
 }
