@@ -115,6 +115,7 @@ StringGrip::StringGrip(const Profile& profile, StringDevice& device)
       device_(device),
       traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
       abilities_(abilities_of(profile)),
+      home_lengths_m_(string_lengths_m(profile.geometry, {})),
       watch_(profile),
       tension_command_(profile),
       tension_slew_(profile),
@@ -169,7 +170,7 @@ void StringGrip::pull(const GripCommand& command) noexcept {
   const Eigen::Matrix<double, 6, 1> at_rest = W * profile_.min_tension_N();
   reading_.at_rest = {at_rest.head<3>(), at_rest.tail<3>()};
   reading_.stored_J = profile_.min_tension_N().dot(
-      string_lengths_m(profile_.geometry, watch_.pose()) - string_lengths_m(profile_.geometry, {}));
+      string_lengths_m(profile_.geometry, watch_.pose()) - home_lengths_m_);
   reading_.held_back = tension_command_.held_back();
 }
 

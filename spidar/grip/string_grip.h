@@ -119,6 +119,7 @@ class StringGrip final : public Grip {
   StringDevice& device_;
   const GripTraits traits_;
   const GripAbilities abilities_;
+  const StringVector home_lengths_m_;  ///< of the strings while the grip is in its home position
   GripReading reading_;
   GripWatch watch_;
   TensionCommand tension_command_;
