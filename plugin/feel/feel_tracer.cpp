@@ -13,6 +13,8 @@
  *
  * Since: 0.1
  */
+#include <atomic>
+
 #define GST_USE_UNSTABLE_API
 #include <gst/gst.h>
 #include <gst/gsttracer.h>
@@ -51,14 +53,16 @@ static void set_filter(GstElement* element) {
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 
-/// When it begins to play, a playbin with video has taken the filter.
+/// When it begins to play, a playbin with video has taken the filter. Said once, and not again
+/// after each pause.
 static void tell_without_video(GstElement* element) {
+  static std::atomic<bool> has_told{false};
   GstElement* filter = nullptr;
   g_object_get(element, "video-filter", &filter, nullptr);
   const spidar::Ref<GstElement> own(filter);
   if (!own || !GST_IS_SPIDAR_FEEL_BIN(filter)) return;
   const spidar::Ref<GstObject> parent(gst_object_get_parent(GST_OBJECT(filter)));
-  if (parent) return;
+  if (parent || has_told.exchange(true)) return;
   g_printerr(
       "spidar-feel: there is no video in it, so nothing is felt; a haptic track is played by "
       "spidarsink\n");

@@ -45,9 +45,9 @@ bool is_late(const LoopSnapshot& loop) {
 
 }  // namespace
 
-NoForceReason reason_in_frame(const Frame& frame, MotionKind motion, double fraction) {
+NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
   if (frame.picture == PictureKind::kFirst) return NoForceReason::kNothingToCompare;
-  if (fraction * size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
+  if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
   if (frame.height > 0 &&

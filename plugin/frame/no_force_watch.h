@@ -18,9 +18,9 @@
 
 namespace spidar {
 
-/// The reason in the video, for one frame that was analysed for `motion`, and of whose wrench this
-/// fraction is rendered.
-NoForceReason reason_in_frame(const Frame& frame, MotionKind motion, double fraction = 1);
+/// The reason in the video, for one frame that was analysed for `motion`, whose wrench is what is
+/// rendered of it.
+NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
 
 /// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
 /// device is open.

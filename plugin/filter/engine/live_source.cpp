@@ -115,7 +115,8 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   analyzer_.configure(frame.settings.analyzer);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
                                    std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
-  report.no_force = reason_in_frame(report.frame, report.motion, motion_fraction_);
+  report.frame.wrench = scaled(report.frame.wrench, motion_fraction_);
+  report.no_force = reason_in_frame(report.frame, report.motion);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
   report.visible.width = picture.width;
@@ -144,7 +145,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
 
   const bool moved = report.frame.interval_ns > 0 || report.frame.goes_on();
   pacer_.take(time, moved);
-  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
+  report.frame.wrench = report.turn.to_displayed(report.frame.wrench);
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
   no_force_.set_touching(touch.kind != TouchKind::kOff);
   if (!time.in_place) {
