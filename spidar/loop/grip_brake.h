@@ -39,8 +39,8 @@ struct FadeBand {
 ///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
 ///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
 ///   that is reversed.
-/// - What the strings at rest have stored counts as well until a hand has withstood a force: the
-///   speeds are those of the energy that is left. Else a film pushes a heavy grip to where no
+/// - Until a hand has withstood a force, what the strings at rest have stored is taken off
+///   kReleased_J, and the speeds are lower accordingly. Else a film pushes a heavy grip to where no
 ///   string can brake it, and those at rest throw it back.
 ///
 /// What fades out ends at once, at no slew limit: 10 N that fell by 300 N/s would throw a grip of
