@@ -75,7 +75,7 @@ bool FineWindows::read(const ImageView& frame, Template& window) {
     }
   }
   // A brightness common to all pixels is not motion: without the means, it has no effect.
-  constexpr auto n = static_cast<float>(kPixels);
+  const auto n = static_cast<float>(kPixels);
   for (float& grey : window.grey) grey -= sum / n;
   for (float& slope : window.x_slope) slope -= x / n;
   for (float& slope : window.y_slope) slope -= y / n;
@@ -130,7 +130,7 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
       y += d * window.y_slope[k];
     }
   }
-  constexpr auto n = static_cast<float>(kPixels);
+  const auto n = static_cast<float>(kPixels);
   residual = squares / n - sum / n * sum / n;
   step_px = -(window.structure.inverse() * Eigen::Vector2f(x, y));
   return true;
