@@ -251,13 +251,18 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
     state_ = power_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   const GripReading& grip = grip_->reading();
-  const Wrench allowed = vibration_.fraction() * record.wanted;
+  // A fraction of what exceeds a limit might be all that the limit allows.
+  const Wrench wanted =
+      record.wanted.is_finite() ? limit_total(record.wanted, set_limits_) : record.wanted;
+  const Wrench allowed = vibration_.fraction() * wanted;
   const bool fresh = is_fresh(record), can_fly = grip_->traits().can_fly;
   const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
   record.commanded = safety_.apply(left, fresh, dt_s, set_limits_);
   record.brakes = can_fly && brake_.acts();
   if (record.brakes) {
-    const Wrench cut = brake_.cut(record.commanded, fresh);
+    Wrench cut = brake_.cut(record.commanded, fresh);
+    // What is across the motion and what is against it may be too much together.
+    if (fresh) cut = limit_total(cut, limits_);
     safety_.continue_from(cut);
     record.commanded = fresh ? limit_total(cut + brake_.damper(), limits_) : cut;
   }

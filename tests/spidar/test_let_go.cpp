@@ -32,12 +32,13 @@ GripModel held(const Profile& profile, double mass_kg, double stiffness_N_m) {
   return model;
 }
 
-/// A film of up to `force_N`, and when the hand lets go.
+/// A film of up to `force_N`, which is also the limit, and when the hand lets go.
 struct Push {
   double force_N = 0;
   Eigen::Vector3d towards = Eigen::Vector3d::UnitX();
   double rate_Hz = 0;
   int held_ms = 0;
+  double times_limit = 1;  ///< what the film wants
 };
 
 Push random_push(double force_N, RandomMotion& random) {
@@ -72,7 +73,8 @@ double thrown_m_s(const Profile& profile, const GripModel& hand, const Push& pus
   for (int ms = 0; ms < push.held_ms + kReleased_ms; ++ms) {
     for (; next_ns <= now_ns - begun_ns + kFrame_ns; next_ns += kFrame_ns) {
       const double wave = std::cos(2 * M_PI * push.rate_Hz * 1e-9 * static_cast<double>(next_ns));
-      loop->schedule({next_ns, 2 * kFrame_ns, {push.force_N * wave * push.towards, {0, 0, 0}}});
+      const double wanted_N = push.times_limit * push.force_N * wave;
+      loop->schedule({next_ns, 2 * kFrame_ns, {wanted_N * push.towards, {0, 0, 0}}});
     }
     if (ms == push.held_ms) device.let_go();
     tick();
@@ -138,6 +140,26 @@ TEST(LetGo, WhatTheStringsAtRestStoreCounts) {
     const double speed_m_s = thrown_m_s(profile, hand, grip.push);
     EXPECT_LE(0.5 * grip.mass_kg * speed_m_s * speed_m_s, kReleased_J)
         << grip.profile << ", " << grip.push.force_N << " N, " << grip.mass_kg << " kg";
+  }
+}
+
+// Half of ten times the limit was five times the limit, and the brake had no effect.
+TEST(LetGo, AFilmThatWantsMoreThanTheLimitThrowsNoFurther) {
+  RandomMotion random(72);
+  for (const std::string name : {kDefaultProfile, "spidar-i05"}) {
+    const Profile profile = load_profile(name);
+    for (const double times_limit : {10.0, 1000.0}) {
+      for (int n = 0; n < 8; ++n) {
+        const double mass_kg = n % 2 == 0 ? kLightestGrip_kg : kHeaviestGrip_kg;
+        const GripModel hand = held(profile, mass_kg, random.uniform(300, 1500));
+        Push push = random_push(random.uniform(3, released_force_N(profile.drive_lag_s)), random);
+        push.times_limit = times_limit;
+        const double speed_m_s = thrown_m_s(profile, hand, push);
+        const double energy_J = 0.5 * mass_kg * speed_m_s * speed_m_s;
+        EXPECT_LE(speed_m_s, kReleased_m_s) << name << ", times " << times_limit << ", hand " << n;
+        EXPECT_LE(energy_J, kReleased_J) << name << ", times " << times_limit << ", hand " << n;
+      }
+    }
   }
 }
 

@@ -207,6 +207,33 @@ TEST(ReleasedGrip, AWeakForceGivesNoEnergyToAHandThatGoesToAndFro) {
   }
 }
 
+// A hand is faster than the brake allows, and the film wants far more than the limit against it.
+// The brake then took all of that at once, and gave it back at the slew limit: 30 N for 4 N.
+TEST(ReleasedGrip, NoForceAgainstTheMotionExceedsTheLimit) {
+  constexpr double kWay_m = 0.03, kTurn_rad_s = 2 * M_PI * 5;
+  SafetyLimits limits;
+  limits.max_force_N = 4;
+  for (const std::string name : {"spidar-gcc", "spidar-g6c"}) {
+    const Profile profile = load_profile(name);
+    const Film film = [](double time_s) {
+      return Wrench{{-1000 * std::cos(kTurn_rad_s * time_s), 300, 0}, {0, 0, 0}};
+    };
+    PlayedGrip grip(profile, grip_model_of(profile), film, limits);
+    int braked = 0;
+    for (int i = 0; i < 2000; ++i) {
+      Pose hand;
+      hand.position_m.x() = kWay_m * std::sin(kTurn_rad_s * 1e-3 * i);
+      grip.device.set_hand(hand);
+      grip.tick();
+      const TickRecord last = grip.snapshot().last;
+      braked += last.brakes;
+      ASSERT_LE(last.commanded.force_N.norm(), limits.max_force_N * (1 + 1e-12))
+          << name << ", tick " << i;
+    }
+    EXPECT_GT(braked, 100) << name;
+  }
+}
+
 TEST(GripMotion, IsAsLateAndAsNoisyAsItSays) {
   constexpr double kSpeed_m_s = 0.2, kSlope_m_s2 = 2, kSigma_m = 6e-6;
   GripMotion still, faster;
