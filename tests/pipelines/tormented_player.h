@@ -70,7 +70,8 @@ class TormentedPlayer {
   GstElement* size_;
   GstBus* bus_;
   std::atomic<Upstream> upstream_{Upstream::kNothing};
-  GstClockTime last_pts_ = 0;  // streaming thread
+  std::atomic<int> errors_{0};  ///< on the bus since a state was refused
+  GstClockTime last_pts_ = 0;   // streaming thread
   TickWatch watch_;
 };
 
