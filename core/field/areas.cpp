@@ -2,19 +2,47 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/areas.h"
 
+#include <algorithm>
+
 namespace spidar {
 namespace {
 
 using Eigen::Vector2i;
 
+/// With less than a block, nothing is left of an area: px of the coarse picture.
+constexpr int kLeastPixels = kBlockArea_px / (kCoarser * kCoarser);
+
+}  // namespace
+
+void Areas::leave_out_corners(const BlockField& field) {
+  const Vector2i size_px(field.coarse().now.width(), field.coarse().now.height());
+  counted_.resize(size_px.x(), size_px.y());
+  for (int y = 0; y < size_px.y(); ++y) {
+    std::fill_n(counted_.row(y), size_px.x(), static_cast<uint8_t>(255));
+  }
+  const BlockGrid& grid = field.grid();
+  for (size_t i = 0; i < grid.size(); ++i) {
+    if (!field.blocks()[i].has_corners()) continue;
+    // All pixels of which it has a part.
+    const Vector2i begin_px = grid.corner_of(i) / kCoarser;
+    const Vector2i end_px =
+        (grid.corner_of(i) + Vector2i::Constant(kBlock_px + kCoarser - 1)) / kCoarser;
+    const Vector2i last_px = end_px.cwiseMin(size_px);
+    for (int y = begin_px.y(); y < last_px.y(); ++y) {
+      std::fill(counted_.row(y) + begin_px.x(), counted_.row(y) + last_px.x(),
+                static_cast<uint8_t>(0));
+    }
+  }
+}
+
 /// The best of rest and the motions of the coarse blocks that an area overlaps or touches.
-BlockMatch best_match(const CoarseField& coarse, const Vector2i& corner_px) {
+BlockMatch Areas::best_match(const CoarseField& coarse, const Vector2i& corner_px) const {
   const BlockPixels here = pixels_at(coarse.now, corner_px);
+  const BlockPixels counted = pixels_at(counted_, corner_px);
   const Vector2i last_px =
       Vector2i(coarse.now.width(), coarse.now.height()) - Vector2i::Constant(kBlock_px);
   BlockMatch best;
-  best.difference =
-      block_difference(here, pixels_at(coarse.before, corner_px), kBlockArea_px * 256);
+  best.difference = block_difference(here, pixels_at(coarse.before, corner_px), counted);
   const Vector2i middle_px = corner_px + Vector2i::Constant(kBlock_px / 2);
   const size_t middle = coarse.grid.block_at(middle_px.cast<double>());
   Vector2i tried_px(0, 0);
@@ -28,19 +56,18 @@ BlockMatch best_match(const CoarseField& coarse, const Vector2i& corner_px) {
         ((begin_px - last_px).array() > kBlockReach_px).any()) {
       return;
     }
-    const int difference =
-        block_difference(here, pixels_at(coarse.before, begin_px), best.difference);
+    const int difference = block_difference(here, pixels_at(coarse.before, begin_px), counted);
     if (difference < best.difference) best = {from_px, difference};
   });
   return best;
 }
 
-}  // namespace
-
-void find_areas(const BlockField& field, std::vector<MotionBlock>& areas) {
-  areas.clear();
+const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
+  areas_.clear();
   const CoarseField& coarse = field.coarse();
-  if (field.pictures_back() == 0 || coarse.grid.size() == 0) return;
+  if (field.pictures_back() == 0 || coarse.grid.size() == 0) return areas_;
+  areas_.reserve(field.blocks().size());
+  leave_out_corners(field);
   constexpr int kStep_px = kBlock_px / 2;
   const Vector2i size_px(coarse.now.width(), coarse.now.height());
   const Vector2i last_px = size_px - Vector2i::Constant(kBlock_px);
@@ -49,14 +76,19 @@ void find_areas(const BlockField& field, std::vector<MotionBlock>& areas) {
   for (int y = last_px.y() % kStep_px / 2; y <= last_px.y(); y += kStep_px) {
     for (int x = last_px.x() % kStep_px / 2; x <= last_px.x(); x += kStep_px) {
       const Vector2i corner_px(x, y);
-      MotionBlock area =
-          refined_block(coarse.before, coarse.now, corner_px, best_match(coarse, corner_px),
-                        MotionBlock::kRegularization * kOfAreas);
+      const BlockMatch match = best_match(coarse, corner_px);
+      const BlockSums sums = compare_blocks(pixels_at(coarse.now, corner_px),
+                                            pixels_at(coarse.before, corner_px + match.from_px),
+                                            pixels_at(counted_, corner_px));
+      MotionBlock area = refined_block(sums, coarse.now, corner_px, match,
+                                       MotionBlock::kRegularization * kOfAreas);
+      if (sums.pixels < kLeastPixels) area.structure.setZero();
       area.moved_px *= kCoarser;
       area.centre_px = kCoarser * area.centre_px + to_centre_px;
-      areas.push_back(area);
+      areas_.push_back(area);
     }
   }
+  return areas_;
 }
 
 }  // namespace spidar

@@ -7,14 +7,27 @@
 #include <vector>
 
 #include "core/field/block_field.h"
+#include "core/picture/padded_image.h"
 
 namespace spidar {
 
-/// Sets `areas` to those of kCoarser × kCoarser blocks, each of which overlaps its neighbours by
-/// half, as measured in the coarse picture. Their lengths are in pixels of the field's picture,
-/// their structure is in (grey / px)² of the coarse one. There are none while the field stands
-/// still.
-void find_areas(const BlockField& field, std::vector<MotionBlock>& areas);
+/// Areas of kCoarser × kCoarser blocks, each of which overlaps its neighbours by half, as measured
+/// in the coarse picture. A block with corners is left out: it shows by itself how it moves, and
+/// may be an object's, before a wall whose motion is asked for. An area of which nothing is left
+/// has no structure.
+class Areas {
+ public:
+  /// Their lengths are in pixels of the field's picture, their structure is in (grey / px)² of the
+  /// coarse one. There are none while the field stands still. Valid until the next call.
+  const std::vector<MotionBlock>& find(const BlockField& field);
+
+ private:
+  void leave_out_corners(const BlockField& field);
+  BlockMatch best_match(const CoarseField& coarse, const Eigen::Vector2i& corner_px) const;
+
+  std::vector<MotionBlock> areas_;
+  PaddedImage counted_;  ///< of the coarse picture: 255; 0 where a block with corners is
+};
 
 /// The noise of a pixel of the coarse picture is kCoarser times less than that of the field's. What
 /// says how much texture a block needs, (grey / px)², is so much less for an area.

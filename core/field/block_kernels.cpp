@@ -95,6 +95,15 @@ int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return static_cast<int>(sum.total());
 }
 
+int block_difference(BlockPixels a, BlockPixels b, BlockPixels counted) {
+  DifferenceSum sum;
+  for (int y = 0; y < kBlock_px; ++y) {
+    const v_uint8x16 mask = cv::v_load(counted.pixels + y * counted.stride);
+    sum.add(cv::v_load(a.pixels + y * a.stride) & mask, cv::v_load(b.pixels + y * b.stride) & mask);
+  }
+  return static_cast<int>(sum.total());
+}
+
 int difference_from_mean(BlockPixels block) {
   const v_uint8x16 none = cv::v_setzero_u8();
   DifferenceSum sum;
@@ -175,7 +184,12 @@ int cell_difference(BlockPixels a, BlockPixels b) {
   return cv::v_reduce_sum(sums);
 }
 
-BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
+namespace {
+
+/// `masked(lanes, x, y)` is the lanes of the eight pixels from x, y on that are counted; 0 of the
+/// others.
+template <typename Masked>
+BlockSums compare(BlockPixels now, BlockPixels before, Masked&& masked) {
   v_int32x4 xx = cv::v_setzero_s32();
   v_int32x4 xy = xx;
   v_int32x4 yy = xx;
@@ -190,9 +204,9 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
     for (int x = 0; x < kBlock_px; x += 8) {
       const uint8_t* p = now.pixels + y * now.stride + x;
       const uint8_t* q = before.pixels + y * before.stride + x;
-      const v_int16x8 gx = slope(p, 1) + slope(q, 1);
-      const v_int16x8 gy = slope(p, now.stride) + slope(q, before.stride);
-      const v_int16x8 d = load(p) - load(q);
+      const v_int16x8 gx = masked(slope(p, 1) + slope(q, 1), x, y);
+      const v_int16x8 gy = masked(slope(p, now.stride) + slope(q, before.stride), x, y);
+      const v_int16x8 d = masked(load(p) - load(q), x, y);
       xx = cv::v_dotprod(gx, gx, xx);
       xy = cv::v_dotprod(gx, gy, xy);
       yy = cv::v_dotprod(gy, gy, yy);
@@ -211,6 +225,26 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
   };
   return {total(xx), total(xy), total(yy),          total_of_lanes(sx), total_of_lanes(sy),
           total(xd), total(yd), total_of_lanes(sd), total(dd)};
+}
+
+}  // namespace
+
+BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
+  return compare(now, before, [](const v_int16x8& lanes, int, int) { return lanes; });
+}
+
+BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted) {
+  BlockSums sums = compare(now, before, [&](const v_int16x8& lanes, int x, int y) {
+    const uint8_t* const mask = counted.pixels + y * counted.stride + x;
+    // 255 is −1 of a signed byte, and stays all ones when it becomes wider.
+    return lanes & cv::v_load_expand(reinterpret_cast<const int8_t*>(mask));
+  });
+  DifferenceSum counts;
+  for (int y = 0; y < kBlock_px; ++y) {
+    counts.add(cv::v_load(counted.pixels + y * counted.stride), cv::v_setzero_u8());
+  }
+  sums.pixels = static_cast<int>(counts.total() / 255);
+  return sums;
 }
 
 }  // namespace spidar

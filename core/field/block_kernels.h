@@ -43,10 +43,11 @@ struct BlockSums {
   int32_t yd = 0;          ///< Σ gy d
   int32_t difference = 0;  ///< Σ d
   int32_t squared = 0;     ///< Σ d²
+  int32_t pixels = kBlockArea_px;
 
   bool operator==(const BlockSums& o) const {
     return xx == o.xx && xy == o.xy && yy == o.yy && x == o.x && y == o.y && xd == o.xd &&
-           yd == o.yd && difference == o.difference && squared == o.squared;
+           yd == o.yd && difference == o.difference && squared == o.squared && pixels == o.pixels;
   }
 };
 
@@ -71,6 +72,9 @@ struct MovedBlock {
 /// that sum.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 
+/// Σ |a − b| over the pixels that are counted: `counted` is 255 there, and 0 at the others.
+int block_difference(BlockPixels a, BlockPixels b, BlockPixels counted);
+
 /// Σ |pixel − mean| of a block, with the mean rounded to a whole grey level.
 int difference_from_mean(BlockPixels block);
 
@@ -91,6 +95,8 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
 
 /// Reads two pixels around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
+/// The same over the pixels that are counted, see block_difference().
+BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted);
 
 /// Compares a block `now` with the same position in the picture `before`. `from` is the position in
 /// the picture before from which the surrounding motion would have brought the block; `to` is the

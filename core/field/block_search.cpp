@@ -228,11 +228,16 @@ using Eigen::Vector2i;
 MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
                           const Vector2i& corner_px, const BlockMatch& match,
                           float regularization) {
-  const BlockSums s =
+  const BlockSums sums =
       compare_blocks(pixels_at(now, corner_px), pixels_at(before, corner_px + match.from_px));
+  return refined_block(sums, now, corner_px, match, regularization);
+}
 
+MotionBlock refined_block(const BlockSums& s, const PaddedImage& now, const Vector2i& corner_px,
+                          const BlockMatch& match, float regularization) {
   // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
-  const auto mean = [](int32_t sum) { return static_cast<float>(sum) / kBlockArea_px; };
+  const float of_each = 1 / static_cast<float>(std::max(s.pixels, 1));
+  const auto mean = [&](int32_t sum) { return static_cast<float>(sum) * of_each; };
   const Vector2f g(mean(s.x), mean(s.y));
   const float d = mean(s.difference);
   MotionBlock block;

@@ -124,5 +124,9 @@ inline BlockPixels pixels_at(const PaddedImage& picture, const Eigen::Vector2i& 
 MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);
+/// The same from what compare_blocks() gives there.
+MotionBlock refined_block(const BlockSums& sums, const PaddedImage& now,
+                          const Eigen::Vector2i& corner_px, const BlockMatch& match,
+                          float regularization);
 
 }  // namespace spidar

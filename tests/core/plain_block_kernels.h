@@ -29,6 +29,16 @@ inline int block_difference(BlockPixels a, BlockPixels b, int limit) {
   return sum;
 }
 
+inline int block_difference(BlockPixels a, BlockPixels b, BlockPixels counted) {
+  int sum = 0;
+  for (int i = 0; i < kBlockArea_px; ++i) {
+    const int x = i % kBlock_px, y = i / kBlock_px;
+    if (counted.pixels[y * counted.stride + x] == 0) continue;
+    sum += std::abs(a.pixels[y * a.stride + x] - b.pixels[y * b.stride + x]);
+  }
+  return sum;
+}
+
 inline int difference_from_mean(BlockPixels block) {
   int sum = kBlockArea_px / 2;
   for (int i = 0; i < kBlockArea_px; ++i) {
@@ -89,10 +99,13 @@ inline int twice_slope(const uint8_t* p, ptrdiff_t step) {
   return near + static_cast<int>(std::floor((2 * near - far) / 4.0));
 }
 
-inline BlockSums compare_blocks(BlockPixels now, BlockPixels before) {
+inline BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted) {
   BlockSums sums;
+  sums.pixels = 0;
   for (int y = 0; y < kBlock_px; ++y) {
     for (int x = 0; x < kBlock_px; ++x) {
+      if (counted.pixels[y * counted.stride + x] == 0) continue;
+      ++sums.pixels;
       const uint8_t* p = now.pixels + y * now.stride + x;
       const uint8_t* q = before.pixels + y * before.stride + x;
       const int gx = twice_slope(p, 1) + twice_slope(q, 1);

@@ -46,21 +46,54 @@ TEST(Areas, MoveAsThePictureDoesWhereNoBlockShowsIt) {
   size_t corners = 0;
   for (const MotionBlock& block : field.blocks()) corners += block.has_corners();
   ASSERT_LT(corners, field.blocks().size() / 20);
-  std::vector<MotionBlock> areas;
-  find_areas(field, areas);
+  Areas areas;
+  const std::vector<MotionBlock>& found = areas.find(field);
   // Four by four blocks each, half overlapping.
-  ASSERT_EQ(areas.size(),
+  ASSERT_EQ(found.size(),
             static_cast<size_t>((field.grid().columns / 2 - 1) * (field.grid().rows / 2 - 1)));
   size_t right = 0;
-  for (const MotionBlock& area : areas) {
+  for (const MotionBlock& area : found) {
     // A tenth of a pixel, as of blocks, but of the coarse picture.
     right += (area.moved_px.cast<double>() - kPan_px).norm() < 0.1 * kCoarser;
   }
   // Those of the two borders that the picture leaves were not whole before.
-  EXPECT_GT(right, areas.size() * 3 / 4);
+  EXPECT_GT(right, found.size() * 3 / 4);
   field.stand_still();
-  find_areas(field, areas);
-  EXPECT_TRUE(areas.empty());
+  EXPECT_TRUE(areas.find(field).empty());
+}
+
+TEST(Areas, DoNotFollowWhatShowsItsOwnMotion) {
+  // A square that rests has four by four blocks; the areas around it contain some of them.
+  const Texture texture(2, 6);
+  BlockField field;
+  constexpr int kSide_px = kCoarser * kBlock_px;
+  const BlockGrid grid = BlockGrid::over(kFieldWidth, kFieldHeight);
+  const Eigen::Vector2i from_px = grid.corner_of(grid.index(11, 5));
+  for (int n = 0; n < 2; ++n) {
+    PaddedImage picture = wall(0.4, n * kPan_px, static_cast<uint32_t>(n));
+    for (int y = from_px.y(); y < from_px.y() + kSide_px; ++y) {
+      for (int x = from_px.x(); x < from_px.x() + kSide_px; ++x) {
+        picture.row(y)[x] = static_cast<uint8_t>(texture.at(x, y));
+      }
+    }
+    field.update(picture);
+  }
+  const Eigen::Vector2d middle_px = from_px.cast<double>() +
+                                    Eigen::Vector2d::Constant(kSide_px / 2.0) -
+                                    Eigen::Vector2d(kFieldWidth, kFieldHeight) / 2;
+  int partly = 0;
+  int like_wall = 0;
+  Areas areas;
+  for (const MotionBlock& area : areas.find(field)) {
+    const Eigen::Vector2d beside_px = area.centre_px.cast<double>() - middle_px;
+    const double apart_px = beside_px.cwiseAbs().maxCoeff();
+    if (apart_px > kSide_px || apart_px < kSide_px / 2.0) continue;
+    ++partly;
+    const Eigen::Vector2d moved_px = area.moved_px.cast<double>();
+    like_wall += (moved_px - kPan_px).norm() < moved_px.norm();
+  }
+  ASSERT_GT(partly, 8);
+  EXPECT_EQ(like_wall, partly);
 }
 
 TEST(PlainParts, TellAPanFromRestAndFromNoise) {

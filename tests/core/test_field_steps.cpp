@@ -34,6 +34,15 @@ PaddedImage noise(int width, int height, uint32_t seed) {
   return padded(picture);
 }
 
+/// 255 where `is(grey)` holds; 0 at the other pixels.
+template <typename Is>
+PaddedImage only(PaddedImage picture, Is&& is) {
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) picture.row(y)[x] = is(picture.row(y)[x]) ? 255 : 0;
+  }
+  return picture;
+}
+
 /// A texture that has moved by (`x`, `y`).
 PaddedImage moved_texture(double x, double y, double gain = 1, double offset = 0) {
   Picture picture(427, 240);
@@ -52,11 +61,17 @@ TEST(FieldSteps, KernelsAreTheirDefinitionBitForBit) {
   for (uint32_t seed = 1; seed <= 20; ++seed) {
     const PaddedImage a = noise(64, 48, seed);
     const PaddedImage b = noise(64, 48, seed + 100);
+    const PaddedImage all = only(noise(64, 48, seed), [](int) { return true; });
+    const PaddedImage mask = only(noise(64, 48, seed + 200), [](int grey) { return grey > 128; });
     for (int k = 0; k < 30; ++k) {
       const int x = k - 5;
       const BlockPixels now = at(a, 20, 16);
       const BlockPixels before = at(b, x, k % 7);
-      EXPECT_EQ(compare_blocks(now, before), plain::compare_blocks(now, before));
+      const BlockPixels counted = at(mask, k % 16, k % 7);
+      EXPECT_EQ(compare_blocks(now, before), plain::compare_blocks(now, before, at(all, 0, 0)));
+      EXPECT_EQ(compare_blocks(now, before, counted), plain::compare_blocks(now, before, counted));
+      EXPECT_EQ(block_difference(now, before, counted),
+                plain::block_difference(now, before, counted));
       for (const int limit : {0, 10000, 1 << 30}) {
         EXPECT_EQ(block_difference(now, before, limit),
                   plain::block_difference(now, before, limit));

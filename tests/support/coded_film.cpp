@@ -24,12 +24,12 @@ double soft(uint32_t seed, double blur_px, double sigma_grey, double x, double y
   return sigma_grey / spread_grey * (Texture(seed, std::sqrt(3.0) * blur_px).at(x, y) - 128);
 }
 
-double wall_grey(CodedFilm::Wall wall, double x, double y) {
-  switch (wall) {
+double wall_grey(const CodedFilm& film, double x, double y) {
+  switch (film.wall) {
     case CodedFilm::Wall::kPlain:
       return 112;
     case CodedFilm::Wall::kSlope:
-      return 60 + 100 * x / CodedFilm::kWidth + 40 * y / CodedFilm::kHeight;
+      return 60 + 100 * x / film.width_px + 40 * y / film.height_px;
     case CodedFilm::Wall::kShade:
       return 128 + 30 * std::sin(x / 90) * std::cos(y / 70 + x / 300);
     case CodedFilm::Wall::kFaint:
@@ -41,7 +41,7 @@ double wall_grey(CodedFilm::Wall wall, double x, double y) {
     case CodedFilm::Wall::kDark:
       return 24 + soft(1, 25, 5, x, y) + soft(2, 5, 2.5, x, y);
     case CodedFilm::Wall::kMeadow: {  // out of focus, below a plain sky
-      const double depth = std::clamp(y / CodedFilm::kHeight * 4 - 2.5, 0.0, 1.0);
+      const double depth = std::clamp(y / film.height_px * 4 - 2.5, 0.0, 1.0);
       return 180 + depth * (soft(1, 12, 20, x, y) - 60);
     }
   }
@@ -86,11 +86,11 @@ Vector2d CodedFilm::square_moved_px(int n) const {
 /// Its upper left corner.
 Vector2i CodedFilm::square_px(int n) const {
   const int moved = std::max(0, n - kRests + 1);
-  Vector2d at_px(kWidth / 5.0, (kHeight - side_px) / 2.0);
+  Vector2d at_px(width_px / 5.0, (height_px - side_px) / 2.0);
   if (step_px.isZero()) {
     const double angle_rad = speed_px / radius_px * moved;
-    at_px << (kWidth - side_px) / 2.0 - radius_px * std::cos(angle_rad),
-        (kHeight - side_px) / 2.0 + radius_px * std::sin(angle_rad);
+    at_px << (width_px - side_px) / 2.0 - radius_px * std::cos(angle_rad),
+        (height_px - side_px) / 2.0 + radius_px * std::sin(angle_rad);
   } else {
     at_px += moved * step_px;
   }
@@ -100,11 +100,11 @@ Vector2i CodedFilm::square_px(int n) const {
 std::vector<Picture> CodedFilm::drawn() const {
   // The wall is drawn once, as large as is seen of it.
   const Vector2i margin_px = (kPictures - kRests) * pan_px.cwiseAbs();
-  const int whole_width = kWidth + 2 * margin_px.x();
+  const int whole_width = width_px + 2 * margin_px.x();
   std::vector<double> whole;
-  for (int y = -margin_px.y(); y < kHeight + margin_px.y(); ++y) {
-    for (int x = -margin_px.x(); x < kWidth + margin_px.x(); ++x) {
-      whole.push_back(wall_grey(wall, x, y));
+  for (int y = -margin_px.y(); y < height_px + margin_px.y(); ++y) {
+    for (int x = -margin_px.x(); x < width_px + margin_px.x(); ++x) {
+      whole.push_back(wall_grey(*this, x, y));
     }
   }
   const std::vector<double> square = square_grey(side_px);
@@ -114,7 +114,7 @@ std::vector<Picture> CodedFilm::drawn() const {
   for (int n = 0; n < kPictures; ++n) {
     const Vector2i from_px = margin_px - std::max(0, n - kRests + 1) * pan_px;
     const Vector2i corner_px = square_px(n);
-    pictures.emplace_back(kWidth, kHeight);
+    pictures.emplace_back(width_px, height_px);
     pictures.back().fill([&](double x, double y) {
       const Vector2i at_px(static_cast<int>(x), static_cast<int>(y));
       const Vector2i on_px = at_px - corner_px;
@@ -132,17 +132,17 @@ std::vector<Picture> CodedFilm::drawn() const {
 std::vector<Picture> CodedFilm::pictures() const {
   const TemporaryFolder folder;
   const std::string raw = folder.path / "raw", coded = folder.path / "coded.mkv";
-  constexpr std::streamsize kLuma = kWidth * kHeight;
-  const std::string no_colour(kLuma / 2, '\x80');
+  const std::streamsize luma = width_px * height_px;
+  const std::string no_colour(luma / 2, '\x80');
   {
     std::ofstream to(raw, std::ios::binary);
     for (const Picture& picture : drawn()) {
-      to.write(reinterpret_cast<const char*>(picture.pixels.data()), kLuma);
-      to.write(no_colour.data(), kLuma / 2);
+      to.write(reinterpret_cast<const char*>(picture.pixels.data()), luma);
+      to.write(no_colour.data(), luma / 2);
     }
   }
-  const std::string as_raw = " -f rawvideo -pix_fmt yuv420p -s " + std::to_string(kWidth) + "x" +
-                             std::to_string(kHeight) + " ";
+  const std::string as_raw = " -f rawvideo -pix_fmt yuv420p -s " + std::to_string(width_px) + "x" +
+                             std::to_string(height_px) + " ";
   const std::string ffmpeg = "ffmpeg -nostdin -v error -y ";
   const CommandResult result =
       run(ffmpeg + as_raw + "-r 25 -i " + raw + " -threads 1 " + coding + " " + coded +
@@ -151,9 +151,9 @@ std::vector<Picture> CodedFilm::pictures() const {
   std::vector<Picture> pictures;
   std::ifstream from(raw, std::ios::binary);
   for (int n = 0; n < kPictures; ++n) {
-    pictures.emplace_back(kWidth, kHeight);
-    from.read(reinterpret_cast<char*>(pictures.back().pixels.data()), kLuma);
-    from.ignore(kLuma / 2);
+    pictures.emplace_back(width_px, height_px);
+    from.read(reinterpret_cast<char*>(pictures.back().pixels.data()), luma);
+    from.ignore(luma / 2);
   }
   return pictures;
 }

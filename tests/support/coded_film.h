@@ -18,12 +18,12 @@ namespace spidar::test {
 /// Encoders keep little of a faint wall, and noise least of all: HEVC and AV1 move that around an
 /// object along with it, so that it looks as if the camera moved.
 struct CodedFilm {
-  static constexpr int kWidth = 640;
-  static constexpr int kHeight = 360;
   static constexpr int kPictures = 48;
   static constexpr int kRests = 8;  ///< pictures in which nothing has moved yet
 
   enum class Wall { kPlain, kSlope, kShade, kFaint, kIce, kBlur, kDark, kMeadow };
+  int width_px = 640;
+  int height_px = 360;
   Wall wall = Wall::kPlain;
   std::string coding;              ///< options of ffmpeg
   Eigen::Vector2i pan_px{0, 0};    ///< motion of the wall from picture to picture

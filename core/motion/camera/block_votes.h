@@ -31,7 +31,7 @@ struct Past {
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes);
 /// The same with edges, if together they have more than one direction: where little else votes.
 void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes);
-/// Sets `votes` to those of `areas`, see find_areas().
+/// Sets `votes` to those of `areas`, see Areas.
 void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
                    BackgroundVotes& votes);
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/field/areas.h"
 #include "core/motion/camera/border_ring.h"
 
 namespace spidar {
@@ -104,14 +103,12 @@ const Background& CameraChoice::keep(const BlockField& field, const Background& 
 }
 
 const Background& CameraChoice::find(const BlockField& field, const Past& past) {
-  areas_.reserve(field.blocks().size());
   collect_votes(field, past, votes_);
   const bool are_few = votes_.are_few();
   const Background of_blocks = are_few ? Background() : estimator_.propose(votes_);
   if (moves(of_blocks) || votes_.are_many()) return keep(field, of_blocks, of_blocks.model);
 
-  find_areas(field, areas_);
-  collect_areas(field, areas_, past, area_votes_);
+  collect_areas(field, areas_.find(field), past, area_votes_);
   const Background of_areas =
       area_votes_.are_few() ? Background() : estimator_.propose(area_votes_);
   if (moves(of_areas) && (plain_.have_moved(field, past, of_areas.model) ||

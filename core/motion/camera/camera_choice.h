@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "core/field/areas.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/camera/block_votes.h"
 
@@ -59,7 +60,7 @@ class CameraChoice {
 
   BackgroundVotes votes_;
   BackgroundVotes area_votes_;
-  std::vector<MotionBlock> areas_;
+  Areas areas_;
   PlainParts plain_;
   BackgroundEstimator estimator_;
 };
