@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace spidar {
 
@@ -15,6 +16,12 @@ using Json = nlohmann::ordered_json;
 /// UTF-8, so a byte that is not becomes U+FFFD. Numbers that are not finite are null.
 inline std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A vector of Eigen, whichever size it has.
+template <typename Vector>
+Json json_array(const Vector& values) {
+  return std::vector<double>(values.begin(), values.end());
 }
 
 }  // namespace spidar

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdarg>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <numeric>
 
 namespace spidar {
@@ -42,6 +44,18 @@ bool is_harmless(uint32_t code) noexcept {
 }
 
 }  // namespace
+
+std::string formatted(const char* pattern, ...) {
+  va_list values, counted;
+  va_start(values, pattern);
+  va_copy(counted, values);
+  const int length = std::vsnprintf(nullptr, 0, pattern, counted);
+  va_end(counted);
+  std::string text(static_cast<size_t>(std::max(length, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, values);
+  va_end(values);
+  return text;
+}
 
 std::string printable(std::string_view text) {
   std::string printed;

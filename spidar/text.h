@@ -18,6 +18,9 @@ std::string as_text(const T& value) {
   return out.str();
 }
 
+/// As std::printf() writes it.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
+
 /// The text with a question mark for each control character, which a terminal would obey, for each
 /// character that turns the direction of writing round, and for each byte that is not UTF-8, which
 /// neither JSON nor GStreamer takes. To be used where a name, a serial number or the like comes

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/grip/small_ldlt.h"
+#include "core/grip/matrices.h"
 
 namespace spidar {
 namespace {

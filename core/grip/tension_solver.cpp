@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "core/grip/small_ldlt.h"
+#include "core/grip/matrices.h"
 
 namespace spidar {
 namespace {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include <gst/gst.h>
 #include <gst/video/video.h>
 
 #include "plugin/filter/bus_warnings.h"
@@ -16,6 +17,7 @@
 #include "plugin/filter/engine/track_source.h"
 #include "plugin/filter/reports/frame_trace.h"
 #include "plugin/filter/reports/motion_stats.h"
+#include "plugin/filter/spidar_motion.h"
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_report.h"
 #include "plugin/frame/no_force_watch.h"
@@ -99,3 +101,15 @@ struct MotionState {
 };
 
 }  // namespace spidar::filter
+
+// What the files of the element share besides.
+GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
+
+struct _GstSpidarMotion {
+  GstVideoFilter parent;
+
+  spidar::filter::MotionState* state;
+};
+
+/// Class initialisation: frames and events on their way.
+void gst_spidar_motion_install_stream(GstSpidarMotionClass* klass);

@@ -47,8 +47,8 @@
 #include <filesystem>
 #include <string>
 
+#include "plugin/filter/motion_state.h"
 #include "plugin/filter/reports/motion_meta.h"
-#include "plugin/filter/spidar_motion_private.h"
 #include "plugin/properties/property_table.h"
 #include "spidar/install_folder.h"
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "plugin/filter/engine/frame_touch.h"
-#include "plugin/filter/spidar_motion_private.h"
+#include "plugin/filter/motion_state.h"
 #include "plugin/frame/motion_message.h"
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/timing/frame_pacer.h"

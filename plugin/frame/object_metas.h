@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gst/video/video.h>
@@ -14,9 +15,17 @@
 #include "core/orientation.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/object_box.h"
 
 namespace spidar {
+
+/// In pixels of the frame that has it; it may lie partly outside.
+struct ObjectBox {
+  std::string name;  ///< of what is in it, "face"
+  double x, y, width, height;
+};
+
+/// The name of our objects.
+constexpr const char* kObjectName = "spidar-object";
 
 /// Regions (GstVideoRegionOfInterestMeta) and detections. Those without a size are left out. Ids of
 /// regions count them within a frame, so that they do not tell which is which in the next one.

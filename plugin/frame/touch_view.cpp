@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 
 namespace spidar {
 namespace {

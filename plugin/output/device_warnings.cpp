@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/output/device_warnings.h"
 
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include "plugin/gobject/bus_messages.h"
@@ -38,6 +40,29 @@ std::string why_lost(const HapticSession& session) {
     default:
       return std::string("The haptic device does not answer: ") + to_string(fault) + ".";
   }
+}
+
+std::string directions_text(const std::array<bool, 3>& force) {
+  constexpr std::array<const char*, 3> kDirections{"to the sides", "up and down",
+                                                   "towards and away from you"};
+  std::string text;
+  bool all = true;
+  for (size_t i = 0; i < force.size(); ++i) {
+    if (force[i]) text += (text.empty() ? "" : ", ") + std::string(kDirections[i]);
+    all = all && force[i];
+  }
+  return all ? "in every direction" : text.empty() ? "in no direction" : text;
+}
+
+/// "force to the sides, up and down, up to 3 N, no torque"
+std::string rendered_text(const GripAbilities& can) {
+  char most[32];
+  std::snprintf(most, sizeof most, "%.1f N", can.largest_force_N);
+  if (!can.direction) {
+    return std::string("the strength of the force, not its direction, up to ") + most;
+  }
+  return "force " + directions_text(can.force) + ", up to " + most +
+         (can.torque ? ", and torque" : ", no torque");
 }
 
 }  // namespace

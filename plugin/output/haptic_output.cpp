@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "plugin/gobject/category.h"
 #include "plugin/output/card_reservation.h"
 #include "spidar/devices/device_registry.h"

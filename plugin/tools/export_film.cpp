@@ -11,11 +11,10 @@
 
 #include <glib.h>
 
-#include "plugin/tools/felt_boxes.h"
+#include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tools/web_film.h"
 #include "plugin/tracks/file_bytes.h"
 #include "plugin/tracks/film_reader.h"
 #include "spidar/tools/command_line.h"

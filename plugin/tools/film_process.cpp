@@ -26,7 +26,6 @@
 
 #include "core/json_text.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
@@ -37,7 +36,7 @@
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {

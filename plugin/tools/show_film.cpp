@@ -7,7 +7,6 @@
 
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_encoder.h"
-#include "plugin/tools/film_progress.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"

@@ -21,7 +21,7 @@
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::tools {

@@ -8,7 +8,7 @@
 
 #include "plugin/gobject/ref.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_tags.h"
 
 namespace spidar {
 namespace {

@@ -14,7 +14,7 @@
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
-#include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_tags.h"
 
 namespace spidar {
 namespace {

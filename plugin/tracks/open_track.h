@@ -11,7 +11,7 @@
 
 #include "core/track/track_format.h"
 #include "plugin/tracks/read_ahead.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 
 namespace spidar {
 

@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 
 #include "plugin/tracks/film_reader.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 
 namespace spidar {
 

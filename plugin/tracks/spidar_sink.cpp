@@ -48,7 +48,7 @@
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
-#include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_tags.h"
 #include "plugin/tracks/track_warnings.h"
 
 namespace spidar {

@@ -8,7 +8,7 @@
 
 #include "plugin/gobject/category.h"
 #include "plugin/timing/instant_rate.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(GST_PAD_PARENT(pad_))

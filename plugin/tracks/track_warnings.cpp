@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "plugin/gobject/category.h"
-#include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_tags.h"
 
 // GST_ELEMENT_WARNING logs there.
 #undef GST_CAT_DEFAULT

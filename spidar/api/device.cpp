@@ -12,7 +12,7 @@
 
 #include <gst-spidar/device.h>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/api/of_this_process.h"
 #include "spidar/api/surface.h"
 #include "spidar/api/vectors.h"

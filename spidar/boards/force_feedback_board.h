@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/boards/board.h"
 #include "spidar/boards/stick_effects.h"
 #include "spidar/profiles/profile.h"

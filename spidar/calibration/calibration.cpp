@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/grip/matrices.h"
 #include "core/grip/pose_solver.h"
-#include "core/grip/singular_values.h"
 #include "core/quantile.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
 
+#include "core/grip/matrices.h"
 #include "core/grip/pose_solver.h"
-#include "core/grip/singular_values.h"
 #include "core/grip/string_geometry.h"
 
 namespace spidar::calibration {

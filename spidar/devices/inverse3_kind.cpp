@@ -4,7 +4,6 @@
 #include "spidar/devices/device_kind.h"
 #include "spidar/devices/device_parts.h"
 #include "spidar/emulation/emulated_force_devices.h"
-#include "spidar/transports/loopback.h"
 #include "spidar/transports/websocket_transport.h"
 
 namespace spidar {

@@ -35,9 +35,6 @@ struct GripAbilities {
   bool can_point() const noexcept { return position[0] || position[1]; }
 };
 
-/// "force to the sides, up and down, up to 3 N, no torque"
-std::string rendered_text(const GripAbilities& can);
-
 /// Replaces negative values and NaN by zero.
 constexpr double non_negative(double x) noexcept {
   return x > 0 ? x : 0;

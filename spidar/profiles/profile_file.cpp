@@ -13,7 +13,7 @@
 
 #include <toml++/toml.h>
 
-#include "core/grip/singular_values.h"
+#include "core/grip/matrices.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/text.h"
 

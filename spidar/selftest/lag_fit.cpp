@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "spidar/selftest/report_text.h"
+#include "spidar/text.h"
 
 namespace spidar::selftest {
 namespace {

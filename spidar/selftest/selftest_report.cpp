@@ -8,7 +8,9 @@
 #include <ostream>
 #include <string>
 
+#include "core/json_text.h"
 #include "spidar/loop/stiffness_limit.h"
+#include "spidar/text.h"
 
 namespace spidar::selftest {
 namespace {

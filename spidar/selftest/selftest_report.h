@@ -5,8 +5,8 @@
 
 #include <iosfwd>
 
+#include "core/json_text.h"
 #include "spidar/selftest/delay_test.h"
-#include "spidar/selftest/report_text.h"
 #include "spidar/selftest/wiring_report.h"
 
 namespace spidar::selftest {

@@ -12,7 +12,6 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/session/remembered_profiles.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {

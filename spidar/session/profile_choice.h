@@ -8,6 +8,7 @@
 /// choose`.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,20 @@
 #include "spidar/session/board_list.h"
 
 namespace spidar {
+
+/// The file with the profiles that were confirmed for boards:
+/// $XDG_CONFIG_HOME/gst-spidar/boards.toml, or ~/.config/gst-spidar/boards.toml. Empty when neither
+/// variable is set.
+std::filesystem::path remembered_profiles_file();
+
+/// The profile that store_profile() last stored for the board with this USB ID and serial
+/// number; empty if nothing. Throws ProfileError when the file cannot be read.
+std::string remembered_profile(const std::string& usb_id, const std::string& serial);
+
+/// A path is kept as an absolute one. Throws ProfileError if the file cannot be read, and as
+/// replace_file().
+void store_profile(const std::string& usb_id, const std::string& serial,
+                   const std::string& profile);
 
 /// Nobody has named a profile for this board. what() lists those that fit it.
 class NoProfile : public DeviceError {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/json_text.h"
 #include "spidar/calibration/calibration.h"
 #include "spidar/calibration/samples.h"
 #include "spidar/profiles/profile_file.h"
@@ -209,14 +210,14 @@ Json result_json(const Profile& profile, const calibration::Result& result,
             {"status", text_of(result.status).name},
             {"samples", result.samples},
             {"residual_m", result.residual_m},
-            {"home_offset_m", to_json(result.home_offset_m.head(strings))},
-            {"cleared_at_m", to_json(result.cleared_at.position_m)},
-            {"cleared_at_rad", to_json(rotation_vector(result.cleared_at.orientation))},
-            {"moved_m", to_json(result.moved_m)},
-            {"turned_rad", to_json(result.turned_rad)}};
+            {"home_offset_m", json_array(result.home_offset_m.head(strings))},
+            {"cleared_at_m", json_array(result.cleared_at.position_m)},
+            {"cleared_at_rad", json_array(rotation_vector(result.cleared_at.orientation))},
+            {"moved_m", json_array(result.moved_m)},
+            {"turned_rad", json_array(result.turned_rad)}};
   if (result.estimated.free_scale) json["scale"] = result.scale;
   for (size_t i = 0; result.estimated.free_exits && i < static_cast<size_t>(strings); ++i) {
-    json["exit_m"].push_back(to_json(result.exit_m[i]));
+    json["exit_m"].push_back(json_array(result.exit_m[i]));
   }
   return json;
 }

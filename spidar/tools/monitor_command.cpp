@@ -5,10 +5,11 @@
 #include <limits>
 
 #include "core/grip/pose_solver.h"
+#include "core/json_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/encoder_scale.h"
-#include "spidar/selftest/report_text.h"
 #include "spidar/simulation/grip_model.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar::tools {
@@ -97,13 +98,13 @@ class Monitor {
                                               reading.count.begin() + profile_.geometry.count)}};
     }
     return {{"time_s", time_s},
-            {"position_m", to_json(result.pose.position_m)},
-            {"rotation_rad", to_json(rotation_vector(result.pose.orientation))},
+            {"position_m", json_array(result.pose.position_m)},
+            {"rotation_rad", json_array(rotation_vector(result.pose.orientation))},
             {"pose", pose_name(result.status)},
             {"residual_m", result.residual_m},
             {"faulty_string", result.faulty_string},
             {"inputs", reading.inputs},
-            {"length_m", to_json(lengths_m.head(profile_.geometry.count))}};
+            {"length_m", json_array(lengths_m.head(profile_.geometry.count))}};
   }
 
   const Profile& profile_;

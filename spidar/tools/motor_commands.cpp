@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/json_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/encoder_scale.h"
-#include "spidar/selftest/report_text.h"
 #include "spidar/selftest/wiring_answers.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar::tools {
@@ -100,8 +101,8 @@ void print(const PullOptions& pull, int strings, const Lengths& lengths) {
     std::cout << json_text({{"string", pull.string},
                             {"tension_N", pull.tension_N},
                             {"seconds", pull.seconds},
-                            {"length_m", to_json(lengths.pulled_m.head(strings))},
-                            {"length_change_m", to_json(change_m.head(strings))}},
+                            {"length_m", json_array(lengths.pulled_m.head(strings))},
+                            {"length_change_m", json_array(change_m.head(strings))}},
                            2)
               << '\n';
     return;

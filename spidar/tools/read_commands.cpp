@@ -7,9 +7,10 @@
 #include <iostream>
 #include <limits>
 
-#include "spidar/selftest/report_text.h"
+#include "core/json_text.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 #include "spidar/transports/tty_transport.h"
 

@@ -6,7 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
+#include "core/json_text.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/realtime/monotonic.h"
@@ -16,6 +17,7 @@
 #include "spidar/selftest/stick_test.h"
 #include "spidar/selftest/wiring_report.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 
 namespace spidar::tools {

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/choice/feel_edit.h"
 #include "core/choice/feel_rules.h"
 
 namespace spidar::test::feel_rules_test {

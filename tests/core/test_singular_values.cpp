@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grip/singular_values.h"
+#include "core/grip/matrices.h"
 #include "tests/support/string_samples.h"
 
 namespace spidar::test::singular_values_test {

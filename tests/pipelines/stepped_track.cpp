@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "plugin/tracks/track_elements.h"
-#include "plugin/tracks/track_file.h"
+#include "plugin/tracks/track_tags.h"
 #include "tests/support/element_harness.h"
 
 namespace spidar::test {

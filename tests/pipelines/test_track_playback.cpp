@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/tracks/track_file.h"
-#include "plugin/tracks/track_mark.h"
+#include "plugin/tracks/track_tags.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/tension_command.h"
 #include "tests/support/random_motion.h"

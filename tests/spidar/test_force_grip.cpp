@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/force_bench.h"

@@ -16,7 +16,7 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/transports/loopback.h"
+#include "spidar/transports/websocket_transport.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"

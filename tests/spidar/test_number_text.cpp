@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/number_text.h"
-#include "spidar/selftest/report_text.h"
+#include "spidar/text.h"
 
 namespace spidar::test::number_text_test {
 namespace {

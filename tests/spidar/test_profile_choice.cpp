@@ -15,7 +15,6 @@
 
 #include "spidar/selftest/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/session/remembered_profiles.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/shell.h"

@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grip/picture_size.h"
+#include "core/grip/string_geometry.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/session/device_factory.h"

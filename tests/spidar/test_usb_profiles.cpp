@@ -12,7 +12,6 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/session/remembered_profiles.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/grip/singular_values.h"
+#include "core/grip/matrices.h"
 
 namespace spidar::test {
 namespace {

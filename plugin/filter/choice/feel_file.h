@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/choice/feel_edit.h"
 #include "core/choice/feel_rules.h"
 
 namespace spidar::filter {

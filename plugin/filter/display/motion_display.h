@@ -15,7 +15,7 @@
 #include "plugin/frame/no_force_watch.h"
 #include "plugin/frame/point_owners.h"
 #include "plugin/output/haptic_output.h"
-#include "plugin/overlay/force_curve.h"
+#include "plugin/overlay/video_overlay.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
 

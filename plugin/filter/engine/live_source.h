@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "core/analysis/motion_analyzer.h"
 #include "core/analysis/square_pixel_resampler.h"
 #include "plugin/filter/engine/passing_frame.h"
@@ -18,6 +20,9 @@
 #include "plugin/timing/wrench_backlog.h"
 
 namespace spidar::filter {
+
+/// Where the grip points at the picture as it is shown; nothing while no device runs.
+std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output);
 
 /// Streaming thread.
 class LiveSource {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <strings.h>
 
-#include "core/analysis/analysis_json.h"
+#include "core/json_text.h"
 #include "spidar/realtime/line_writer.h"
 
 namespace spidar::filter {
@@ -25,7 +25,60 @@ bool ends_with(std::string_view text, std::string_view end) {
          strncasecmp(text.data() + text.size() - end.size(), end.data(), end.size()) == 0;
 }
 
+Json json_of(const ImageMotion& motion) {
+  return {{"velocity_px_s", json_array(motion.velocity_px_s)},
+          {"growth_1_s", motion.growth_1_s},
+          {"roll_rad_s", motion.roll_rad_s},
+          {"tracked", motion.tracked}};
+}
+
+Json json_of(const Background& background) {
+  const MotionModel& model = background.model;
+  return {
+      {"model", to_string(model.kind)},
+      {"shift_px", json_array(model.shift_px)},
+      {"linear", Json::array({json_array(model.linear.row(0)), json_array(model.linear.row(1))})},
+      {"perspective_1_px", json_array(model.perspective_1_px)},
+      {"sigma_px", background.sigma_px},
+      {"coverage", background.coverage}};
+}
+
+Json json_of(const MovingObject& object) {
+  return {{"id", object.id},
+          {"position_px", json_array(object.position_px)},
+          {"size_px", json_array(object.size_px)},
+          {"velocity_px_s", json_array(object.relative_px_s)},
+          {"error_px_s", object.error_px_s},
+          {"on_screen_px_s", json_array(object.on_screen_px_s)},
+          {"growth_1_s", object.growth_1_s},
+          {"roll_rad_s", object.roll_rad_s},
+          {"model", to_string(object.model)},
+          {"points", object.points},
+          {"prominence", object.prominence}};
+}
+
 }  // namespace
+
+std::string json_line(const Frame& frame) {
+  Json objects = Json::array();
+  for (const MovingObject& object : frame.objects) objects.push_back(json_of(object));
+  const Json json = {{"running_time_ns", frame.stamp.running_ns},
+                     {"stream_time_ns", frame.stamp.stream_ns},
+                     {"interval_ns", frame.interval_ns},
+                     {"width_px", frame.width},
+                     {"height_px", frame.height},
+                     {"restarted", frame.picture == PictureKind::kFirst},
+                     {"repeated", is_again(frame.picture)},
+                     {"features", frame.features},
+                     {"object", frame.felt_object},
+                     {"motion", json_of(frame.motion)},
+                     {"wrench",
+                      {{"force_N", json_array(frame.wrench.force_N)},
+                       {"torque_Nm", json_array(frame.wrench.torque_Nm)}}},
+                     {"background", frame.background ? json_of(*frame.background) : Json()},
+                     {"objects", objects}};
+  return json_text(json) + '\n';
+}
 
 std::string FrameTrace::open(const std::string& path) {
   close();

@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 
-#include "core/choice/feel_edit.h"
+#include "core/choice/feel_rules.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 

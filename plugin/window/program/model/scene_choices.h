@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include "core/choice/feel_edit.h"
 #include "core/choice/feel_rules.h"
 #include "plugin/window/view/window_view.h"
 

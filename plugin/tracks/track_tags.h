@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What marks a stream of sound as a haptic track.
+/// The metadata of a haptic track: what marks a stream of sound as one, and notes on the film.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <gst/gst.h>
+
+#include "plugin/tracks/film_reader.h"
 
 namespace spidar {
 
@@ -39,5 +42,22 @@ bool has_form_of_track(const GstCaps* caps);
 
 /// How to mark a file, as the rest of a sentence.
 std::string how_to_mark();
+
+/// Stored in the comment of the track, which FLAC, Matroska and WAV keep. Tracks that were made by
+/// hand have neither.
+struct TrackNotes {
+  FilmFingerprint film;  ///< that it was recorded from; empty: not known
+  /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
+  std::optional<std::string> settings;
+};
+
+/// Title, comment and full scale of a track. Owned by the caller.
+GstTagList* track_tags(const TrackNotes& notes = {});
+
+/// Adds to `notes` what `tags` contain.
+void read_notes(const GstTagList* tags, TrackNotes& notes);
+
+/// What `pad`, a linked source pad, sends gets these tags, in place of all others.
+void tag_track(GstPad* pad, const TrackNotes& notes);
 
 }  // namespace spidar

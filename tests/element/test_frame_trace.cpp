@@ -8,13 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "core/analysis/analysis_json.h"
 #include "core/analysis/motion_analyzer.h"
+#include "plugin/filter/reports/frame_trace.h"
 #include "tests/support/moving_scene.h"
 
-namespace spidar::test::analysis_json_test {
+namespace spidar::test::frame_trace_test {
 namespace {
 
+using filter::json_line;
 using nlohmann::json;
 
 json parsed(const Frame& frame) {
@@ -29,7 +30,7 @@ void expect_vector(const json& found, const Eigen::Vector2d& expected) {
   EXPECT_EQ(found[1].get<double>(), expected.y());
 }
 
-TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
+TEST(FrameTrace, HasEverythingThatWasFoundToTheLastBit) {
   MovingScene scene(320, 180);
   scene.add_disc(40);
   AnalyzerSettings settings;
@@ -79,7 +80,7 @@ TEST(AnalysisJson, HasEverythingThatWasFoundToTheLastBit) {
   EXPECT_EQ(j["objects"][0]["points"], object.points);
 }
 
-TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {
+TEST(FrameTrace, WhatIsNotKnownIsNullOrEmpty) {
   Frame frame;
   const json j = parsed(frame);
   EXPECT_EQ(j["restarted"], true);
@@ -87,7 +88,7 @@ TEST(AnalysisJson, WhatIsNotKnownIsNullOrEmpty) {
   EXPECT_EQ(j["objects"], json::array());
 }
 
-TEST(AnalysisJson, NumbersThatJsonDoesNotHaveAreNull) {
+TEST(FrameTrace, NumbersThatJsonDoesNotHaveAreNull) {
   Frame frame;
   frame.motion.velocity_px_s = {std::nan(""), -std::numeric_limits<double>::infinity()};
   frame.motion.growth_1_s = 1e-300;
@@ -100,4 +101,4 @@ TEST(AnalysisJson, NumbersThatJsonDoesNotHaveAreNull) {
 }
 
 }  // namespace
-}  // namespace spidar::test::analysis_json_test
+}  // namespace spidar::test::frame_trace_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/grip/singular_values.h"
+#include "core/grip/matrices.h"
 
 #include <Eigen/SVD>
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include "spidar/boards/cyverse_board.h"
+#include "spidar/boards/falcon_board.h"
+#include "spidar/boards/mouse_board.h"
 #include "spidar/devices/device_kind.h"
 #include "spidar/devices/device_parts.h"
 #include "spidar/emulation/emulated_boards.h"
+#include "spidar/emulation/emulated_force_devices.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/cyverse.h"
+#include "spidar/protocols/novint_falcon.h"
+#include "spidar/protocols/spidar_mouse.h"
 
 namespace spidar {
 namespace {
@@ -49,6 +54,36 @@ DeviceKind simple_kind() {
   kind.board = "simple";
   kind.attach = attach<SimpleBoard>;
   kind.emulate = emulate<emulated::Simple>;
+  return kind;
+}
+
+DeviceKind falcon_kind() {
+  DeviceKind kind;
+  kind.device = "falcon";
+  kind.title = "Novint Falcon";
+  kind.usb = {falcon::kVendor, falcon::kProduct, {falcon::kEndpointOut, falcon::kEndpointIn}};
+  kind.board = "falcon";
+  kind.names = "falcon, falcon:ID";
+  kind.note = "reach and scale of the force are inferred";
+  kind.attach = attach<FalconBoard>;
+  kind.emulate = emulate<emulated::Falcon>;
+  kind.simulated_motors = simulated_hand<emulated::Falcon::kHomed>;
+  return kind;
+}
+
+DeviceKind mouse_kind() {
+  DeviceKind kind;
+  kind.device = "mouse";
+  kind.title = "SPIDAR-mouse";
+  kind.usb = {
+      mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true}, true};
+  kind.board = "mouse";
+  kind.names = "mouse, mouse:ID";
+  kind.verification = Verification::kInferred;
+  kind.note = "other devices have this id; asked when it is opened";
+  kind.attach = attach<MouseBoard>;
+  kind.emulate = emulate<emulated::Mouse>;
+  kind.simulated_motors = unconnected_motors;
   return kind;
 }
 
