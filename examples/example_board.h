@@ -10,19 +10,21 @@
 
 namespace spidar {
 
-class ExampleBoard final : public Board {
+class ExampleBoard final : public boards::Board {
  public:
   ExampleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
-      : name_(std::move(name)), dac_(unipolar_dac(profile)), transport_(std::move(transport)) {
-    require_fitting(name_, profile, {12, 0, false});  // bits, largest volts, negative ones
+      : name_(std::move(name)),
+        dac_(boards::unipolar_dac(profile)),
+        transport_(std::move(transport)) {
+    boards::require_fitting(name_, profile, {12, 0, false});  // bits, largest volts, negative ones
   }
 
   void open() override {
     transport_->open();
     Raw raw{};
     const LinkFault fault =
-        open_exchange([&](int64_t until) { return exchange({}, raw, until); }, *transport_);
-    if (fault != LinkFault::kNone) throw DeviceError(no_answer(name_, fault));
+        boards::open_exchange([&](int64_t until) { return exchange({}, raw, until); }, *transport_);
+    if (fault != LinkFault::kNone) throw DeviceError(boards::no_answer(name_, fault));
     counts_.open(raw, kMaxStrings);
   }
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
@@ -39,7 +41,7 @@ class ExampleBoard final : public Board {
   bool counts_restarted() const noexcept override { return counts_.restarted(); }
   void close() noexcept override { transport_->close(); }
   std::vector<LastWill> last_wills() const override {
-    return wills(*transport_, {std::array<uint8_t, 16>{}});
+    return boards::wills(*transport_, {std::array<uint8_t, 16>{}});
   }
   std::string description() const override { return "example"; }
   const std::string& name() const noexcept override { return name_; }
@@ -57,9 +59,9 @@ class ExampleBoard final : public Board {
   }
 
   const std::string name_;
-  const DacScale dac_;
+  const boards::DacScale dac_;
   const std::unique_ptr<Transport> transport_;
-  EncoderCounts counts_{16};
+  boards::EncoderCounts counts_{16};
 };
 
 }  // namespace spidar

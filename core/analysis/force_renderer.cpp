@@ -28,8 +28,8 @@ uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   constexpr uint32_t kPicture = UINT32_MAX;
   uint64_t target = object;
   if (!choice.is_kept && choice.rule) {
-    const bool is_picture =
-        choice.rule->kind == FeelKind::kCamera || choice.rule->kind == FeelKind::kRegion;
+    const bool is_picture = choice.rule->kind == FeelRule::Kind::kCamera ||
+                            choice.rule->kind == FeelRule::Kind::kRegion;
     if (is_picture) target = kPicture;
     if (target != 0) target |= static_cast<uint64_t>(choice.rule->line) << 32;
   }
@@ -96,7 +96,7 @@ void ForceRenderer::configure(const AnalyzerSettings& settings) {
   choice_.set_kept(settings.kept);
 }
 
-ChoiceFrame ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
+ChoiceInput ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
   return {frame.objects,         frame.background ? &*frame.background : nullptr,
           frame.width,           frame.height,
           frame.interval_s(),    frame.picture == PictureKind::kFirst,
@@ -109,12 +109,12 @@ ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const Orientatio
   if (choice.is_free()) return free_motion(frame);
   if (choice.object) return relative_motion(*choice.object);
   if (choice.is_kept || !frame.background) return {};
-  if (choice.rule->kind == FeelKind::kRegion) {
+  if (choice.rule->kind == FeelRule::Kind::kRegion) {
     const FeelRule& region = *choice.rule;
     return motion_in_box(frame.objects,
                          choice_frame(frame, turn).px(region.position, region.far_corner));
   }
-  if (choice.rule->kind == FeelKind::kCamera) {
+  if (choice.rule->kind == FeelRule::Kind::kCamera) {
     return camera_motion(*frame.background, frame.votes, frame.interval_s());
   }
   return {};

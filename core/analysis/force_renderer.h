@@ -75,7 +75,7 @@ class ForceRenderer {
   void reset();
 
  private:
-  ChoiceFrame choice_frame(const Frame& frame, const Orientation& turn) const;
+  ChoiceInput choice_frame(const Frame& frame, const Orientation& turn) const;
   ImageMotion motion_of_choice(const Frame& frame, const Orientation& turn,
                                const Chosen& choice) const;
   ImageMotion free_motion(const Frame& frame) const;

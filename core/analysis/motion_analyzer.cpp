@@ -15,7 +15,7 @@ void MotionAnalyzer::take(const Cadence::Step& step) {
 }
 
 /// The paper's motion: the mean over all points. False when there is nothing to compare with.
-bool MotionAnalyzer::find_mean(const TrackedFrame& tracked) {
+bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
   frame_.features = tracked.features;
   if (tracked.picture == PictureKind::kFirst) return false;
   frame_.points = tracked.points;
@@ -26,7 +26,8 @@ bool MotionAnalyzer::find_mean(const TrackedFrame& tracked) {
 /// Finds what moves, unless the picture waits. Returns whether it does not.
 bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
   const bool may_wait = cadence_.would_wait(running_ns);
-  const TrackedFrame* const tracked = by_points() ? &tracker_.track(image, may_wait) : nullptr;
+  const OpenCvTracker::Result* const tracked =
+      by_points() ? &tracker_.track(image, may_wait) : nullptr;
   const PictureKind picture = tracked ? tracked->picture : reduced_.read(image, may_wait);
   const bool is_comparable = picture != PictureKind::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;

@@ -58,7 +58,7 @@ class MotionAnalyzer {
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   void take(const Cadence::Step& step);
   bool measure(const ImageView& image, int64_t running_ns);
-  bool find_mean(const TrackedFrame& tracked);
+  bool find_mean(const OpenCvTracker::Result& tracked);
   void reset_measuring();
 
   AnalyzerSettings settings_;

@@ -32,20 +32,20 @@ struct KeptObject {
   Eigen::Vector2d position{0, 0};  ///< of the click
 };
 
-/// Result of a request.
-enum class ChoiceState {
-  kGood,
-  kNotThere,   ///< no object was at the position; the first that begins to move there is felt
-  kNotSeen,    ///< playback began after the moment at which the object is at the position
-  kLost,       ///< the object was followed and is lost
-  kNoBox,      ///< no frame of the rule came with a box that it means
-  kBoxAtRest,  ///< boxes came, but nothing moves in them
-};
-
 struct Chosen {
+  /// Result of a request.
+  enum class State {
+    kGood,
+    kNotThere,   ///< no object was at the position; the first that begins to move there is felt
+    kNotSeen,    ///< playback began after the moment at which the object is at the position
+    kLost,       ///< the object was followed and is lost
+    kNoBox,      ///< no frame of the rule came with a box that it means
+    kBoxAtRest,  ///< boxes came, but nothing moves in them
+  };
+
   std::optional<FeelRule> rule;  ///< of the moment
   bool is_kept = false;          ///< a click counts, and no rule
-  ChoiceState state = ChoiceState::kGood;
+  State state = State::kGood;
   const MovingObject* object = nullptr;  ///< the one that is felt, when it is one
 
   /// Nothing of this: what `motion` says is felt.

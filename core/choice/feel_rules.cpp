@@ -157,7 +157,7 @@ class RuleParser {
     }
   }
   void parse_box() {
-    rule_.kind = FeelKind::kBox;
+    rule_.kind = FeelRule::Kind::kBox;
     std::string_view name = word();
     if (name.empty() || name == "gain") return;
     const bool is_quoted = name.front() == '"';
@@ -180,25 +180,25 @@ class RuleParser {
   void parse_what() {
     for (const Direction& direction : kDirections) {
       if (!take(direction.word)) continue;
-      rule_.kind = FeelKind::kFurthest;
+      rule_.kind = FeelRule::Kind::kFurthest;
       rule_.direction << direction.x, direction.y;
       return;
     }
     if (take("object")) {
       if (!take("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
-      rule_.kind = FeelKind::kObjectAt;
+      rule_.kind = FeelRule::Kind::kObjectAt;
       rule_.position = parse_position();
     } else if (take("box")) {
       parse_box();
     } else if (take("region")) {
-      rule_.kind = FeelKind::kRegion;
+      rule_.kind = FeelRule::Kind::kRegion;
       parse_region();
     } else if (take("largest")) {
-      rule_.kind = FeelKind::kLargest;
+      rule_.kind = FeelRule::Kind::kLargest;
     } else if (take("camera")) {
-      rule_.kind = FeelKind::kCamera;
+      rule_.kind = FeelRule::Kind::kCamera;
     } else if (take("nothing")) {
-      rule_.kind = FeelKind::kNothing;
+      rule_.kind = FeelRule::Kind::kNothing;
     } else if (text_.empty()) {
       wrong(rule_.line, std::string("what is felt is missing, one of: ") + kAllWords);
     } else {
@@ -269,7 +269,7 @@ const FeelRule* FeelRules::at(int64_t stream_ns) const {
 
 bool FeelRules::has_boxes() const {
   return std::any_of(rules_.begin(), rules_.end(),
-                     [](const FeelRule& rule) { return rule.kind == FeelKind::kBox; });
+                     [](const FeelRule& rule) { return rule.kind == FeelRule::Kind::kBox; });
 }
 
 std::string FeelRules::text() const {
@@ -285,27 +285,27 @@ std::string rule_text(const FeelRule& rule) {
     text += (rule.to_ns == FeelRule::kNoEnd ? "" : time_text(rule.to_ns)) + " ";
   }
   switch (rule.kind) {
-    case FeelKind::kObjectAt:
+    case FeelRule::Kind::kObjectAt:
       text += "object at " + position_text(rule.position);
       break;
-    case FeelKind::kLargest:
+    case FeelRule::Kind::kLargest:
       text += "largest";
       break;
-    case FeelKind::kFurthest:
+    case FeelRule::Kind::kFurthest:
       for (const Direction& direction : kDirections) {
         if (rule.direction == Eigen::Vector2d(direction.x, direction.y)) text += direction.word;
       }
       break;
-    case FeelKind::kBox:
+    case FeelRule::Kind::kBox:
       text += rule.name[0] ? "box " + name_text(rule.name.data()) : "box";
       break;
-    case FeelKind::kRegion:
+    case FeelRule::Kind::kRegion:
       text += "region " + position_text(rule.position) + " to " + position_text(rule.far_corner);
       break;
-    case FeelKind::kCamera:
+    case FeelRule::Kind::kCamera:
       text += "camera";
       break;
-    case FeelKind::kNothing:
+    case FeelRule::Kind::kNothing:
       text += "nothing";
       break;
   }

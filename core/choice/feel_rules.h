@@ -18,17 +18,17 @@
 
 namespace spidar {
 
-enum class FeelKind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
-
 /// One line. Places go from (0, 0), the top left corner of the picture as it is shown, to (1, 1).
 struct FeelRule {
+  enum class Kind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
+
   static constexpr int64_t kNoEnd = std::numeric_limits<int64_t>::max();
   static constexpr size_t kLongestName = 63;  ///< bytes
 
   int line = 0;  ///< in the text, from 1 on
   int64_t from_ns = 0;
   int64_t to_ns = kNoEnd;
-  FeelKind kind = FeelKind::kNothing;
+  Kind kind = Kind::kNothing;
   /// kObjectAt: where the object is at `from_ns`. kRegion: the corner that is nearer to (0, 0).
   Eigen::Vector2d position{0, 0};
   Eigen::Vector2d far_corner{1, 1};  ///< kRegion
@@ -37,7 +37,7 @@ struct FeelRule {
   std::array<char, kLongestName + 1> name{};
   double gain = 1;  ///< of force and torque, 0 … 10
 
-  bool is_about_objects() const { return kind != FeelKind::kCamera && kind != FeelKind::kNothing; }
+  bool is_about_objects() const { return kind != Kind::kCamera && kind != Kind::kNothing; }
 };
 
 /// Begins with "line 3: " and is a sentence without a full stop.
@@ -98,13 +98,13 @@ inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const Fe
     const bool is_later = rule.from_ns >= edit.to_ns;
     if (before.from_ns < before.to_ns) result.push_back(before);
     if (after.from_ns >= after.to_ns) continue;
-    if (is_later || rule.kind != FeelKind::kObjectAt) result.push_back(after);
+    if (is_later || rule.kind != FeelRule::Kind::kObjectAt) result.push_back(after);
   }
   if (edit.position) {
     FeelRule rule;
     rule.from_ns = edit.from_ns;
     rule.to_ns = edit.to_ns;
-    rule.kind = FeelKind::kObjectAt;
+    rule.kind = FeelRule::Kind::kObjectAt;
     rule.position = *edit.position;
     result.push_back(rule);
   }

@@ -13,14 +13,14 @@ void BoxedObject::begin(const char* name) {
   name_ = name;
 }
 
-ChoiceState BoxedObject::state() const {
-  if (has_found_ || waited_s_ <= kPatience_s) return ChoiceState::kGood;
-  return has_box_ ? ChoiceState::kBoxAtRest : ChoiceState::kNoBox;
+Chosen::State BoxedObject::state() const {
+  if (has_found_ || waited_s_ <= kPatience_s) return Chosen::State::kGood;
+  return has_box_ ? Chosen::State::kBoxAtRest : Chosen::State::kNoBox;
 }
 
 /// The object in sight that has most in common with the box for their size; null when that is not
 /// enough.
-const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame& frame) const {
+const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceInput& frame) const {
   const Eigen::AlignedBox2d box_px = frame.px(box.position, box.far_corner);
   const double box_px2 = area_px2(box_px);
   const MovingObject* best = nullptr;
@@ -38,7 +38,7 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceFrame
   return best;
 }
 
-const MovingObject* BoxedObject::see(const ChoiceFrame& frame) {
+const MovingObject* BoxedObject::see(const ChoiceInput& frame) {
   const MovingObject* best = nullptr;  // the object itself, else the largest one
   missing_s_ += frame.interval_s;
   waited_s_ += frame.interval_s;
@@ -70,8 +70,8 @@ namespace {
 constexpr double kSameVelocity = 0.5;
 
 /// How well an object meets the rule, so that one that does so by 1 more takes the other's place.
-double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame& frame) {
-  if (rule.kind == FeelKind::kLargest) {
+double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput& frame) {
+  if (rule.kind == FeelRule::Kind::kLargest) {
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
   }
   const Eigen::Vector2d direction = frame.turn.to_stored(rule.direction);
@@ -80,7 +80,7 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceFrame
 
 /// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
 bool goes_on(const FeelRule& before, const FeelRule& now) {
-  return before.kind == now.kind && before.kind != FeelKind::kBox &&
+  return before.kind == now.kind && before.kind != FeelRule::Kind::kBox &&
          before.from_ns == now.from_ns && before.position == now.position &&
          before.far_corner == now.far_corner && before.direction == now.direction;
 }
@@ -189,7 +189,7 @@ void ObjectChoice::reset() {
 
 /// Chooses among the objects in sight. The one that is felt stays until another one is clearly
 /// better.
-const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceFrame& frame) {
+const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceInput& frame) {
   const MovingObject* now = nullptr;
   const MovingObject* other = nullptr;
   for (const MovingObject& object : frame.objects) {
@@ -206,7 +206,7 @@ const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceFrame& 
   return other;
 }
 
-void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chosen& choice) {
+void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chosen& choice) {
   choice.rule = rule;
   if (rule_ != &rule) {
     rule_ = &rule;
@@ -217,26 +217,26 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chose
     ruled_.begin(frame.px(rule.position), since_s);
     boxed_.begin(rule.name.data());
   }
-  if (rule.kind == FeelKind::kLargest || rule.kind == FeelKind::kFurthest) {
+  if (rule.kind == FeelRule::Kind::kLargest || rule.kind == FeelRule::Kind::kFurthest) {
     choice.object = best(rule, frame);
-  } else if (rule.kind == FeelKind::kBox) {
+  } else if (rule.kind == FeelRule::Kind::kBox) {
     choice.object = boxed_.see(frame);
     choice.state = boxed_.state();
-  } else if (rule.kind == FeelKind::kObjectAt && !seen_from_begin_) {
-    choice.state = ChoiceState::kNotSeen;
-  } else if (rule.kind == FeelKind::kObjectAt) {
+  } else if (rule.kind == FeelRule::Kind::kObjectAt && !seen_from_begin_) {
+    choice.state = Chosen::State::kNotSeen;
+  } else if (rule.kind == FeelRule::Kind::kObjectAt) {
     choice.object = ruled_.see(frame.objects, frame.height, frame.interval_s, frame.background);
     missed_ |= ruled_.state() == FollowedObject::State::kWaiting;
     if (ruled_.state() == FollowedObject::State::kLost) {
-      choice.state = ChoiceState::kLost;
+      choice.state = Chosen::State::kLost;
     } else if (missed_) {
-      choice.state = ChoiceState::kNotThere;
+      choice.state = Chosen::State::kNotThere;
     }
   }
 }
 
 /// False when no click counts, or not yet.
-bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
+bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {
     followed_click_ = kept_.click;
@@ -248,12 +248,12 @@ bool ObjectChoice::follow_click(const ChoiceFrame& frame, Chosen& choice) {
   if (state == FollowedObject::State::kLooking) return false;
   choice.is_kept = true;
   choice.object = object;
-  if (state == FollowedObject::State::kWaiting) choice.state = ChoiceState::kNotThere;
-  if (state == FollowedObject::State::kLost) choice.state = ChoiceState::kLost;
+  if (state == FollowedObject::State::kWaiting) choice.state = Chosen::State::kNotThere;
+  if (state == FollowedObject::State::kLost) choice.state = Chosen::State::kLost;
   return true;
 }
 
-Chosen ObjectChoice::choose(const ChoiceFrame& frame) {
+Chosen ObjectChoice::choose(const ChoiceInput& frame) {
   if (frame.is_cut) {
     ruled_.cut();
     boxed_.cut();

@@ -20,7 +20,7 @@ namespace spidar {
 
 /// What a choice needs of a frame. Places of rules and clicks are those of the picture as it is
 /// shown.
-struct ChoiceFrame {
+struct ChoiceInput {
   const std::vector<MovingObject>& objects;
   const Background* background;         ///< null when it is not known
   int width, height;                    ///< px
@@ -51,13 +51,13 @@ class BoxedObject {
   void begin(const char* name);
 
   /// Takes the next frame. The object, as it is in `frame`; null when none is known.
-  const MovingObject* see(const ChoiceFrame& frame);
+  const MovingObject* see(const ChoiceInput& frame);
 
   /// All objects have other ids.
   void cut() { id_ = 0; }
 
   /// kNoBox or kBoxAtRest, where for kPatience_s no box was around an object; else kGood.
-  ChoiceState state() const;
+  Chosen::State state() const;
 
   /// How long an object is kept without a box: a detector that looks at every tenth frame of 25 a
   /// second, as they do on slow machines, may miss it once.
@@ -70,7 +70,7 @@ class BoxedObject {
   static constexpr double kOverlap = 0.5;
 
  private:
-  const MovingObject* at_box(const PictureBox& box, const ChoiceFrame& frame) const;
+  const MovingObject* at_box(const PictureBox& box, const ChoiceInput& frame) const;
 
   const char* name_ = "";
   uint32_t id_ = 0;  ///< of the object; 0: none
@@ -144,7 +144,7 @@ class ObjectChoice {
   void set_kept(const KeptObject& kept);
 
   /// The result points into `frame`.
-  Chosen choose(const ChoiceFrame& frame);
+  Chosen choose(const ChoiceInput& frame);
 
   /// Objects are others now: after a seek.
   void reset();
@@ -157,13 +157,13 @@ class ObjectChoice {
   static constexpr double kHold_s = 0.2;
 
  private:
-  void by_rule(const FeelRule& rule, const ChoiceFrame& frame, Chosen& choice);
-  const MovingObject* best(const FeelRule& rule, const ChoiceFrame& frame);
-  bool follow_click(const ChoiceFrame& frame, Chosen& choice);
+  void by_rule(const FeelRule& rule, const ChoiceInput& frame, Chosen& choice);
+  const MovingObject* best(const FeelRule& rule, const ChoiceInput& frame);
+  bool follow_click(const ChoiceInput& frame, Chosen& choice);
 
   std::shared_ptr<const FeelRules> rules_;
   const FeelRule* rule_ = nullptr;  ///< of the frame before
-  bool seen_from_begin_ = false;    ///< the rule, see ChoiceState::kNotSeen
+  bool seen_from_begin_ = false;    ///< the rule, see Chosen::State::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< nothing was at the position of `ruled_`
   BoxedObject boxed_;

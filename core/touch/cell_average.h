@@ -11,7 +11,7 @@
 
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// The samples of a line that contribute to each cell, with weights that add up to 1. With at least
 /// as many samples as cells, the weights average over the cell and count samples on its border in
@@ -159,4 +159,4 @@ class CellAverage {
   float weight_[kColumns] = {};
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -7,7 +7,7 @@
 
 #include "core/require.h"
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 /// Slope of the texture at the position of the grip, not of the proxy, which friction can hold
@@ -128,4 +128,4 @@ Eigen::Vector3d ContactForce::wanted_N(const HeightField* texture, const Contact
   return force_N;
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -10,7 +10,7 @@
 #include "core/touch/energy_budget.h"
 #include "core/touch/proxy.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// docs/strings.md explains why these values are stable.
 struct ContactSettings {
@@ -68,7 +68,7 @@ class ContactForce {
 
   /// Velocity of the grip after the low-pass.
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }
-  const TouchProxy& proxy() const noexcept { return proxy_; }
+  const Proxy& proxy() const noexcept { return proxy_; }
   /// Discards all state, for example after the pose was lost.
   void reset() noexcept { *this = {}; }
 
@@ -79,7 +79,7 @@ class ContactForce {
   void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                      const Eigen::Vector3d& grip_m) noexcept;
 
-  TouchProxy proxy_;
+  Proxy proxy_;
   EnergyBudget budget_;
   bool started_ = false;
   double before_s_ = 0;  ///< dt_s of the last tick
@@ -87,4 +87,4 @@ class ContactForce {
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

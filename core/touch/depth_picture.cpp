@@ -10,7 +10,7 @@
 
 #include "core/require.h"
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 constexpr int kMostSample = 65535;
@@ -185,4 +185,4 @@ void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
   has_range_ = true;
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

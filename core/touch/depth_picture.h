@@ -11,7 +11,7 @@
 #include "core/touch/cell_average.h"
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// A depth image: `height` rows of `width` samples of one or two bytes, rows `stride_bytes` apart.
 /// Does not own the memory.
@@ -108,4 +108,4 @@ class DepthPicture {
   bool has_range_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 Eigen::Vector3d bounded(const Eigen::Vector3d& vector, double most) noexcept {
@@ -80,4 +80,4 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   force_N_ = own_N + behind_N * fading;
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

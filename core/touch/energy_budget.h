@@ -9,7 +9,7 @@
 
 #include "core/history.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// Properties of the path from a requested force to the motion of the grip.
 struct ForcePath {
@@ -79,4 +79,4 @@ class EnergyBudget {
   Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  ///< in the tick before
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

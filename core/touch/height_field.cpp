@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 constexpr int kTaps = 4;
@@ -107,4 +107,4 @@ std::string HeightField::shading() const {
   return shading;
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace spidar {
+namespace spidar::touch {
 
 /// Height and slope of a surface at one position.
 struct SurfacePoint {
@@ -70,4 +70,4 @@ class HeightField {
   std::vector<float> z_m_;  ///< rows of kColumns
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -7,7 +7,7 @@
 
 #include "core/touch/relief.h"
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 /// Largest slope of a relief in any direction: kMaxSlope along both axes.
@@ -21,8 +21,8 @@ constexpr int kMostHalvings = 3;
 
 }  // namespace
 
-void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
-                      const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+void Proxy::move(const MovingRelief& surface, const Friction& friction,
+                 const Eigen::Vector3d& grip_m, double dt_s) noexcept {
   if (!grip_m.allFinite()) {
     reset();
     return;
@@ -42,7 +42,7 @@ void TouchProxy::move(const MovingRelief& surface, const Friction& friction,
 
 /// Reduces the shift of the surface. It falls faster than it rises because falling gives no energy
 /// to the hand.
-double TouchProxy::settled_m(double dt_s) noexcept {
+double Proxy::settled_m(double dt_s) noexcept {
   if (shift_m_ >= 0) {
     rise_m_s_ = 0;
     return std::max(0.0, shift_m_ - kFastest_m_s * dt_s);
@@ -52,8 +52,8 @@ double TouchProxy::settled_m(double dt_s) noexcept {
 }
 
 /// Moves the proxy with the surface, at most at kFastest_m_s.
-void TouchProxy::carry(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
-                       double dt_s) noexcept {
+void Proxy::carry(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
+                  double dt_s) noexcept {
   const SurfacePoint at = surface.at(position_m_.head<2>());
   const double rise_m = at.z_m + shift_m - position_m_.z();
   const double most_m = kFastest_m_s * dt_s;
@@ -66,8 +66,8 @@ void TouchProxy::carry(const MovingRelief& surface, double shift_m, const Eigen:
 
 /// Starts contact if the grip is below the surface. Depth that the grip's motion since the last
 /// tick does not explain counts as a jump of the surface.
-void TouchProxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
-                       double dt_s) noexcept {
+void Proxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
+                  double dt_s) noexcept {
   const SurfacePoint at = surface.at(grip_m.head<2>());
   const double depth_m = at.z_m + shift_m - grip_m.z();
   shift_m_ = shift_m;
@@ -85,8 +85,8 @@ void TouchProxy::enter(const MovingRelief& surface, double shift_m, const Eigen:
   normal_ = at.normal();
 }
 
-void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
-                      const Eigen::Vector3d& grip_m) noexcept {
+void Proxy::walk(const MovingRelief& surface, const Friction& friction,
+                 const Eigen::Vector3d& grip_m) noexcept {
   const double longest_m = 0.5 * surface.cell_m();
   for (int n = 0; n < kMostSteps; ++n) {
     const Eigen::Vector3d to_grip_m = grip_m - position_m_;
@@ -113,8 +113,8 @@ void TouchProxy::walk(const MovingRelief& surface, const Friction& friction,
 
 /// Moves by `way_m`, or a fraction of it, along the tangent plane and back onto the surface.
 /// Returns false if no such step ends closer to the grip.
-bool TouchProxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
-                      const Eigen::Vector3d& grip_m) noexcept {
+bool Proxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
+                 const Eigen::Vector3d& grip_m) noexcept {
   const double now_m2 = (position_m_ - grip_m).squaredNorm();
   double fraction = 1;
   for (int n = 0; n <= kMostHalvings; ++n, fraction *= 0.5) {
@@ -130,10 +130,10 @@ bool TouchProxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
   return false;
 }
 
-void TouchProxy::leave(const Eigen::Vector3d& grip_m) noexcept {
+void Proxy::leave(const Eigen::Vector3d& grip_m) noexcept {
   touching_ = false;
   sliding_ = false;
   position_m_ = grip_m;
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

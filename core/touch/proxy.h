@@ -9,7 +9,7 @@
 
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// Interpolates between two reliefs with fraction s and displacement u: h(p) = (1 − s) before(p − s
 /// u)
@@ -55,7 +55,7 @@ constexpr Friction friction_of(double fixed) {
 /// A surface can jump because of a cut, because playback starts with the grip below it, or because
 /// it moves faster than kFastest_m_s. It is then shifted to the grip and moves to its true height
 /// at kRise_m_s, so cuts need not be signalled.
-class TouchProxy {
+class Proxy {
  public:
   static constexpr double kFastest_m_s = 0.2;  ///< of a surface in contact
   static constexpr double kRise_m_s = 0.04;
@@ -107,4 +107,4 @@ class TouchProxy {
   Eigen::Vector3d last_grip_m_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

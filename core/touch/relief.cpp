@@ -10,7 +10,7 @@
 #include "core/picture/luma.h"
 #include "core/require.h"
 
-namespace spidar {
+namespace spidar::touch {
 namespace {
 
 constexpr int kColumns = HeightField::kColumns;
@@ -200,4 +200,4 @@ void ReliefBuilder::fine_detail(const ReliefSettings& settings, HeightField& fie
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -10,7 +10,7 @@
 #include "core/touch/cell_average.h"
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 struct ReliefSettings {
   double floor_z_m = 0;       ///< z of black or far; finite
@@ -65,4 +65,4 @@ class ReliefBuilder {
   std::vector<float> passed_;    ///< after the pass along the rows
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

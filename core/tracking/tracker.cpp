@@ -163,7 +163,7 @@ struct OpenCvTracker::Impl {
   uint32_t next_id = 0;
   size_t selected = 0;  // points after the last selection
   int frames_since_selection = 0;
-  TrackedFrame result;
+  OpenCvTracker::Result result;
 
   void track(const ImageView& frame, bool may_wait);
   bool follow();
@@ -277,7 +277,7 @@ OpenCvTracker::OpenCvTracker(const TrackerSettings& settings) : impl_(std::make_
 
 OpenCvTracker::~OpenCvTracker() = default;
 
-const TrackedFrame& OpenCvTracker::track(const ImageView& frame, bool may_wait) {
+const OpenCvTracker::Result& OpenCvTracker::track(const ImageView& frame, bool may_wait) {
   require_usable(frame);
   run_on_this_thread([&] { impl_->track(frame, may_wait); });
   return impl_->result;

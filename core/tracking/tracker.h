@@ -41,19 +41,20 @@ struct FollowedPoint {
   ImagePoint to;
 };
 
-struct TrackedFrame {
-  std::vector<FollowedPoint> points;  ///< points found in both frames; empty with kFirst
-  int features = 0;                   ///< points to search in the next frame
-  /// With kSame the next frame will be compared with the same picture as this one. Never kWaiting.
-  PictureKind picture = PictureKind::kFirst;
-};
-
 /// Follows points in a picture reduced to about 480 px, and builds one pyramid per frame, which is
 /// reused for the next frame. Drops points that leave the picture, are not found, fail the
 /// forward–backward check, or look different. Selects new points when few are left and every few
 /// frames, so that objects that enter are found.
 class OpenCvTracker {
  public:
+  struct Result {
+    std::vector<FollowedPoint> points;  ///< points found in both frames; empty with kFirst
+    int features = 0;                   ///< points to search in the next frame
+    /// With kSame the next frame will be compared with the same picture as this one. Never
+    /// kWaiting.
+    PictureKind picture = PictureKind::kFirst;
+  };
+
   /// Throws as validate() does.
   explicit OpenCvTracker(const TrackerSettings& settings = {});
   ~OpenCvTracker();
@@ -63,7 +64,7 @@ class OpenCvTracker {
   /// points are at rest. With `may_wait`, one that is equal within the noise of coding counts as
   /// kSame, too, and points stay those of the frame before. The result is valid until the next
   /// call. Throws as require_usable() does.
-  const TrackedFrame& track(const ImageView& frame, bool may_wait = false);
+  const Result& track(const ImageView& frame, bool may_wait = false);
 
   /// Discards the previous frame, so that the next one starts anew without motion.
   void reset();

@@ -68,14 +68,14 @@ constexpr double kPress_m = 0.008;
 constexpr double kStroke = 0.8;  ///< of the picture's width
 
 /// The picture's relief, as touch=luma makes it, or that of its depth, as touch=depth does.
-void publish(const ImageView& picture, bool is_depth, TouchMailbox& mailbox) {
-  TouchFrame& frame = *mailbox.begin(mailbox.generation());
-  ReliefSettings settings;
+void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
+  touch::Frame& frame = *mailbox.begin(mailbox.generation());
+  touch::ReliefSettings settings;
   settings.floor_z_m = -0.5 * settings.relief_m;
-  ReliefBuilder builder;
+  touch::ReliefBuilder builder;
   if (is_depth) {
-    DepthPicture depth;
-    const DepthView view{picture.data, picture.width, picture.height, picture.stride_bytes};
+    touch::DepthPicture depth;
+    const touch::DepthView view{picture.data, picture.width, picture.height, picture.stride_bytes};
     if (!depth.read(view, {true}, 0) ||
         !builder.from_levels(depth.levels(), settings, frame.relief)) {
       throw std::runtime_error("the picture is black: it has no depth");
@@ -99,12 +99,12 @@ Eigen::Vector3d hand_m(int tick, double half_width_m) {
   return {side_m * (2 * across - 1), 0, -kPress_m};
 }
 
-std::string relief_csv(const HeightField& relief) {
+std::string relief_csv(const touch::HeightField& relief) {
   std::ostringstream out;
   out << "x_mm,y_mm,z_mm\n";
   constexpr int kEvery = 2;
-  for (int y = 0; y < HeightField::kRows; y += kEvery) {
-    for (int x = 0; x < HeightField::kColumns; x += kEvery) {
+  for (int y = 0; y < touch::HeightField::kRows; y += kEvery) {
+    for (int x = 0; x < touch::HeightField::kColumns; x += kEvery) {
       out << 1e3 * relief.x_m(x) << ',' << 1e3 * relief.y_m(y) << ','
           << 1e3 * static_cast<double>(relief.row(y)[x]) << '\n';
     }
@@ -126,7 +126,7 @@ struct Felt {
   std::string csv;  ///< a line for each tick
 };
 
-Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m) {
+Felt stroke(touch::Mailbox& mailbox, const Profile& profile, double half_width_m) {
   std::ostringstream out;
   out << "time_s,grip_x_mm,grip_y_mm,grip_z_mm,surface_z_mm,force_x_N,force_y_N,force_z_N\n";
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
@@ -135,7 +135,7 @@ Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m) 
   loop->open();
   int64_t now_ns = kTick_ns;
   loop->set_playback_clock({now_ns, 0, 1.0, true});
-  const HeightField& relief = mailbox.front()->relief;
+  const touch::HeightField& relief = mailbox.front()->relief;
   Felt felt;
   for (int tick = 0; tick < 2 * kApproach_ticks + kStroke_ticks; ++tick) {
     Pose hand;
@@ -144,7 +144,7 @@ Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m) 
     now_ns += kTick_ns;
     loop->tick(now_ns, now_ns);
     const FeltState now = device.felt();
-    const Contact& contact = loop->snapshot().last.contact;
+    const touch::Contact& contact = loop->snapshot().last.contact;
     felt.touching += contact.touching;
     felt.deepest_m = std::max(felt.deepest_m, contact.depth_m);
     felt.largest_N = std::max(felt.largest_N, now.wrench.force_N.norm());
@@ -159,7 +159,7 @@ Felt stroke(TouchMailbox& mailbox, const Profile& profile, double half_width_m) 
   return felt;
 }
 
-void touch(const std::string& image, bool is_depth, const fs::path& folder) {
+void write_touch(const std::string& image, bool is_depth, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error("--output " + folder.string() + ": " + error.message());
@@ -167,7 +167,7 @@ void touch(const std::string& image, bool is_depth, const fs::path& folder) {
 
   const Profile profile = load_profile(kDefaultProfile);
   const Eigen::Vector2d half_m = GripPointer(profile.geometry).half_size_m();
-  TouchMailbox mailbox(2 * half_m.x(), 2 * half_m.y(), TouchMailbox::kLeastSlots);
+  touch::Mailbox mailbox(2 * half_m.x(), 2 * half_m.y(), touch::Mailbox::kLeastSlots);
   publish(picture.view(), is_depth, mailbox);
   const fs::path png = folder / "touch.png";
   const std::string relief = relief_csv(mailbox.front()->relief);
@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     gst_init(nullptr, nullptr);
-    touch(image, is_depth, folder);
+    write_touch(image, is_depth, folder);
     return spidar::tools::status_after_printing("touch", 0);
   } catch (const CLI::ParseError& error) {
     return spidar::tools::status_after_printing("touch", app.exit(error) == 0 ? 0 : kMistake);

@@ -321,7 +321,7 @@ int main(int argc, char** argv) {
   }
   find_plugins();
   check(options.properties);
-  if (!options.program) return spidar::follow_player(options.followed, options.properties);
+  if (!options.program) return spidar::follow::run(options.followed, options.properties);
   set_environment(options.properties);
   if (is_film(options.program[0])) run_films(options.program);
   warn_of_nothing_felt(options);

@@ -50,15 +50,15 @@ constexpr FaultWords kFaultWords[] = {
      "Half of the frame is picture and half is depth. Larger frames are felt; with touch=off or "
      "luma, the whole frame is picture."},
 };
-static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameFault::kSmallHalf) + 1);
+static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameReport::Fault::kSmallHalf) + 1);
 
-const FaultWords& words_for(FrameFault fault) {
+const FaultWords& words_for(FrameReport::Fault fault) {
   return kFaultWords[static_cast<size_t>(fault)];
 }
 
 }  // namespace
 
-const char* words_of(FrameFault fault) {
+const char* words_of(FrameReport::Fault fault) {
   return words_for(fault).why;
 }
 
@@ -103,7 +103,7 @@ void BusWarnings::check_frame(const FrameReport& report) {
 
 void BusWarnings::check_touch(const HapticOutput& output, const FrameReport& report,
                               const TouchProperties& wanted) {
-  if (wanted.kind == TouchKind::kOff || !report.has_wrench()) return;
+  if (wanted.kind == TouchProperties::Kind::kOff || !report.has_wrench()) return;
   const HapticSession* const session = output.session();
   if (report.track) {
     if (std::exchange(touch_track_, true)) return;

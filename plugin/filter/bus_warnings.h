@@ -38,7 +38,7 @@ class BusWarnings {
 
  private:
   GstElement* const element_;
-  guint frame_faults_ = 0;  ///< bit i: FrameFault i was reported
+  guint frame_faults_ = 0;  ///< bit i: FrameReport::Fault i was reported
   // Reported:
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
   bool trace_ = false;
@@ -46,6 +46,6 @@ class BusWarnings {
 };
 
 /// Why a frame is not analysed, for the log.
-const char* words_of(FrameFault fault);
+const char* words_of(FrameReport::Fault fault);
 
 }  // namespace spidar::filter

@@ -116,7 +116,7 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
   const std::optional<FrameStamp> stamp =
       stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch_);
   if (!stamp) {
-    report.fault = FrameFault::kNotShown;
+    report.fault = FrameReport::Fault::kNotShown;
     return;
   }
   if (!is_in_time(*stamp)) return pass_untimed();
@@ -140,7 +140,7 @@ void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment)
 
 /// A frame that cannot be rendered in time.
 void MotionState::pass_untimed() {
-  report.fault = FrameFault::kNoTimestamp;
+  report.fault = FrameReport::Fault::kNoTimestamp;
   live.reset();
 }
 

@@ -78,7 +78,7 @@ struct MotionState {
   ReliefStream reliefs;
   HapticOutput output;
   MotionStats stats;
-  TrackLoader loader;
+  tracks::Loader loader;
   MotionChoice choice;
   MotionDisplay display;
   StepWatch steps;  ///< state changes
@@ -90,7 +90,7 @@ struct MotionState {
   TrackSource track{output, track_samples, schedule, no_force, reliefs};
   FrameTrace trace;
   FrameReport report;  ///< of the newest frame
-  FeltTrack felt;
+  tracks::FeltTrack felt;
   BusWarnings warnings;
 
  private:

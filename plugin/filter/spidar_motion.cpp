@@ -179,14 +179,16 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
      }},
     {"touch",
      [](auto* self, auto* value) {
-       const bool off = g_value_get_enum(value) == static_cast<int>(spidar::TouchKind::kOff);
+       const bool off =
+           g_value_get_enum(value) == static_cast<int>(spidar::TouchProperties::Kind::kOff);
        if (off) self->state->reliefs.clear();
      }},
     {"max-force",
      [](auto* self, auto* value) { self->state->output.set_max_force(g_value_get_double(value)); }},
     {"overlay",
      [](auto* self, auto* value) {
-       const bool draws = g_value_get_enum(value) != static_cast<int>(spidar::OverlayKind::kNone);
+       const bool draws =
+           g_value_get_enum(value) != static_cast<int>(spidar::DisplayProperties::Overlay::kNone);
        gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), !draws);
      }},
 };

@@ -17,7 +17,7 @@
 #define GST_CAT_DEFAULT gst_spidar_motion_debug
 
 using spidar::FrameReport;
-using spidar::PointerKind;
+using spidar::Pointer;
 using spidar::filter::MotionState;
 
 static GstBaseTransformClass* parent_class() {
@@ -55,7 +55,7 @@ static void begin_to_load_track(GstSpidarMotion* self) {
 }
 
 static void take_track(MotionState& state, const GstVideoInfo& info) {
-  if (const std::optional<spidar::LoadedTrack> loaded = state.loader.take()) {
+  if (const std::optional<spidar::tracks::LoadedTrack> loaded = state.loader.take()) {
     const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
     std::shared_ptr<spidar::ReadAhead> blocks = state.felt.judge(*loaded, frame_ns);
     // The wrenches of frames that came before it stay: some of them may be the end of another film.
@@ -67,7 +67,7 @@ static void take_track(MotionState& state, const GstVideoInfo& info) {
 /// With pointer and choice of this moment.
 static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   spidar::FrameSettings& settings = state.frame_settings;
-  if (settings.pointer == PointerKind::kGrip) {
+  if (settings.pointer == Pointer::Kind::kGrip) {
     settings.analyzer.pointer =
         spidar::filter::grip_position(state.output).value_or(settings.analyzer.pointer);
     state.warnings.check_pointer(state.output.session());
@@ -228,7 +228,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
 static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
   MotionState& state = *self->state;
   GST_OBJECT_LOCK(self);
-  const bool points = state.settings.pointer == PointerKind::kMouse;
+  const bool points = state.settings.pointer == Pointer::Kind::kMouse;
   GST_OBJECT_UNLOCK(self);
   if (!points) return;
   const auto mouse = spidar::filter::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));

@@ -15,7 +15,7 @@
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::follow {
 namespace {
 
 class Follower {
@@ -74,21 +74,21 @@ class Follower {
     state_ = {};
     position_ns_ = 0;
     filter_ = PositionFilter();
-    player_ = std::make_unique<MprisPlayer>(
+    player_ = std::make_unique<Player>(
         bus_, found,
-        MprisPlayer::Told{[this](const PlayerState& state) { take_state(state); },
-                          [this](int64_t now_ns, int64_t position_ns) {
-                            filter_.tell(now_ns, position_ns);
-                            take_position(now_ns, position_ns);
-                          },
-                          [this](int64_t now_ns, int64_t position_ns) {
-                            filter_.tell_jump(now_ns, position_ns);
-                            take_position(now_ns, position_ns);
-                          },
-                          [this] {
-                            if (film_) film_->rest(position_ns_);
-                            is_gone_ = true;
-                          }});
+        Player::Told{[this](const PlayerState& state) { take_state(state); },
+                     [this](int64_t now_ns, int64_t position_ns) {
+                       filter_.tell(now_ns, position_ns);
+                       take_position(now_ns, position_ns);
+                     },
+                     [this](int64_t now_ns, int64_t position_ns) {
+                       filter_.tell_jump(now_ns, position_ns);
+                       take_position(now_ns, position_ns);
+                     },
+                     [this] {
+                       if (film_) film_->rest(position_ns_);
+                       is_gone_ = true;
+                     }});
   }
 
   /// Not in a callback of the player, which ends here.
@@ -161,7 +161,7 @@ class Follower {
   const std::vector<std::string> properties_;
   int64_t searched_ns_ = 0;
   bool has_said_that_it_waits_ = false;
-  std::unique_ptr<MprisPlayer> player_;
+  std::unique_ptr<Player> player_;
   bool is_gone_ = false;
   PlayerState state_;
   std::string uri_;
@@ -183,7 +183,7 @@ void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
 
 }  // namespace
 
-int follow_player(const std::string& name, const std::vector<std::string>& properties) {
+int run(const std::string& name, const std::vector<std::string>& properties) {
   GError* error = nullptr;
   const Ref<GDBusConnection> bus(g_bus_get_sync(G_BUS_TYPE_SESSION, nullptr, &error));
   if (!bus) {
@@ -200,4 +200,4 @@ int follow_player(const std::string& name, const std::vector<std::string>& prope
   return 0;
 }
 
-}  // namespace spidar
+}  // namespace spidar::follow

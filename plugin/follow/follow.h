@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-namespace spidar {
+namespace spidar::follow {
 
 /// Feels what a player plays that does not use GStreamer, until it is interrupted. `name` is that
 /// of a player in MPRIS, "vlc"; empty: the one that plays. `properties` are of spidarmotion,
 /// NAME=VALUE. Returns the exit status.
-int follow_player(const std::string& name, const std::vector<std::string>& properties);
+int run(const std::string& name, const std::vector<std::string>& properties);
 
-}  // namespace spidar
+}  // namespace spidar::follow

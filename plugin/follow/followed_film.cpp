@@ -17,7 +17,7 @@
 #include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::follow {
 namespace {
 
 /// A larger error is not corrected little by little: at 2 % of the time that would take seconds.
@@ -38,8 +38,8 @@ struct FilmTrack {
 FilmTrack track_of(const std::string& path, const Film& film) {
   const std::string beside = find_sidecar(path);
   if (beside.empty()) return {film.has_track ? path : "", 0};
-  const std::unique_ptr<OpenTrack> track = open_track(beside);
-  const int64_t end_ns = track->duration_ns() ? *track->duration_ns() : find_end(*track);
+  const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(beside);
+  const int64_t end_ns = track->duration_ns() ? *track->duration_ns() : tracks::find_end(*track);
   const FilmMatch match = match_film(film, end_ns, track->notes());
   if (!match.mismatch.empty()) throw std::runtime_error(beside + ": " + match.mismatch);
   return {beside, match.later_ns};
@@ -284,4 +284,4 @@ void FollowedFilm::rest(int64_t position_ns) {
   if (ready_ && std::abs(position_ns - paused_at_ns_) > kNear_ns) seek(position_ns, rate_);
 }
 
-}  // namespace spidar
+}  // namespace spidar::follow

@@ -11,7 +11,7 @@
 #include <glib.h>
 #include <gst/gst.h>
 
-namespace spidar {
+namespace spidar::follow {
 
 /// What is said to people.
 inline void tell(const std::string& text) {
@@ -68,4 +68,4 @@ class FollowedFilm {
   int64_t seek_began_ns_ = 0, seek_took_ns_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::follow

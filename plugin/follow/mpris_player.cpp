@@ -7,7 +7,7 @@
 
 #include "spidar/realtime/monotonic.h"
 
-namespace spidar {
+namespace spidar::follow {
 namespace {
 
 constexpr const char* kPrefix = "org.mpris.MediaPlayer2.";
@@ -119,7 +119,7 @@ std::optional<PlayerState> ask_state(GDBusConnection* bus, const std::string& bu
           .get());
 }
 
-MprisPlayer::MprisPlayer(GDBusConnection* bus, const std::string& bus_name, Told told)
+Player::Player(GDBusConnection* bus, const std::string& bus_name, Told told)
     : bus_(bus), bus_name_(bus_name), told_(std::move(told)), ended_(g_cancellable_new()) {
   const auto subscribe = [this](const char* sender, const char* interface, const char* signal,
                                 const char* path, const char* argument, GDBusSignalCallback take) {
@@ -134,44 +134,44 @@ MprisPlayer::MprisPlayer(GDBusConnection* bus, const std::string& bus_name, Told
   ask_state_now();
 }
 
-MprisPlayer::~MprisPlayer() {
+Player::~Player() {
   g_source_remove(timer_);
   for (const guint signal : signals_) g_dbus_connection_signal_unsubscribe(bus_, signal);
   g_cancellable_cancel(ended_);
   g_object_unref(ended_);
 }
 
-int64_t MprisPlayer::silent_ns() const {
+int64_t Player::silent_ns() const {
   return asked_ns_ == 0 ? 0 : monotonic_now_ns() - asked_ns_;
 }
 
-gboolean MprisPlayer::poll(gpointer user) {
-  auto& self = *static_cast<MprisPlayer*>(user);
+gboolean Player::poll(gpointer user) {
+  auto& self = *static_cast<Player*>(user);
   if (self.asked_ns_ == 0) self.ask_position();
   if (monotonic_now_ns() - self.state_asked_ns_ > kAskState_ns) self.ask_state_now();
   return G_SOURCE_CONTINUE;
 }
 
-void MprisPlayer::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
+void Player::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
   g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kProperties, method, parameters, nullptr,
                          G_DBUS_CALL_FLAGS_NO_AUTO_START, -1, ended_, take, this);
 }
 
-void MprisPlayer::ask_position() {
+void Player::ask_position() {
   asked_ns_ = monotonic_now_ns();
   ask("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
 }
 
-void MprisPlayer::ask_state_now() {
+void Player::ask_state_now() {
   state_asked_ns_ = monotonic_now_ns();
   ask("GetAll", all_of_player(), take_state);
 }
 
 /// A player that reads its position and then answers is late, never early.
-void MprisPlayer::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
+void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
-  auto& self = *static_cast<MprisPlayer*>(user);
+  auto& self = *static_cast<Player*>(user);
   self.asked_ns_ = 0;
   // It ended before its end was listened for.
   if (answer.is_gone) return self.told_.gone();
@@ -185,17 +185,17 @@ void MprisPlayer::take_position(GObject* bus, GAsyncResult* result, gpointer use
   }
 }
 
-void MprisPlayer::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
+void Player::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   if (const auto state = state_in(answer.reply.get())) {
-    static_cast<MprisPlayer*>(user)->told_.state(*state);
+    static_cast<Player*>(user)->told_.state(*state);
   }
 }
 
-void MprisPlayer::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
-                              const gchar* name, GVariant* parameters, gpointer user) {
-  auto& self = *static_cast<MprisPlayer*>(user);
+void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                         const gchar* name, GVariant* parameters, gpointer user) {
+  auto& self = *static_cast<Player*>(user);
   if (!g_str_equal(name, "Seeked")) {
     self.ask_state_now();  // what changed is only a part
   } else if (g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
@@ -205,11 +205,11 @@ void MprisPlayer::take_signal(GDBusConnection*, const gchar*, const gchar*, cons
   }
 }
 
-void MprisPlayer::take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*,
-                             const gchar*, GVariant* parameters, gpointer user) {
+void Player::take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
+                        GVariant* parameters, gpointer user) {
   const gchar* owner = nullptr;
   g_variant_get(parameters, "(&s&s&s)", nullptr, nullptr, &owner);
-  if (*owner == '\0') static_cast<MprisPlayer*>(user)->told_.gone();
+  if (*owner == '\0') static_cast<Player*>(user)->told_.gone();
 }
 
-}  // namespace spidar
+}  // namespace spidar::follow

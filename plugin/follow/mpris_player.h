@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace spidar {
+namespace spidar::follow {
 
 struct PlayerState {
   enum class Status { kStopped, kPaused, kPlaying };
@@ -30,17 +30,17 @@ std::vector<std::string> list_players(GDBusConnection* bus, const std::string& n
 std::optional<PlayerState> ask_state(GDBusConnection* bus, const std::string& bus_name);
 
 /// Follows one. All callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
-class MprisPlayer {
+class Player {
  public:
   struct Told {
     std::function<void(const PlayerState&)> state;
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
     std::function<void()> gone;
   };
-  MprisPlayer(GDBusConnection* bus, const std::string& bus_name, Told told);
-  ~MprisPlayer();
-  MprisPlayer(const MprisPlayer&) = delete;
-  MprisPlayer& operator=(const MprisPlayer&) = delete;
+  Player(GDBusConnection* bus, const std::string& bus_name, Told told);
+  ~Player();
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
 
   const std::string& bus_name() const { return bus_name_; }
   /// For how long a question has waited for its answer.
@@ -72,4 +72,4 @@ class MprisPlayer {
   int64_t state_asked_ns_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::follow

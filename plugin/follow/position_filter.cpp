@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace spidar {
+namespace spidar::follow {
 
 int64_t PositionFilter::begin_of(int64_t now_ns, int64_t position_ns) const {
   return now_ns - std::llround(static_cast<double>(position_ns) / rate_);
@@ -79,4 +79,4 @@ int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settlin
   return std::llround(std::clamp(wanted, -most * passed, most * passed));
 }
 
-}  // namespace spidar
+}  // namespace spidar::follow

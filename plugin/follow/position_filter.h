@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace spidar {
+namespace spidar::follow {
 
 /// A player cannot tell a position before it has reached it, but may tell it late: mpv tells 24
 /// positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114 ms
@@ -55,4 +55,4 @@ class PositionFilter {
 /// half of it, because little was felt yet of what it is to fit.
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 
-}  // namespace spidar
+}  // namespace spidar::follow

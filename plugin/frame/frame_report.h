@@ -20,17 +20,6 @@
 
 namespace spidar {
 
-enum class FrameFault {
-  kNone,
-  kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be rendered in time
-  kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
-  kFallingTimestamp,  ///< before the frame before
-  kTooSmall,          ///< less memory than the picture needs
-  kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
-  kWrongSize,         ///< more or less than FrameLuma takes
-  kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
-};
-
 /// The scene that a frame belongs to.
 struct FilmScene {
   std::shared_ptr<const std::string> path;  ///< of the film; null or empty: it is from no file
@@ -59,7 +48,18 @@ struct OwnedPoint {
 /// The steps of the element fill it in, one after the other; message, metas, trace, overlay and
 /// window read it.
 struct FrameReport {
-  FrameFault fault = FrameFault::kNone;
+  enum class Fault {
+    kNone,
+    kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be rendered in time
+    kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
+    kFallingTimestamp,  ///< before the frame before
+    kTooSmall,          ///< less memory than the picture needs
+    kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
+    kWrongSize,         ///< more or less than FrameLuma takes
+    kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
+  };
+
+  Fault fault = Fault::kNone;
   bool analyzed = false;
   /// The file of the haptic track that is played; null: none. Then nothing of the frame is
   /// measured.

@@ -24,10 +24,10 @@ constexpr int64_t kGripLost_ns = 100'000'000;
 bool is_withheld(const Frame& frame) {
   const Chosen& choice = frame.choice;
   if (choice.is_free()) return false;
-  const bool is_one = choice.is_kept || choice.rule->kind == FeelKind::kObjectAt ||
-                      choice.rule->kind == FeelKind::kBox;
+  const bool is_one = choice.is_kept || choice.rule->kind == FeelRule::Kind::kObjectAt ||
+                      choice.rule->kind == FeelRule::Kind::kBox;
   if (is_one) return frame.felt_object == 0;
-  return choice.rule->kind == FeelKind::kNothing || choice.rule->gain == 0;
+  return choice.rule->kind == FeelRule::Kind::kNothing || choice.rule->gain == 0;
 }
 
 /// Whether an object in sight moves by more than its error. motion=mean knows no objects.
@@ -96,7 +96,7 @@ NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted) {
 NoForceReason reason_in_contact(const LoopSnapshot& loop, bool can_touch) {
   if (loop.unfelt_ns < NoForceHistory::kWindow_ns) return NoForceReason::kNone;
   if (!can_touch) return NoForceReason::kCannotTouch;
-  const Contact& contact = loop.last.contact;
+  const touch::Contact& contact = loop.last.contact;
   if (!contact.has_surface) return NoForceReason::kNoRelief;
   return contact.touching ? NoForceReason::kLightTouch : NoForceReason::kNotTouching;
 }

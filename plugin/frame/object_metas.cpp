@@ -152,11 +152,11 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width
 }
 
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
-                                             std::optional<DepthLayout> packed,
+                                             std::optional<touch::DepthLayout> packed,
                                              const Orientation& turn) {
   std::vector<ObjectBox> found = read_object_metas(frame.buffer);
   VisiblePart part = visible_part(frame);
-  if (packed) (*packed == DepthLayout::kRight ? part.width : part.height) /= 2;
+  if (packed) (*packed == touch::DepthLayout::kRight ? part.width : part.height) /= 2;
   if (found.empty() || part.width <= 0 || part.height <= 0) return nullptr;
   const auto position = [&](double x_px, double y_px) {
     return turn.displayed_position({(x_px - part.x) / part.width, (y_px - part.y) / part.height});

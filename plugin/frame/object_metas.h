@@ -37,7 +37,7 @@ void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width
 
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
-                                             std::optional<DepthLayout> packed,
+                                             std::optional<touch::DepthLayout> packed,
                                              const Orientation& turn);
 
 }  // namespace spidar

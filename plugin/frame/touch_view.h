@@ -56,7 +56,7 @@ struct TouchScene {
   TouchMap map;
   double stiffness_N_m = 0;    ///< rendered stiffness
   double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
-  /// HeightField::shading() of the picture as it is shown; empty: nobody looks at it.
+  /// touch::HeightField::shading() of the picture as it is shown; empty: nobody looks at it.
   std::string shading = {};
 };
 

@@ -72,7 +72,7 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
     gst_value_array_append_and_take_value(&tensions, &tension);
   }
   gst_structure_take_value(structure, "tensions", &tensions);
-  const Contact& contact = snapshot.last.contact;
+  const touch::Contact& contact = snapshot.last.contact;
   gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
                     "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
                     G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-fraction",

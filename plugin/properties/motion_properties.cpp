@@ -156,15 +156,16 @@ std::vector<MotionRow> analysis_rows() {
 /// How motion and force are shown.
 std::vector<MotionRow> display_rows() {
   return {
-      MotionRow::choice<OverlayKind>(
+      MotionRow::choice<DisplayProperties::Overlay>(
           {"overlay", "Overlay",
            "What is drawn into the video. Frames that other elements hold are copied first"},
           "GstSpidarOverlay",
-          {{OverlayKind::kNone, "Nothing: frames are passed on as they are", "none"},
-           {OverlayKind::kForce, "The outlines of objects and the force that is felt", "force"},
-           {OverlayKind::kPoints, "Small arrows of the motion, too", "points"},
-           {OverlayKind::kCurve, "Outlines, the force, and its curve over the last five seconds",
-            "curve"}},
+          {{DisplayProperties::Overlay::kNone, "Nothing: frames are passed on as they are", "none"},
+           {DisplayProperties::Overlay::kForce,
+            "The outlines of objects and the force that is felt", "force"},
+           {DisplayProperties::Overlay::kPoints, "Small arrows of the motion, too", "points"},
+           {DisplayProperties::Overlay::kCurve,
+            "Outlines, the force, and its curve over the last five seconds", "curve"}},
           kPlaying, KEPT_IN(display.overlay)),
       MotionRow::number({"arrow-scale", "Arrow scale",
                          "Length of a point's arrow, as a multiple of its displacement since the "
@@ -190,16 +191,17 @@ constexpr double kMostTexture = 10;
 /// What is touched in the picture.
 std::vector<MotionRow> touch_rows() {
   return {
-      MotionRow::choice<TouchKind>(
+      MotionRow::choice<TouchProperties::Kind>(
           {"touch", "Touch", "Which surface the grip touches in the picture"}, "GstSpidarTouch",
-          {{TouchKind::kOff, "No surface: the motion of the film is felt", "off"},
-           {TouchKind::kLuma, "A relief of the frame's brightness: bright is near", "luma"},
-           {TouchKind::kDepth,
+          {{TouchProperties::Kind::kOff, "No surface: the motion of the film is felt", "off"},
+           {TouchProperties::Kind::kLuma, "A relief of the frame's brightness: bright is near",
+            "luma"},
+           {TouchProperties::Kind::kDepth,
             "A relief of the depth in the right half of the frame, of what the left half shows: "
             "bright is near",
             "depth"},
-           {TouchKind::kDepthBelow, "The same, with the depth in the lower half of the frame",
-            "depth-below"}},
+           {TouchProperties::Kind::kDepthBelow,
+            "The same, with the depth in the lower half of the frame", "depth-below"}},
           kControllable, KEPT_IN(touch.kind)),
       MotionRow::number(
           {"touch-relief", "Touch relief",
@@ -210,7 +212,7 @@ std::vector<MotionRow> touch_rows() {
           {"touch-stiffness", "Touch stiffness",
            "Stiffness of the surface, in newtons per metre. A device with slow or unmeasured "
            "drives gets less, with a warning"},
-          kLeastStiffness_N_m, ContactSettings::kMostStiffness_N_m, kControllable,
+          kLeastStiffness_N_m, touch::ContactSettings::kMostStiffness_N_m, kControllable,
           KEPT_IN(touch.stiffness_N_m)),
       MotionRow::number(
           {"touch-friction", "Touch friction",
@@ -290,7 +292,7 @@ const PropertyTable<MotionProperties>& motion_properties() {
 std::optional<Pointer> parse_pointer(const std::string& text) {
   Pointer pointer;
   if (text == "grip" || text == "mouse") {
-    pointer.kind = text == "grip" ? PointerKind::kGrip : PointerKind::kMouse;
+    pointer.kind = text == "grip" ? Pointer::Kind::kGrip : Pointer::Kind::kMouse;
     return pointer;
   }
   // Without regard to the locale.
@@ -306,8 +308,8 @@ std::optional<Pointer> parse_pointer(const std::string& text) {
 }
 
 std::string text_of(const Pointer& pointer) {
-  if (pointer.kind == PointerKind::kGrip) return "grip";
-  if (pointer.kind == PointerKind::kMouse) return "mouse";
+  if (pointer.kind == Pointer::Kind::kGrip) return "grip";
+  if (pointer.kind == Pointer::Kind::kMouse) return "mouse";
   char x[G_ASCII_DTOSTR_BUF_SIZE], y[G_ASCII_DTOSTR_BUF_SIZE];
   return std::string(g_ascii_formatd(x, sizeof x, "%g", pointer.position.x())) + "," +
          g_ascii_formatd(y, sizeof y, "%g", pointer.position.y());

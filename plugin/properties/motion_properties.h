@@ -16,11 +16,11 @@
 
 namespace spidar {
 
-/// Where the relief comes from.
-enum class TouchKind { kOff, kLuma, kDepth, kDepthBelow };
-
 struct TouchProperties {
-  TouchKind kind = TouchKind::kOff;
+  /// Where the relief comes from.
+  enum class Kind { kOff, kLuma, kDepth, kDepthBelow };
+
+  Kind kind = Kind::kOff;
   double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
   double friction = 0.3;       ///< μs; μd is 0.8 of it
@@ -28,23 +28,23 @@ struct TouchProperties {
   double motion_fraction = 0;  ///< of the film's motion, which is rendered besides
 
   /// Where in its frames the film has depth that is touched; nothing where they are all picture.
-  std::optional<DepthLayout> packed() const {
-    if (kind == TouchKind::kDepth) return DepthLayout::kRight;
-    if (kind == TouchKind::kDepthBelow) return DepthLayout::kBelow;
+  std::optional<touch::DepthLayout> packed() const {
+    if (kind == Kind::kDepth) return touch::DepthLayout::kRight;
+    if (kind == Kind::kDepthBelow) return touch::DepthLayout::kBelow;
     return std::nullopt;
   }
 };
 
-/// What is drawn into the video.
-enum class OverlayKind {
-  kNone,
-  kForce,   ///< outlines of objects, the force, finger and contact
-  kPoints,  ///< arrows of the motion, too
-  kCurve,   ///< as kForce, and the force of the last seconds
-};
-
 struct DisplayProperties {
-  OverlayKind overlay = OverlayKind::kNone;
+  /// What is drawn into the video.
+  enum class Overlay {
+    kNone,
+    kForce,   ///< outlines of objects, the force, finger and contact
+    kPoints,  ///< arrows of the motion, too
+    kCurve,   ///< as kForce, and the force of the last seconds
+  };
+
+  Overlay overlay = Overlay::kNone;
   double arrow_scale = 4;
   bool debug_window = false;
   bool attach_meta = false;
@@ -53,14 +53,21 @@ struct DisplayProperties {
 template <typename Settings>
 class PropertyTable;
 
-enum class PointerKind { kFixed, kGrip, kMouse };
+struct Pointer {
+  enum class Kind { kFixed, kGrip, kMouse };
+
+  Kind kind = Kind::kFixed;
+  /// Of kFixed; of the others, where they are until the device runs or the mouse moves. (0, 0) is
+  /// the top left corner of the picture, (1, 1) its bottom right one.
+  Eigen::Vector2d position{0.5, 0.5};
+};
 
 /// What is read anew for each frame.
 struct FrameSettings {
-  /// Of the element, its pointer is the fixed one. Of a frame, it is a position of the frame before
-  /// it is turned, and rules, boxes and the object of a click are there, too.
+  /// Of the element, its pointer is the fixed one. Of a frame, it is a position of the frame
+  /// before it is turned, and rules, boxes and the object of a click are there, too.
   AnalyzerSettings analyzer;
-  PointerKind pointer = PointerKind::kFixed;
+  Pointer::Kind pointer = Pointer::Kind::kFixed;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
   bool post_messages = true;
   DisplayProperties display;
@@ -81,13 +88,6 @@ struct MotionProperties : FrameSettings {
 
 /// All of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
-
-struct Pointer {
-  PointerKind kind = PointerKind::kFixed;
-  /// Of kFixed; of the others, where they are until the device runs or the mouse moves. (0, 0) is
-  /// the top left corner of the picture, (1, 1) its bottom right one.
-  Eigen::Vector2d position{0.5, 0.5};
-};
 
 /// As it is by default.
 constexpr const char* kMiddle = "0.5,0.5";

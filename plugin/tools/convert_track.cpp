@@ -59,8 +59,8 @@ std::vector<std::string> other_channels(const TrackSummary& summary, size_t axis
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double peak = summary.channels[i].peak;
     if (i == axis || peak == 0) continue;
-    others.push_back(std::string(channel_name(i)) + " up to " + rounded(peak * full_scale(i)) +
-                     channel_unit(i));
+    others.push_back(std::string(tracks::channel_name(i)) + " up to " +
+                     rounded(peak * tracks::full_scale(i)) + channel_unit(i));
   }
   return others;
 }
@@ -86,8 +86,8 @@ std::string lost_in_funscript(const TrackSummary& summary, const SaveOptions& op
   const size_t axis = options.axis;
   constexpr int kSteps = 50;  // on each side of the middle
   std::vector<std::string> lost = other_channels(summary, axis);
-  lost.push_back("steps of " + std::string(channel_name(axis)) + " below " +
-                 rounded(full_scale(axis) / kSteps / options.gain) + channel_unit(axis));
+  lost.push_back("steps of " + std::string(tracks::channel_name(axis)) + " below " +
+                 rounded(tracks::full_scale(axis) / kSteps / options.gain) + channel_unit(axis));
   if (options.gain * summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
   return line_of(lost);
 }
@@ -112,7 +112,7 @@ size_t liveliest_channel(const TrackSummary& summary) {
 
 size_t channel_of(const std::string& axis) {
   for (size_t i = 0; i < kTrackChannels; ++i) {
-    if (axis == channel_name(i)) return i;
+    if (axis == tracks::channel_name(i)) return i;
   }
   return kUsualAxis;
 }
@@ -120,10 +120,10 @@ size_t channel_of(const std::string& axis) {
 /// What is to be known of the channel of a funscript, as a line; empty: nothing.
 std::string about_axis(const TrackSummary& summary, size_t axis, bool is_chosen) {
   const size_t liveliest = liveliest_channel(summary);
-  const std::string name = channel_name(axis);
+  const std::string name = tracks::channel_name(axis);
   if (summary.channels[liveliest].peak == 0) return "the whole track is at rest\n";
   if (summary.channels[axis].peak == 0) {
-    return "axis " + name + " is at rest; --axis " + channel_name(liveliest) +
+    return "axis " + name + " is at rest; --axis " + tracks::channel_name(liveliest) +
            " has the most motion\n";
   }
   return is_chosen ? "" : "axis " + name + ", which has the most motion; --axis chooses another\n";
@@ -183,7 +183,7 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
   }
   for (size_t i = 0; i < parts.size(); ++i) {
     publish(*parts[i]);
-    std::cout << scripts[i].path << ": " << channel_name(i) << ", gain "
+    std::cout << scripts[i].path << ": " << tracks::channel_name(i) << ", gain "
               << rounded(gains[i / kForces]) << '\n';
   }
 }
@@ -196,7 +196,7 @@ TrackCondition read_axes(const std::string& from, const SampleSource::Take& take
   const auto main = read_funscript_notes(read_text(from));
   for (const AxisScript& script : axis_scripts(from, main ? main->channel : kUsualAxis)) {
     if (!std::filesystem::exists(script.path)) {
-      std::cout << script.path << ": is not there; " << channel_name(script.channel)
+      std::cout << script.path << ": is not there; " << tracks::channel_name(script.channel)
                 << " is at rest\n";
       continue;
     }
@@ -204,7 +204,7 @@ TrackCondition read_axes(const std::string& from, const SampleSource::Take& take
     const auto notes = read_funscript_notes(text);
     const size_t channel = notes ? notes->channel : script.channel;
     const double gain = notes ? notes->gain : 1;
-    std::cout << script.path << ": " << channel_name(channel) << ", gain " << rounded(gain)
+    std::cout << script.path << ": " << tracks::channel_name(channel) << ", gain " << rounded(gain)
               << " taken back\n";
     const std::vector<TrackSample> samples = read_funscript(text, channel);
     if (all.size() < samples.size()) all.resize(samples.size());

@@ -87,11 +87,11 @@ void follow_stream_time(GstPad* pad) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
 }
 
-void tag(GstElement* extract, const TrackNotes& notes) {
+void tag(GstElement* extract, const tracks::Notes& notes) {
   const Ref<GstPad> frames(gst_element_get_static_pad(extract, "sink"));
   const Ref<GstPad> wrench(gst_element_get_static_pad(extract, "wrench"));
   follow_stream_time(frames.get());
-  tag_track(wrench.get(), notes);
+  tracks::tag(wrench.get(), notes);
 }
 
 }  // namespace
@@ -317,7 +317,7 @@ Json summary_of(const std::string& track) {
 void inspect(const std::string& film, const std::string& track, const std::string& settings) {
   const std::string again = "; --force records it again";
   if (std::filesystem::is_empty(track)) throw std::runtime_error(track + " is empty" + again);
-  const TrackNotes notes = read_track_notes(track);
+  const tracks::Notes notes = tracks::notes_of(track);
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
     throw std::runtime_error(track + " was recorded with " + shown(*notes.settings) +

@@ -40,7 +40,7 @@ void print_json(const TrackCondition& found, const TrackSummary& summary) {
   info["beyond_full_scale"] = found.faults.beyond_full;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const ChannelSummary& channel = summary.channels[i];
-    info["channels"][channel_name(i)] = {
+    info["channels"][tracks::channel_name(i)] = {
         {"peak", channel.peak}, {"rms", channel.rms}, {"above_30_Hz", channel.above_30_Hz}};
   }
   std::cout << json_text(info) << '\n';
@@ -68,10 +68,10 @@ int print_info(const InfoOptions& options) {
             << "channel        peak         rms       above 30 Hz\n";
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const ChannelSummary& channel = summary.channels[i];
-    std::cout << channel_name(i) << std::fixed << std::setprecision(4) << std::setw(17)
-              << full_scale(i) * channel.peak << std::setw(12) << full_scale(i) * channel.rms
-              << std::left << std::setw(4) << channel_unit(i) << std::right << std::setw(12)
-              << 100 * channel.above_30_Hz << " %\n";
+    std::cout << tracks::channel_name(i) << std::fixed << std::setprecision(4) << std::setw(17)
+              << tracks::full_scale(i) * channel.peak << std::setw(12)
+              << tracks::full_scale(i) * channel.rms << std::left << std::setw(4) << channel_unit(i)
+              << std::right << std::setw(12) << 100 * channel.above_30_Hz << " %\n";
   }
   return kDone;
 }
@@ -79,7 +79,7 @@ int print_info(const InfoOptions& options) {
 int check_track(const CheckOptions& options) {
   const auto [found, summary] = summarise(options.track);
   const std::string& path = found.track;
-  const TrackFaults& faults = found.faults;
+  const tracks::Faults& faults = found.faults;
   int count = 0;
   const auto fault = [&count, &path]() -> std::ostream& {
     ++count;
@@ -103,8 +103,8 @@ int check_track(const CheckOptions& options) {
   }
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double fraction = summary.channels[i].above_30_Hz;
-    if (fraction > kMostFast) {
-      fault() << 100 * fraction << " % of the energy of " << channel_name(i)
+    if (fraction > tracks::kMostFast) {
+      fault() << 100 * fraction << " % of the energy of " << tracks::channel_name(i)
               << " is above 30 Hz: is it sound for ears?\n";
     }
   }

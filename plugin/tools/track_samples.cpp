@@ -80,7 +80,7 @@ std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns
 }
 
 /// Gives 1000 samples a second, and returns the end of the track.
-int64_t give_samples(OpenTrack& track, const SampleSource::Take& take) {
+int64_t give_samples(tracks::OpenTrack& track, const SampleSource::Take& take) {
   TrackReader reader;
   TrackBlock block;
   int64_t end_ns = 0;
@@ -105,7 +105,7 @@ int64_t give_samples(OpenTrack& track, const SampleSource::Take& take) {
 /// Of a film, or of its track itself.
 void read_sound(const std::string& path, const Film& film, const SampleSource::Take& take,
                 TrackCondition& found) {
-  const std::unique_ptr<OpenTrack> track = open_track(found.track);
+  const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(found.track);
   int64_t end_ns = 0;
   try {
     end_ns = give_samples(*track, take);
@@ -150,7 +150,7 @@ TrackCondition find_track(const std::string& path, Film& film) {
 
 /// Sound that `encoder` makes.
 void write_sound(const PartFile& part, const std::string& encoder, const SampleFile& samples,
-                 const TrackNotes& notes) {
+                 const tracks::Notes& notes) {
   StoredSound stored;
   const FilePipeline file(
       "filesrc name=source ! "
@@ -160,7 +160,7 @@ void write_sound(const PartFile& part, const std::string& encoder, const SampleF
       samples.path());
   stored.watch(file.find("stored"));
   const Ref<GstPad> pad(gst_element_get_static_pad(file.find("samples"), "src"));
-  tag_track(pad.get(), notes);
+  tracks::tag(pad.get(), notes);
   file.play_until(GST_MESSAGE_EOS);
   file.stop();
   stored.check(part);

@@ -48,9 +48,9 @@ struct TrackCondition {
   std::string film;      ///< the film that was given in its place; empty: none
   std::string other;     ///< why the track is that of another film; empty when it is not
   int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
-  TrackFaults faults;
+  tracks::Faults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
-  TrackNotes notes;
+  tracks::Notes notes;
 };
 
 /// The force upwards: the channel of formats that have only one.
@@ -71,7 +71,7 @@ struct SaveOptions {
       tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
   size_t axis = kUsualAxis;  ///< the channel of a funscript
   double gain = 1;           ///< for the samples of AHAP and funscript
-  TrackNotes notes;          ///< for sound
+  tracks::Notes notes;       ///< for sound
 };
 
 /// Throws std::runtime_error when no file whose name ends like this can be written.

@@ -38,7 +38,7 @@ class Summariser {
 
  private:
   TrackSummary so_far_;
-  TrackBand band_;
+  tracks::Band band_;
   Wrench before_;
   size_t felt_ = 0;
 };

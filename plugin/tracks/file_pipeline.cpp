@@ -175,13 +175,13 @@ StreamKind kind_of(const GstCaps* caps) {
   const std::string name = gst_structure_get_name(structure);
   if (name.rfind("video/", 0) == 0 || name.rfind("image/", 0) == 0) return StreamKind::kVideo;
   if (name.rfind("audio/", 0) != 0) return StreamKind::kOther;
-  return has_form_of_track(caps) ? StreamKind::kHapticTrack : StreamKind::kSound;
+  return tracks::has_form_of_track(caps) ? StreamKind::kHapticTrack : StreamKind::kSound;
 }
 
 StreamKind kind_of(GstPad* pad) {
   const Ref<GstCaps> caps(caps_of(pad));
   const StreamKind kind = kind_of(caps.get());
-  return kind == StreamKind::kSound && is_marked(pad) ? StreamKind::kHapticTrack : kind;
+  return kind == StreamKind::kSound && tracks::is_marked(pad) ? StreamKind::kHapticTrack : kind;
 }
 
 bool is_picture(const GstCaps* caps) {

@@ -80,7 +80,8 @@ std::string seconds_text(int64_t ns);
 enum class StreamKind {
   kVideo,
   kSound,        ///< for ears
-  kHapticTrack,  ///< of the form of one (has_form_of_track()), or marked as one (is_marked())
+  kHapticTrack,  ///< of the form of one (tracks::has_form_of_track()), or marked as one
+                 ///< (tracks::is_marked())
   kOther,
 };
 

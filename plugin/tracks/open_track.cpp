@@ -16,7 +16,7 @@
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/track_tags.h"
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
 /// Which stream of a file is taken for the track.
@@ -26,7 +26,7 @@ enum class Wanted { kHapticTrack, kFirstSound };
 constexpr int64_t kFirstPart_ns = 1'000'000'000;
 
 /// All tags that have come to `pad`.
-void read_tags(GstPad* pad, TrackNotes& notes) {
+void read_tags(GstPad* pad, Notes& notes) {
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
     GstTagList* tags = nullptr;
     gst_event_parse_tag(event, &tags);
@@ -112,7 +112,7 @@ class TrackOfFile : public OpenTrack {
   bool is_chosen() const { return is_chosen_; }
   bool has_sound() const { return has_sound_; }
 
-  const TrackNotes& notes() const override { return notes_; }
+  const Notes& notes() const override { return notes_; }
   std::optional<int64_t> duration_ns() const override { return length_.there_ns; }
   std::string missing(int64_t end_ns) const override {
     // Containers round durations, to milliseconds or samples.
@@ -284,11 +284,11 @@ class TrackOfFile : public OpenTrack {
   FilePipeline file_;
   GstElement* const parser_;
   Ref<GstPad> pad_;
-  TrackNotes notes_;
+  Notes notes_;
   std::atomic<bool> is_chosen_{false}, has_sound_{false};
   std::atomic<int> ended_{0};  ///< streams
   // Streaming thread.
-  TrackInput input_;
+  Input input_;
   Ref<GstCaps> caps_;
   int64_t first_ns_ = INT64_MAX;
   int64_t end_ns_ = 0;  ///< of what has been read in this pass
@@ -325,7 +325,7 @@ int64_t find_end(OpenTrack& track) {
   return end_ns;
 }
 
-TrackNotes read_track_notes(const std::string& path) {
+Notes notes_of(const std::string& path) {
   try {
     return open_file(path, true, nullptr)->notes();
   } catch (const std::runtime_error&) {
@@ -333,4 +333,4 @@ TrackNotes read_track_notes(const std::string& path) {
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -13,7 +13,7 @@
 #include "plugin/tracks/read_ahead.h"
 #include "plugin/tracks/track_tags.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// Owned by one thread. What it has read waits in blocks(), which another one may take.
 class OpenTrack {
@@ -23,7 +23,7 @@ class OpenTrack {
 
   virtual ~OpenTrack() = default;
 
-  virtual const TrackNotes& notes() const = 0;
+  virtual const Notes& notes() const = 0;
   /// By the head and the last bytes of the file. Nothing when they do not say, or when other
   /// streams may be longer.
   virtual std::optional<int64_t> duration_ns() const = 0;
@@ -41,7 +41,7 @@ class OpenTrack {
 
 /// The haptic track of a file, else its first sound, from any container that GStreamer has a
 /// decoder for. Returns when its first second has been read. Throws std::runtime_error, which says
-/// what was wrong, when there is none, when it is not a haptic track (TrackInput::set_caps()), when
+/// what was wrong, when there is none, when it is not a haptic track (Input::set_caps()), when
 /// the file is damaged or not a regular one, or when `stopped` has become true.
 std::unique_ptr<OpenTrack> open_track(const std::string& path,
                                       const std::atomic<bool>* stopped = nullptr);
@@ -51,6 +51,6 @@ std::unique_ptr<OpenTrack> open_track(const std::string& path,
 int64_t find_end(OpenTrack& track);
 
 /// Only what a track says of itself, from the beginning of the file. Empty where there is none.
-TrackNotes read_track_notes(const std::string& path);
+Notes notes_of(const std::string& path);
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -9,7 +9,7 @@ bool ReadAhead::is_full() const {
                               blocks_.back().begin_ns - blocks_.front().begin_ns > kAhead_ns);
 }
 
-bool ReadAhead::put(const TrackBlock& block, const TrackFaults& faults) {
+bool ReadAhead::put(const TrackBlock& block, const tracks::Faults& faults) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return !is_wanted() || !is_full(); });
   if (!is_wanted()) return false;
@@ -96,7 +96,7 @@ bool ReadAhead::was_late() const {
   return late_;
 }
 
-TrackFaults ReadAhead::faults() const {
+tracks::Faults ReadAhead::faults() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return faults_;
 }

@@ -34,7 +34,7 @@ class ReadAhead {
 
   /// Waits for room. Blocks before the position that was sought, and such as do not rise, are left
   /// out. False when nothing more of this pass is wanted.
-  bool put(const TrackBlock& block, const TrackFaults& faults);
+  bool put(const TrackBlock& block, const tracks::Faults& faults);
   /// The file ends here; `error` says so if it should not. Nothing, when nothing more of this
   /// pass was wanted.
   void end_pass(const std::string& error);
@@ -69,7 +69,7 @@ class ReadAhead {
   bool has_failed() const;
   /// Whether take() has waited in vain.
   bool was_late() const;
-  TrackFaults faults() const;
+  tracks::Faults faults() const;
   /// Until resume(), take() does not wait.
   void interrupt() { set(interrupted_, true); }
   void resume() { set(interrupted_, false); }
@@ -87,7 +87,7 @@ class ReadAhead {
   std::deque<TrackBlock> blocks_;
   bool ended_ = false, late_ = false, interrupted_ = false, stopped_ = false;
   std::string error_;
-  TrackFaults faults_;
+  tracks::Faults faults_;
   int64_t later_ns_ = 0;
   int64_t sought_ns_ = 0;        ///< in the file
   int64_t last_ns_ = INT64_MIN;  ///< begin of the last block of this pass

@@ -85,7 +85,7 @@ std::string why_not_played(const std::string& film, const std::string& track) {
          "; remove it, or use track=" + track;
 }
 
-FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes) {
+FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes) {
   const FilmFingerprint& fingerprint = notes.film;
   FilmMatch match;
   // Plus a millisecond, because many containers round durations to milliseconds.

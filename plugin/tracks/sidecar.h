@@ -43,7 +43,7 @@ struct FilmMatch {
 /// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
 /// recognised by the pictures, which may come later in another container; any other by its length:
 /// it ends where the last picture does, but for one frame.
-FilmMatch match_film(const Film& film, int64_t track_ns, const TrackNotes& notes);
+FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
 /// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
 /// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one

@@ -42,9 +42,9 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_extract_debug);
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_extract_debug
 
-using spidar::FrameWrench;
-using spidar::TrackStream;
 using spidar::Wrench;
+using spidar::tracks::FrameWrench;
+using spidar::tracks::Stream;
 
 struct _GstSpidarExtract {
   GstElement parent;
@@ -53,7 +53,7 @@ struct _GstSpidarExtract {
   GstPad* src;
   GstPad* wrench;
   // Streaming thread.
-  TrackStream* track;
+  Stream* track;
   GstFlowCombiner* flows;
   gint without_meta;  // atomic: how many frames in succession
   gint warned;        // atomic: about them
@@ -248,8 +248,8 @@ static gboolean gst_spidar_extract_wrench_query(GstPad* pad, GstObject* parent, 
   gboolean live;
   GstClockTime min, max;
   gst_query_parse_latency(query, &live, &min, &max);
-  min += TrackStream::latency_ns();
-  if (GST_CLOCK_TIME_IS_VALID(max)) max += TrackStream::latency_ns();
+  min += Stream::latency_ns();
+  if (GST_CLOCK_TIME_IS_VALID(max)) max += Stream::latency_ns();
   gst_query_set_latency(query, live, min, max);
   return TRUE;
 }
@@ -307,7 +307,7 @@ static void gst_spidar_extract_init(GstSpidarExtract* self) {
   self->wrench = add_pad(GST_ELEMENT(self), &wrench_template);
   gst_pad_set_query_function(self->wrench, gst_spidar_extract_wrench_query);
   gst_pad_set_event_function(self->wrench, gst_spidar_extract_wrench_event);
-  self->track = new TrackStream(self->wrench);
+  self->track = new Stream(self->wrench);
   self->flows = gst_flow_combiner_new();
   gst_flow_combiner_add_pad(self->flows, self->src);
   gst_flow_combiner_add_pad(self->flows, self->wrench);

@@ -185,18 +185,18 @@ struct SinkState {
         track_warnings(element),
         messages(element) {}
 
-  std::mutex setting;          // settings reach the output in the order in which they were made
-  SinkProperties settings;     // object lock
-  spidar::TrackFaults faults;  // object lock; of the stream so far
-  guint64 samples = 0;         // object lock
-  gint wants_no_sync = 0;      // atomic: sync=false was set, which has no effect
+  std::mutex setting;             // settings reach the output in the order in which they were made
+  SinkProperties settings;        // object lock
+  spidar::tracks::Faults faults;  // object lock; of the stream so far
+  guint64 samples = 0;            // object lock
+  gint wants_no_sync = 0;         // atomic: sync=false was set, which has no effect
   BlockQueue queue;
   HapticOutput output;
   // Streaming thread.
-  spidar::TrackInput input;
-  spidar::StreamMark mark;  // as a haptic track
+  spidar::tracks::Input input;
+  spidar::tracks::Mark mark;  // as a haptic track
   spidar::DeviceWarnings warnings;
-  spidar::TrackWarnings track_warnings;
+  spidar::tracks::Warnings track_warnings;
   spidar::BlockMessages messages;
 };
 
@@ -334,7 +334,7 @@ static void keep_sync(GstSpidarSink* self) {
 static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->state->warnings.start();
-  self->state->input = spidar::TrackInput();
+  self->state->input = spidar::tracks::Input();
   self->state->queue.clear();
   return TRUE;
 }
@@ -413,7 +413,7 @@ static void gst_spidar_sink_set_property(GObject* object, guint id, const GValue
 
 static GstStructure* stats(GstSpidarSink* self) {
   GST_OBJECT_LOCK(self);
-  const spidar::TrackFaults faults = self->state->faults;
+  const spidar::tracks::Faults faults = self->state->faults;
   const guint64 samples = self->state->samples;
   GST_OBJECT_UNLOCK(self);
   GstStructure* structure = gst_structure_new(

@@ -6,7 +6,7 @@
 
 #include "core/force/motion_rendering.h"
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
 constexpr double kCorner_Hz = 30;
@@ -29,11 +29,11 @@ double full_scale(size_t channel) {
   return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
 }
 
-TrackBand::TrackBand(double rate_Hz)
+Band::Band(double rate_Hz)
     : rate_Hz_(rate_Hz), filters_{HighPass(rate_Hz), HighPass(rate_Hz), HighPass(rate_Hz),
                                   HighPass(rate_Hz), HighPass(rate_Hz), HighPass(rate_Hz)} {}
 
-TrackBand::HighPass::HighPass(double rate_Hz) {
+Band::HighPass::HighPass(double rate_Hz) {
   const double k = std::tan(M_PI * kCorner_Hz / rate_Hz);
   const double scale = 1 / (1 + std::sqrt(2.0) * k + k * k);
   b_ = scale;
@@ -41,7 +41,7 @@ TrackBand::HighPass::HighPass(double rate_Hz) {
   a2_ = (1 - std::sqrt(2.0) * k + k * k) * scale;
 }
 
-double TrackBand::HighPass::next(double x) {
+double Band::HighPass::next(double x) {
   const double y = b_ * (x - 2 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
   x2_ = x1_;
   x1_ = x;
@@ -50,7 +50,7 @@ double TrackBand::HighPass::next(double x) {
   return y;
 }
 
-void TrackBand::add(const TrackSample& sample) {
+void Band::add(const TrackSample& sample) {
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     const double value = sample[channel];
     energy_[channel] += value * value;
@@ -60,11 +60,11 @@ void TrackBand::add(const TrackSample& sample) {
   }
 }
 
-double TrackBand::above_30_Hz(size_t channel) const {
+double Band::above_30_Hz(size_t channel) const {
   return energy_[channel] > 0 ? fast_[channel] / energy_[channel] : 0;
 }
 
-int TrackBand::sound_channel() const {
+int Band::sound_channel() const {
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     if (felt_s_[channel] >= kJudged_s && above_30_Hz(channel) > kMostFast) {
       return static_cast<int>(channel);
@@ -73,4 +73,4 @@ int TrackBand::sound_channel() const {
   return -1;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -8,15 +8,15 @@
 
 #include "core/track/track_format.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// A channel with a larger fraction of its energy above 30 Hz is sound for ears.
 constexpr double kMostFast = 0.1;
 
 /// Energies of samples that come one after the other, `rate_Hz` of them a second.
-class TrackBand {
+class Band {
  public:
-  explicit TrackBand(double rate_Hz = kTrackRate_Hz);
+  explicit Band(double rate_Hz = kTrackRate_Hz);
   void add(const TrackSample& sample);
 
   /// Sum of the squares of a channel's samples, in fractions of the full scale.
@@ -50,4 +50,4 @@ const char* channel_name(size_t channel);
 /// What a sample of 1.0 is, in N or N m.
 double full_scale(size_t channel);
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -8,7 +8,7 @@
 
 #include "plugin/timing/instant_rate.h"
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
 constexpr guint64 kMaskOf5_1 = 0x3f;
@@ -36,7 +36,7 @@ std::string strange_mask(const GstCaps* caps) {
 
 }  // namespace
 
-std::string TrackInput::set_caps(const GstCaps* caps) {
+std::string Input::set_caps(const GstCaps* caps) {
   GstAudioInfo info;
   if (!gst_audio_info_from_caps(&info, caps)) {
     // sfdec, which names none, also scales floats wrongly and adds samples at the end.
@@ -64,17 +64,17 @@ std::string TrackInput::set_caps(const GstCaps* caps) {
   }
   info_ = info;
   thinner_.begin(rate_Hz);
-  band_ = TrackBand(rate_Hz / static_cast<double>(thinner_.group()));
+  band_ = Band(rate_Hz / static_cast<double>(thinner_.group()));
   reset();
   return {};
 }
 
-void TrackInput::reset() {
+void Input::reset() {
   thinner_.reset();
   next_pts_ = end_ = GST_CLOCK_TIME_NONE;
 }
 
-bool TrackInput::unpack(GstBuffer* buffer) {
+bool Input::unpack(GstBuffer* buffer) {
   const bool planar = GST_AUDIO_INFO_LAYOUT(&info_) == GST_AUDIO_LAYOUT_NON_INTERLEAVED;
   const auto sample_bytes = static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_)) / kTrackChannels;
   const GstAudioMeta* meta = planar ? gst_buffer_get_audio_meta(buffer) : nullptr;
@@ -100,14 +100,14 @@ bool TrackInput::unpack(GstBuffer* buffer) {
   return fits;
 }
 
-size_t TrackInput::samples_in(GstBuffer* buffer) const {
+size_t Input::samples_in(GstBuffer* buffer) const {
   const bool planar = GST_AUDIO_INFO_LAYOUT(&info_) == GST_AUDIO_LAYOUT_NON_INTERLEAVED;
   const GstAudioMeta* meta = planar ? gst_buffer_get_audio_meta(buffer) : nullptr;
   return meta ? meta->samples
               : gst_buffer_get_size(buffer) / static_cast<size_t>(GST_AUDIO_INFO_BPF(&info_));
 }
 
-void TrackInput::unpack(const guint8* from, size_t values, double* to) {
+void Input::unpack(const guint8* from, size_t values, double* to) {
   const GstAudioFormatInfo* format = info_.finfo;
   const bool floats = GST_AUDIO_FORMAT_INFO_IS_FLOAT(format);
   if (!floats) integers_.resize(values);
@@ -122,7 +122,7 @@ void TrackInput::unpack(const guint8* from, size_t values, double* to) {
                  [](gint32 value) { return value / kFullScale; });
 }
 
-TrackSample TrackInput::sample(size_t i, double gain) {
+TrackSample Input::sample(size_t i, double gain) {
   TrackSample sample;
   bool finite = true, beyond = false;
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
@@ -138,8 +138,8 @@ TrackSample TrackInput::sample(size_t i, double gain) {
   return {};
 }
 
-GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, double gain,
-                               const Give& give) {
+GstFlowReturn Input::read(GstBuffer* buffer, const GstSegment& segment, double gain,
+                          const Give& give) {
   const int rate_Hz = GST_AUDIO_INFO_RATE(&info_);
   const size_t count = samples_in(buffer);
   const auto length = [rate_Hz](size_t samples) {
@@ -198,4 +198,4 @@ GstFlowReturn TrackInput::read(GstBuffer* buffer, const GstSegment& segment, dou
   return GST_FLOW_OK;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -15,19 +15,19 @@
 #include "core/track/track_reader.h"
 #include "plugin/tracks/track_band.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// What was wrong with the samples of a stream.
-struct TrackFaults {
+struct Faults {
   uint64_t not_finite = 0;   ///< samples of which a channel is not a number: at rest instead
   uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
-  int sound_channel = -1;    ///< a channel that is sound for ears, see TrackBand; -1: none
+  int sound_channel = -1;    ///< a channel that is sound for ears, see Band; -1: none
 };
 
 /// All that reads samples reads them here, and by all that their caps say: format with its byte
 /// order, rate, channels and their mask, and the layout, sample by sample or channel by channel.
 /// Streaming thread only.
-class TrackInput {
+class Input {
  public:
   static constexpr int kLowestRate_Hz = 200;
   static constexpr int kHighestRate_Hz = 8000;
@@ -46,7 +46,7 @@ class TrackInput {
 
   /// Running time of the end of what was read; GST_CLOCK_TIME_NONE before.
   GstClockTime end() const { return end_; }
-  const TrackFaults& faults() const { return faults_; }
+  const Faults& faults() const { return faults_; }
   uint64_t samples() const { return samples_; }
 
  private:
@@ -62,9 +62,9 @@ class TrackInput {
   std::vector<gdouble> doubles_;  ///< of a buffer, sample by sample
   std::vector<gdouble> plane_;    ///< of a channel
   std::vector<gint32> integers_;  ///< as the format unpacks
-  TrackBand band_;
-  TrackFaults faults_;
+  Band band_;
+  Faults faults_;
   uint64_t samples_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tracks

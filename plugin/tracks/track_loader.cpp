@@ -18,7 +18,7 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element)
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
 /// How long stop() waits for a thread that has been asked to stop; it looks every 20 ms.
@@ -78,7 +78,7 @@ void name_unused(GstElement* element, const std::string& path) {
 
 }  // namespace
 
-struct TrackLoader::Reading {
+struct Loader::Reading {
   void set_opened(const LoadedTrack& what) {
     const std::lock_guard<std::mutex> lock(mutex);
     loaded = what;
@@ -103,12 +103,12 @@ struct TrackLoader::Reading {
   LoadedTrack loaded;
 };
 
-std::shared_ptr<TrackLoader::Reading> TrackLoader::reading() const {
+std::shared_ptr<Loader::Reading> Loader::reading() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return reading_;
 }
 
-void TrackLoader::begin(const std::string& wanted, const std::string& film) {
+void Loader::begin(const std::string& wanted, const std::string& film) {
   stop();
   if (wanted.empty()) return;
   const auto reading = std::make_shared<Reading>();
@@ -142,14 +142,14 @@ void TrackLoader::begin(const std::string& wanted, const std::string& film) {
   reading_ = reading;
 }
 
-void TrackLoader::await(std::chrono::milliseconds limit) {
+void Loader::await(std::chrono::milliseconds limit) {
   const auto reading = this->reading();
   if (!reading) return;
   std::unique_lock<std::mutex> lock(reading->mutex);
   reading->changed.wait_for(lock, limit, [&] { return reading->opened || reading->interrupted; });
 }
 
-std::optional<LoadedTrack> TrackLoader::take() {
+std::optional<LoadedTrack> Loader::take() {
   const auto reading = this->reading();
   if (!reading) return std::nullopt;
   const std::lock_guard<std::mutex> lock(reading->mutex);
@@ -157,7 +157,7 @@ std::optional<LoadedTrack> TrackLoader::take() {
   return reading->loaded;
 }
 
-void TrackLoader::interrupt() {
+void Loader::interrupt() {
   const auto reading = this->reading();
   if (!reading) return;
   const std::lock_guard<std::mutex> lock(reading->mutex);
@@ -166,7 +166,7 @@ void TrackLoader::interrupt() {
   reading->changed.notify_all();
 }
 
-void TrackLoader::resume() {
+void Loader::resume() {
   const auto reading = this->reading();
   if (!reading) return;
   const std::lock_guard<std::mutex> lock(reading->mutex);
@@ -174,7 +174,7 @@ void TrackLoader::resume() {
   if (reading->loaded.blocks) reading->loaded.blocks->resume();
 }
 
-void TrackLoader::stop() {
+void Loader::stop() {
   const auto reading = this->reading();
   if (!reading) return;
   reading->stopped = true;
@@ -234,4 +234,4 @@ bool FeltTrack::check() {
   return false;
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

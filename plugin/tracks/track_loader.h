@@ -19,7 +19,7 @@
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_warnings.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// What is played in place of analysing frames.
 struct LoadedTrack {
@@ -31,12 +31,12 @@ struct LoadedTrack {
 };
 
 /// Reading may take long on a slow disk or network share, and for ever on a broken one.
-class TrackLoader {
+class Loader {
  public:
-  TrackLoader() = default;
-  ~TrackLoader() { stop(); }
-  TrackLoader(const TrackLoader&) = delete;
-  TrackLoader& operator=(const TrackLoader&) = delete;
+  Loader() = default;
+  ~Loader() { stop(); }
+  Loader(const Loader&) = delete;
+  Loader& operator=(const Loader&) = delete;
 
   // --- streaming thread
 
@@ -86,10 +86,10 @@ class FeltTrack {
 
  private:
   GstElement* element_;
-  TrackWarnings warnings_;
+  Warnings warnings_;
   std::string path_;
   std::shared_ptr<ReadAhead> blocks_;
   bool told_late_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tracks

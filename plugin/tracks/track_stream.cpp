@@ -13,10 +13,10 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(GST_PAD_PARENT(pad_))
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
-constexpr size_t kBufferSamples = TrackStream::kBuffer_ns / kTrackPeriod_ns;
+constexpr size_t kBufferSamples = Stream::kBuffer_ns / kTrackPeriod_ns;
 
 /// Whose time is the running time of `video`, in which it plays forward.
 GstSegment running_segment(const GstSegment& video) {
@@ -43,15 +43,15 @@ int64_t signed_ns(GstClockTime time) {
 
 }  // namespace
 
-TrackStream::TrackStream(GstPad* pad) : pad_(pad) {
+Stream::Stream(GstPad* pad) : pad_(pad) {
   reset();
 }
 
-TrackStream::~TrackStream() {
+Stream::~Stream() {
   flush();
 }
 
-void TrackStream::begin_stream(GstElement* element, const GstEvent* stream_start) {
+void Stream::begin_stream(GstElement* element, const GstEvent* stream_start) {
   // gst_event_parse_*() take non-const events, but do not change them.
   auto* const given = const_cast<GstEvent*>(stream_start);
   gchar* const id = gst_pad_create_stream_id(pad_, element, "wrench");
@@ -65,7 +65,7 @@ void TrackStream::begin_stream(GstElement* element, const GstEvent* stream_start
   gst_segment_init(&sent_, GST_FORMAT_UNDEFINED);
 }
 
-bool TrackStream::negotiate() {
+bool Stream::negotiate() {
   if (negotiated_ && !gst_pad_check_reconfigure(pad_)) return true;
   GstCaps* caps = gst_pad_get_allowed_caps(pad_);
   if (!caps) caps = gst_pad_get_pad_template_caps(pad_);
@@ -80,7 +80,7 @@ bool TrackStream::negotiate() {
   return true;
 }
 
-GstFlowReturn TrackStream::begin_segment(const GstEvent* event) {
+GstFlowReturn Stream::begin_segment(const GstEvent* event) {
   auto* const given = const_cast<GstEvent*>(event);
   gst_event_copy_segment(given, &segment_);
   if (!negotiate()) return GST_FLOW_NOT_NEGOTIATED;
@@ -94,17 +94,17 @@ GstFlowReturn TrackStream::begin_segment(const GstEvent* event) {
   GstEvent* const own = gst_event_new_segment(&segment);
   gst_event_set_seqnum(own, gst_event_get_seqnum(given));
   gst_pad_push_event(pad_, own);
-  gst_pad_push_event(pad_, gst_event_new_tag(track_tags()));
+  gst_pad_push_event(pad_, gst_event_new_tag(tags()));
   return flow;
 }
 
 /// -1 if it is not shown.
-int64_t TrackStream::running_ns(guint64 time) const {
+int64_t Stream::running_ns(guint64 time) const {
   const GstClockTime running = gst_segment_to_running_time(&segment_, GST_FORMAT_TIME, time);
   return is_time(running) ? signed_ns(running) : -1;
 }
 
-void TrackStream::begin_at(int64_t time_ns) {
+void Stream::begin_at(int64_t time_ns) {
   sampler_.begin(time_ns);
   begun_ = true;
   discont_ = true;
@@ -113,7 +113,7 @@ void TrackStream::begin_at(int64_t time_ns) {
   interval_ns_ = 0;
 }
 
-bool TrackStream::is_alone(int64_t time_ns) {
+bool Stream::is_alone(int64_t time_ns) {
   const int64_t before_ns = std::exchange(jumped_to_ns_, time_ns);
   if (before_ns >= 0) return std::llabs(time_ns - before_ns) > kLongestSilence_ns;
   GST_ELEMENT_WARNING(
@@ -125,7 +125,7 @@ bool TrackStream::is_alone(int64_t time_ns) {
   return true;
 }
 
-GstFlowReturn TrackStream::add(const FrameWrench& frame) {
+GstFlowReturn Stream::add(const FrameWrench& frame) {
   const bool in_time = segment_.format == GST_FORMAT_TIME && is_time(frame.pts);
   if (!in_time) return GST_FLOW_OK;  // spidarmotion reports why such a frame is not felt
   const bool has_duration = is_time(frame.duration);
@@ -165,7 +165,7 @@ GstFlowReturn TrackStream::add(const FrameWrench& frame) {
   return put_until(std::max(sampler_.settled_ns(kAhead_ns), time_ns - kAhead_ns));
 }
 
-GstFlowReturn TrackStream::add_gap(GstClockTime pts) {
+GstFlowReturn Stream::add_gap(GstClockTime pts) {
   if (!begun_ || segment_.format != GST_FORMAT_TIME || segment_.rate < 0 || !is_time(pts)) {
     return GST_FLOW_OK;
   }
@@ -175,7 +175,7 @@ GstFlowReturn TrackStream::add_gap(GstClockTime pts) {
   return put_until(sampler_.settled_ns(static_cast<int64_t>(kLookAhead_ns)));
 }
 
-GstFlowReturn TrackStream::settle(int64_t until_ns) {
+GstFlowReturn Stream::settle(int64_t until_ns) {
   if (!begun_) return GST_FLOW_OK;
   const int64_t end_ns = last_frame_ns_ + interval_ns_;
   sampler_.add({end_ns, 0, Wrench(), false});
@@ -183,13 +183,13 @@ GstFlowReturn TrackStream::settle(int64_t until_ns) {
   return flow == GST_FLOW_OK && filled_ > 0 ? push() : flow;
 }
 
-GstFlowReturn TrackStream::finish() {
+GstFlowReturn Stream::finish() {
   const GstFlowReturn flow = settle(0);
   flush();
   return flow;
 }
 
-void TrackStream::flush() {
+void Stream::flush() {
   begun_ = pushed_ = false;
   gst_segment_init(&sent_, GST_FORMAT_UNDEFINED);
   if (!buffer_) return;
@@ -198,13 +198,13 @@ void TrackStream::flush() {
   filled_ = 0;
 }
 
-void TrackStream::reset() {
+void Stream::reset() {
   flush();
   gst_segment_init(&segment_, GST_FORMAT_UNDEFINED);
   negotiated_ = false;
 }
 
-GstFlowReturn TrackStream::put_until(int64_t time_ns) {
+GstFlowReturn Stream::put_until(int64_t time_ns) {
   while (sampler_.next_ns() < time_ns) {
     const auto pts = static_cast<GstClockTime>(sampler_.next_ns());
     const GstFlowReturn flow = put(to_track_sample(sampler_.take()), pts);
@@ -213,7 +213,7 @@ GstFlowReturn TrackStream::put_until(int64_t time_ns) {
   return GST_FLOW_OK;
 }
 
-GstFlowReturn TrackStream::put(const TrackSample& sample, GstClockTime pts) {
+GstFlowReturn Stream::put(const TrackSample& sample, GstClockTime pts) {
   if (!buffer_) {
     buffer_ = gst_buffer_new_allocate(nullptr, kBufferSamples * sizeof(TrackSample), nullptr);
     gst_buffer_map(buffer_, &map_, GST_MAP_WRITE);
@@ -227,7 +227,7 @@ GstFlowReturn TrackStream::put(const TrackSample& sample, GstClockTime pts) {
   return ++filled_ == kBufferSamples ? push() : GST_FLOW_OK;
 }
 
-GstFlowReturn TrackStream::push() {
+GstFlowReturn Stream::push() {
   GstBuffer* const full = buffer_;
   gst_buffer_unmap(full, &map_);
   gst_buffer_set_size(full, static_cast<gssize>(filled_ * sizeof(TrackSample)));
@@ -247,4 +247,4 @@ GstFlowReturn TrackStream::push() {
   return gst_pad_push(pad_, full);
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

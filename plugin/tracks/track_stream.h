@@ -10,7 +10,7 @@
 #include "core/track/track_format.h"
 #include "core/track/track_sampler.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// Caps of a haptic track as this project writes it. The mask of 5.1 comes first, though these are
 /// no loudspeakers: FLAC has no other, containers give it back for none, and audioconvert does not
@@ -39,7 +39,7 @@ struct FrameWrench {
 /// encoders of sound accept no step backwards. The segment of the samples gives their stream time.
 ///
 /// Streaming thread only. All methods that return a flow push what has become known.
-class TrackStream {
+class Stream {
  public:
   static constexpr GstClockTime kBuffer_ns = 40 * GST_MSECOND;
   /// The curve between two frames needs the one after them; where that is further away than this
@@ -50,10 +50,10 @@ class TrackStream {
   static constexpr int64_t kLongestSilence_ns = 3600 * int64_t{1'000'000'000};
 
   /// `pad` belongs to the element that owns this.
-  explicit TrackStream(GstPad* pad);
-  ~TrackStream();
-  TrackStream(const TrackStream&) = delete;
-  TrackStream& operator=(const TrackStream&) = delete;
+  explicit Stream(GstPad* pad);
+  ~Stream();
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
 
   /// Another stream begins upstream: what it is called here.
   void begin_stream(GstElement* element, const GstEvent* stream_start);
@@ -108,4 +108,4 @@ class TrackStream {
   bool discont_ = true;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -10,7 +10,7 @@
 #include "core/track/track_format.h"
 #include "plugin/gobject/ref.h"
 
-namespace spidar {
+namespace spidar::tracks {
 namespace {
 
 bool has_line(const std::string& text, const std::string& wanted) {
@@ -24,7 +24,7 @@ bool has_line(const std::string& text, const std::string& wanted) {
 
 }  // namespace
 
-const char* const kTrackMark = "HAPTIC_FULL_SCALE=10 N, 1 N m";
+const char* const kMark = "HAPTIC_FULL_SCALE=10 N, 1 N m";
 
 bool is_marked(const GstTagList* tags) {
   if (gst_tag_list_get_scope(tags) != GST_TAG_SCOPE_STREAM) return false;
@@ -32,7 +32,7 @@ bool is_marked(const GstTagList* tags) {
     const guint count = gst_tag_list_get_tag_size(tags, tag);
     for (guint i = 0; i < count; ++i) {
       const gchar* text = nullptr;
-      if (gst_tag_list_peek_string_index(tags, tag, i, &text) && has_line(text, kTrackMark)) {
+      if (gst_tag_list_peek_string_index(tags, tag, i, &text) && has_line(text, kMark)) {
         return true;
       }
     }
@@ -40,7 +40,7 @@ bool is_marked(const GstTagList* tags) {
   return false;
 }
 
-void StreamMark::follow(GstEvent* event) {
+void Mark::follow(GstEvent* event) {
   GstTagList* tags = nullptr;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_STREAM_START:
@@ -59,7 +59,7 @@ void StreamMark::follow(GstEvent* event) {
 }
 
 bool is_marked(GstPad* pad) {
-  StreamMark mark;
+  Mark mark;
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
     mark.follow(event);
     gst_event_unref(event);
@@ -76,7 +76,7 @@ bool has_form_of_track(const GstCaps* caps) {
 }
 
 std::string how_to_mark() {
-  return std::string("ffmpeg -i FILE -metadata comment=\"") + kTrackMark +
+  return std::string("ffmpeg -i FILE -metadata comment=\"") + kMark +
          "\" -c:a pcm_f32le MARKED.wav";
 }
 
@@ -89,15 +89,15 @@ constexpr const char* kDescription =
 constexpr const char* kFilm = "HAPTIC_FILM=";
 constexpr const char* kSettings = "HAPTIC_SETTINGS=";
 
-std::string comment_of(const TrackNotes& notes) {
-  std::string comment = std::string(kDescription) + kTrackMark;
+std::string comment_of(const Notes& notes) {
+  std::string comment = std::string(kDescription) + kMark;
   if (!notes.film.empty()) comment += std::string("\n") + kFilm + to_text(notes.film);
   if (notes.settings) comment += std::string("\n") + kSettings + *notes.settings;
   return comment;
 }
 
 struct Tagging {
-  TrackNotes notes;
+  Notes notes;
   bool done = false;
 };
 
@@ -107,11 +107,11 @@ GstPadProbeReturn replace_tags(GstPad* pad, GstPadProbeInfo* info, gpointer user
   auto& tagging = *static_cast<Tagging*>(user);
   if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
     if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_TAG) return GST_PAD_PROBE_OK;
-    GstEvent* const event = gst_event_new_tag(track_tags(tagging.notes));
+    GstEvent* const event = gst_event_new_tag(tags(tagging.notes));
     gst_event_unref(GST_PAD_PROBE_INFO_EVENT(info));
     GST_PAD_PROBE_INFO_DATA(info) = event;
   } else if (!tagging.done) {
-    gst_pad_send_event(pad, gst_event_new_tag(track_tags(tagging.notes)));
+    gst_pad_send_event(pad, gst_event_new_tag(tags(tagging.notes)));
   }
   tagging.done = true;
   return GST_PAD_PROBE_OK;
@@ -119,15 +119,15 @@ GstPadProbeReturn replace_tags(GstPad* pad, GstPadProbeInfo* info, gpointer user
 
 }  // namespace
 
-GstTagList* track_tags(const TrackNotes& notes) {
+GstTagList* tags(const Notes& notes) {
   GstTagList* tags =
       gst_tag_list_new(GST_TAG_TITLE, "Haptic track", GST_TAG_COMMENT, comment_of(notes).c_str(),
-                       GST_TAG_EXTENDED_COMMENT, kTrackMark, nullptr);
+                       GST_TAG_EXTENDED_COMMENT, kMark, nullptr);
   gst_tag_list_set_scope(tags, GST_TAG_SCOPE_STREAM);
   return tags;
 }
 
-void read_notes(const GstTagList* tags, TrackNotes& notes) {
+void read_notes(const GstTagList* tags, Notes& notes) {
   const guint count = gst_tag_list_get_tag_size(tags, GST_TAG_COMMENT);
   for (guint i = 0; i < count; ++i) {
     gchar* comment = nullptr;
@@ -145,7 +145,7 @@ void read_notes(const GstTagList* tags, TrackNotes& notes) {
   }
 }
 
-void tag_track(GstPad* pad, const TrackNotes& notes) {
+void tag(GstPad* pad, const Notes& notes) {
   constexpr auto kAll =
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
                                    GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
@@ -155,4 +155,4 @@ void tag_track(GstPad* pad, const TrackNotes& notes) {
   gst_object_unref(into);
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

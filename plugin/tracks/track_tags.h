@@ -10,18 +10,18 @@
 
 #include "plugin/tracks/film_reader.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// A line of the comment of a track, which FLAC, Matroska and WAV keep, and a tag of its own where
 /// there are such. Whatever writes tracks writes it.
-extern const char* const kTrackMark;
+extern const char* const kMark;
 
 /// Whether tags of a stream contain the mark. Those of a container apply to all of its streams, and
 /// say nothing of one of them.
 bool is_marked(const GstTagList* tags);
 
 /// Whether the stream that comes to a pad is marked, from the events that come to it.
-class StreamMark {
+class Mark {
  public:
   void follow(GstEvent* event);
   bool is_set() const { return is_set_; }
@@ -45,19 +45,19 @@ std::string how_to_mark();
 
 /// Stored in the comment of the track, which FLAC, Matroska and WAV keep. Tracks that were made by
 /// hand have neither.
-struct TrackNotes {
+struct Notes {
   FilmFingerprint film;  ///< that it was recorded from; empty: not known
   /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
   std::optional<std::string> settings;
 };
 
 /// Title, comment and full scale of a track. Owned by the caller.
-GstTagList* track_tags(const TrackNotes& notes = {});
+GstTagList* tags(const Notes& notes = {});
 
 /// Adds to `notes` what `tags` contain.
-void read_notes(const GstTagList* tags, TrackNotes& notes);
+void read_notes(const GstTagList* tags, Notes& notes);
 
 /// What `pad`, a linked source pad, sends gets these tags, in place of all others.
-void tag_track(GstPad* pad, const TrackNotes& notes);
+void tag(GstPad* pad, const Notes& notes);
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -11,20 +11,20 @@
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
-namespace spidar {
+namespace spidar::tracks {
 
-void TrackWarnings::tell_of_mark() {
+void Warnings::tell_of_mark() {
   if (std::exchange(unmarked_, true)) return;
   GST_ELEMENT_WARNING(
       element_, STREAM, WRONG_TYPE,
       ("This sound is not felt: nothing says that it is a haptic track. Tracks that spidarextract "
        "and spidartrack make have the tag %s. If this is one, set accept-unmarked=true, or mark "
        "the file: %s",
-       kTrackMark, how_to_mark().c_str()),
+       kMark, how_to_mark().c_str()),
       ("Sound for ears would push and pull the hand."));
 }
 
-void TrackWarnings::tell_of_sync() {
+void Warnings::tell_of_sync() {
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                       ("sync=false has no effect: each sample of a haptic track is felt at its "
                        "time, at base time + "
@@ -32,7 +32,7 @@ void TrackWarnings::tell_of_sync() {
                       ("Without it, the whole track would be over at once."));
 }
 
-void TrackWarnings::check(const TrackFaults& faults, bool has_time, const std::string& path) {
+void Warnings::check(const Faults& faults, bool has_time, const std::string& path) {
   const std::string track = "The haptic track" + (path.empty() ? "" : " " + path);
   if (faults.not_finite > 0 && !not_finite_) {
     not_finite_ = true;
@@ -69,4 +69,4 @@ void TrackWarnings::check(const TrackFaults& faults, bool has_time, const std::s
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::tracks

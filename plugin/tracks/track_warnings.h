@@ -9,22 +9,22 @@
 
 #include "plugin/tracks/track_input.h"
 
-namespace spidar {
+namespace spidar::tracks {
 
 /// Posts each warning once per stream. Streaming thread.
-class TrackWarnings {
+class Warnings {
  public:
-  explicit TrackWarnings(GstElement* element) : element_(element) {}
+  explicit Warnings(GstElement* element) : element_(element) {}
 
   /// A new stream begins: every warning may be posted again.
-  void start() { *this = TrackWarnings(element_); }
+  void start() { *this = Warnings(element_); }
   /// Nothing marks the stream as a haptic track, and it is not rendered.
   void tell_of_mark();
   /// The property sync=false was set.
   void tell_of_sync();
   /// Looks at the faults so far, and at whether the last buffer had a time at which to render it.
   /// `path` is that of the track, if it is a file.
-  void check(const TrackFaults& faults, bool has_time, const std::string& path = "");
+  void check(const Faults& faults, bool has_time, const std::string& path = "");
 
  private:
   GstElement* element_;
@@ -33,4 +33,4 @@ class TrackWarnings {
        unmarked_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::tracks

@@ -26,25 +26,25 @@ constexpr double kMostRelief_m = 0.03;
   throw std::invalid_argument(text.str());
 }
 
-spidar::ContactSettings contact_of(const Surface& surface, const SurfaceRange& range) {
+spidar::touch::ContactSettings contact_of(const Surface& surface, const SurfaceRange& range) {
   if (surface.stiffness_N_m > range.most_stiffness_N_m) {
     refuse("the stiffness of a surface", range.most_stiffness_N_m, "N/m on this device",
            surface.stiffness_N_m);
   }
-  spidar::ContactSettings contact;
+  spidar::touch::ContactSettings contact;
   contact.stiffness_N_m = surface.stiffness_N_m;
   contact.delay_s = spidar::surface_delay_s(range.drive_lag_s);
-  contact.friction = spidar::friction_of(surface.friction);
+  contact.friction = spidar::touch::friction_of(surface.friction);
   contact.texture = surface.texture;
-  spidar::validate(contact);
+  spidar::touch::validate(contact);
   return contact;
 }
 
-spidar::ReliefSettings relief_of(const Surface& surface) {
-  spidar::ReliefSettings relief;
+spidar::touch::ReliefSettings relief_of(const Surface& surface) {
+  spidar::touch::ReliefSettings relief;
   relief.relief_m = surface.relief_m;
   relief.floor_z_m = -0.5 * surface.relief_m;
-  spidar::validate(relief);
+  spidar::touch::validate(relief);
   if (surface.relief_m > kMostRelief_m) {
     refuse("the height of a relief", kMostRelief_m, "m", surface.relief_m);
   }
@@ -60,18 +60,18 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
         "this device has no surfaces: it takes no force towards the viewer; a SPIDAR with six "
         "strings or more does");
   }
-  const spidar::ContactSettings contact = contact_of(surface, range);
-  const spidar::ReliefSettings relief = relief_of(surface);
+  const spidar::touch::ContactSettings contact = contact_of(surface, range);
+  const spidar::touch::ReliefSettings relief = relief_of(surface);
   const spidar::ImageView picture = from_api(surface.picture);
   spidar::require_usable(picture);
   if (!mailbox_) {
-    mailbox_ = std::make_unique<spidar::TouchMailbox>(
-        2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::TouchMailbox::kLeastSlots);
+    mailbox_ = std::make_unique<spidar::touch::Mailbox>(
+        2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::touch::Mailbox::kLeastSlots);
     loop.connect_touch(mailbox_.get());
     connected_ = mailbox_.get();
   }
   if (loop.snapshot().last.device == spidar::DeviceState::kLost) return false;
-  spidar::TouchFrame* const frame = free_slot();
+  spidar::touch::Frame* const frame = free_slot();
   if (frame == nullptr) return false;
   builder_.from_brightness(picture, relief, frame->relief);
   frame->has_texture = surface.texture > 0;
@@ -85,14 +85,14 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
 }
 
 void TouchedSurface::clear() noexcept {
-  if (spidar::TouchMailbox* const mailbox = connected_) mailbox->clear();
+  if (spidar::touch::Mailbox* const mailbox = connected_) mailbox->clear();
 }
 
 /// The loop frees those of former surfaces in its next tick, unless the device is lost meanwhile.
-spidar::TouchFrame* TouchedSurface::free_slot() noexcept {
+spidar::touch::Frame* TouchedSurface::free_slot() noexcept {
   constexpr int kTicks = 20;
   for (int i = 0; i < kTicks; ++i) {
-    if (spidar::TouchFrame* const frame = mailbox_->begin(mailbox_->generation())) return frame;
+    if (spidar::touch::Frame* const frame = mailbox_->begin(mailbox_->generation())) return frame;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return nullptr;

@@ -32,11 +32,11 @@ class TouchedSurface {
   void clear() noexcept;
 
  private:
-  spidar::TouchFrame* free_slot() noexcept;
+  spidar::touch::Frame* free_slot() noexcept;
 
-  spidar::ReliefBuilder builder_;
-  std::unique_ptr<spidar::TouchMailbox> mailbox_;          ///< null before the first surface
-  std::atomic<spidar::TouchMailbox*> connected_{nullptr};  ///< the same, for clear()
+  spidar::touch::ReliefBuilder builder_;
+  std::unique_ptr<spidar::touch::Mailbox> mailbox_;          ///< null before the first surface
+  std::atomic<spidar::touch::Mailbox*> connected_{nullptr};  ///< the same, for clear()
 };
 
 }  // namespace v0

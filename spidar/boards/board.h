@@ -16,7 +16,7 @@
 #include "spidar/grip/pose_trust.h"
 #include "spidar/guardian/guardian.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// When the counts are set to zero at the present position of the grip.
 enum class CountZero {
@@ -25,7 +25,7 @@ enum class CountZero {
   kNever,      ///< the counts of the board, to which calibrated home offsets refer
 };
 
-struct BoardSettings {
+struct Settings {
   CountZero count_zero = CountZero::kByProfile;
   /// A separate process zeroes the motors when this one is killed.
   bool guardian = true;
@@ -140,4 +140,4 @@ class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
 /// A board of either type.
 using AnyBoard = std::variant<std::unique_ptr<Board>, std::unique_ptr<ForceBoard>>;
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -5,7 +5,7 @@
 #include "spidar/boards/encoder_counts.h"
 #include "spidar/text.h"
 
-namespace spidar {
+namespace spidar::boards {
 namespace {
 
 /// Of a hand with a grip (EncoderCounts). Faster counters count as broken.
@@ -15,7 +15,7 @@ constexpr double kLeast_m_per_count =
 
 }  // namespace
 
-std::string misfit(const Profile& profile, const BoardTraits& board) {
+std::string misfit(const Profile& profile, const Traits& board) {
   if (profile.dac_bits != board.dac_bits) {
     return "has dac_bits = " + as_text(profile.dac_bits) + ", and the D/A of the board has " +
            as_text(board.dac_bits) + " bits: take a profile for this board, or correct dac_bits";
@@ -44,7 +44,7 @@ std::string misfit(const Profile& profile, const BoardTraits& board) {
   return {};
 }
 
-void require_fitting(const std::string& device, const Profile& profile, const BoardTraits& board) {
+void require_fitting(const std::string& device, const Profile& profile, const Traits& board) {
   const std::string why = misfit(profile, board);
   if (!why.empty()) {
     throw DeviceError(device + ": profile \"" + profile.name + "\" " + why,
@@ -52,4 +52,4 @@ void require_fitting(const std::string& device, const Profile& profile, const Bo
   }
 }
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -18,7 +18,7 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Returns the transport's will with these packets; empty if no other process can reach the board.
 inline std::vector<LastWill> wills(const Transport& transport,
@@ -87,20 +87,20 @@ inline DacScale uart_dac(const Profile&) noexcept {
 }
 
 /// What the protocol of a board defines for every board of its kind.
-struct BoardTraits {
+struct Traits {
   int dac_bits = 12;
   double max_V = 0;      ///< of its D/A; 0: not published, the profile has it
   bool negative = true;  ///< whether it puts out negative volts
 };
 
-constexpr BoardTraits kCyverseTraits{sh4::kDacBits, 0, false};
-constexpr BoardTraits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
+constexpr Traits kCyverseTraits{sh4::kDacBits, 0, false};
+constexpr Traits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
 
 /// Why the profile describes a board that this one cannot be, as the end of a sentence with the
 /// field's name: "has dac_bits = 16, …". Empty if it fits.
-std::string misfit(const Profile& profile, const BoardTraits& board);
+std::string misfit(const Profile& profile, const Traits& board);
 
 /// Throws DeviceError with misfit().
-void require_fitting(const std::string& device, const Profile& profile, const BoardTraits& board);
+void require_fitting(const std::string& device, const Profile& profile, const Traits& board);
 
-}  // namespace spidar
+}  // namespace spidar::boards

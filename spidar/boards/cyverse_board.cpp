@@ -7,10 +7,10 @@
 
 #include "spidar/boards/board_parts.h"
 
-namespace spidar {
+namespace spidar::boards {
 
-CyverseBoard::CyverseBoard(std::string name, const Profile& profile,
-                           std::unique_ptr<Transport> transport, int counter_bits)
+Cyverse::Cyverse(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+                 int counter_bits)
     : name_(std::move(name)),
       dac_(unipolar_dac(profile)),
       transport_(std::move(transport)),
@@ -18,7 +18,7 @@ CyverseBoard::CyverseBoard(std::string name, const Profile& profile,
   require_fitting(name_, profile, kCyverseTraits);
 }
 
-void CyverseBoard::open() {
+void Cyverse::open() {
   transport_->open();
   transport_->recover();
   Readout readout;
@@ -36,8 +36,8 @@ void CyverseBoard::open() {
   rotary_ = readout.rotary;
 }
 
-LinkFault CyverseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
-                              int64_t deadline_ns) noexcept {
+LinkFault Cyverse::cycle(const MotorVolts& volts, DeviceReading& reading,
+                         int64_t deadline_ns) noexcept {
   DacDigits digits{};
   for (size_t i = 0; i < digits.size(); ++i) {
     digits[i] = static_cast<uint16_t>(dac_.digit(volts.volt[i]));
@@ -51,22 +51,21 @@ LinkFault CyverseBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   return LinkFault::kNone;
 }
 
-std::vector<LastWill> CyverseBoard::last_wills() const {
+std::vector<LastWill> Cyverse::last_wills() const {
   const std::vector<uint8_t> zero = zero_packet();
   return wills(*transport_, {{zero.data(), zero.size()}});
 }
 
-Sh4Board::Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
-    : CyverseBoard(std::move(name), profile, std::move(transport), 16) {}
+Sh4::Sh4(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
+    : Cyverse(std::move(name), profile, std::move(transport), 16) {}
 
 /// The published host only resets the pipe, which the transport has done already.
-LinkFault Sh4Board::reset(int64_t) noexcept {
+LinkFault Sh4::reset(int64_t) noexcept {
   sent_ = {};
   return LinkFault::kNone;
 }
 
-LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
-                             int64_t deadline_ns) noexcept {
+LinkFault Sh4::exchange(const DacDigits& digits, Readout& readout, int64_t deadline_ns) noexcept {
   sent_[sent_at_] = digits;
   sent_at_ = (sent_at_ + 1) % kEchoes;
   sh4::encode_update(digits, out_);
@@ -84,11 +83,11 @@ LinkFault Sh4Board::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
-std::string Sh4Board::description() const {
+std::string Sh4::description() const {
   return "CyVerse USB 2.0 SH4, rotary switch " + std::to_string(rotary());
 }
 
-std::vector<uint8_t> Sh4Board::zero_packet() const {
+std::vector<uint8_t> Sh4::zero_packet() const {
   sh4::Packet zero;
   sh4::encode_update({}, zero);
   return {zero.begin(), zero.end()};
@@ -100,20 +99,19 @@ constexpr uint8_t kAllChannels = 0xFF;
 
 }  // namespace
 
-SimpleBoard::SimpleBoard(std::string name, const Profile& profile,
-                         std::unique_ptr<Transport> transport)
-    : CyverseBoard(std::move(name), profile, std::move(transport), 24) {
+Simple::Simple(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
+    : Cyverse(std::move(name), profile, std::move(transport), 24) {
   usb_simple::encode_latch(latch_);
 }
 
-LinkFault SimpleBoard::reset(int64_t deadline_ns) noexcept {
+LinkFault Simple::reset(int64_t deadline_ns) noexcept {
   usb_simple::Packet direction;
   usb_simple::encode_encoder_direction(kAllChannels, direction);
   return transport().exchange({direction}, {}, deadline_ns).fault;
 }
 
-LinkFault SimpleBoard::exchange(const DacDigits& digits, Readout& readout,
-                                int64_t deadline_ns) noexcept {
+LinkFault Simple::exchange(const DacDigits& digits, Readout& readout,
+                           int64_t deadline_ns) noexcept {
   usb_simple::encode_set_dac(digits, set_dac_);
   const Transfer transfer = transport().exchange({set_dac_, latch_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
@@ -129,14 +127,14 @@ LinkFault SimpleBoard::exchange(const DacDigits& digits, Readout& readout,
   return LinkFault::kNone;
 }
 
-std::string SimpleBoard::description() const {
+std::string Simple::description() const {
   return "CyVerse USB 2.0 Simple, rotary switch " + std::to_string(rotary());
 }
 
-std::vector<uint8_t> SimpleBoard::zero_packet() const {
+std::vector<uint8_t> Simple::zero_packet() const {
   usb_simple::Packet zero;
   usb_simple::encode_set_dac({}, zero);
   return {zero.begin(), zero.end()};
 }
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -15,13 +15,13 @@
 #include "spidar/protocols/cyverse.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
-class CyverseBoard : public Board {
+class Cyverse : public Board {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
-  CyverseBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
-               int counter_bits);
+  Cyverse(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+          int counter_bits);
 
   void open() final;
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
@@ -61,10 +61,10 @@ class CyverseBoard : public Board {
   int rotary_ = -1;
 };
 
-class Sh4Board final : public CyverseBoard {
+class Sh4 final : public Cyverse {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
-  Sh4Board(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+  Sh4(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
   std::string description() const override;
 
@@ -83,10 +83,10 @@ class Sh4Board final : public CyverseBoard {
   size_t sent_at_ = 0;
 };
 
-class SimpleBoard final : public CyverseBoard {
+class Simple final : public Cyverse {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
-  SimpleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
+  Simple(std::string name, const Profile& profile, std::unique_ptr<Transport> transport);
 
   std::string description() const override;
 
@@ -101,4 +101,4 @@ class SimpleBoard final : public CyverseBoard {
   usb_simple::Packet in_{};
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -10,7 +10,7 @@
 
 #include "core/grip/string_geometry.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Follows up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way
 /// round.
@@ -141,4 +141,4 @@ class EncoderCounts {
   bool restarted_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

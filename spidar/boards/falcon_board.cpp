@@ -13,7 +13,7 @@
 #include "spidar/boards/falcon_kinematics.h"
 #include "spidar/whole_file.h"
 
-namespace spidar {
+namespace spidar::boards {
 namespace {
 
 /// The published program tries a hundred times, of which few are needed.
@@ -50,11 +50,11 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
 
 }  // namespace
 
-FalconBoard::FalconBoard(std::string name, std::unique_ptr<Transport> transport)
+Falcon::Falcon(std::string name, std::unique_ptr<Transport> transport)
     : name_(std::move(name)), transport_(std::move(transport)) {}
 
 template <typename Requests>
-LinkFault FalconBoard::set_line(const Requests& requests) noexcept {
+LinkFault Falcon::set_line(const Requests& requests) noexcept {
   for (const VendorRequest& request : requests) {
     const LinkFault fault = transport_->control(request, soon_ns());
     if (fault != LinkFault::kNone) return fault;
@@ -65,7 +65,7 @@ LinkFault FalconBoard::set_line(const Requests& requests) noexcept {
 /// Sends the bytes and waits until the answer is full. Packets from the chip begin with its status
 /// and contain any part of an answer, or nothing: it sends its status also while the device is
 /// silent, which the transport ends at the deadline.
-LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
+LinkFault Falcon::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
   if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
   std::array<uint8_t, ftdi::kPacketSize> in{};
   for (size_t filled = 0, sent = 0; filled < answer.size; sent = 1) {
@@ -84,7 +84,7 @@ LinkFault FalconBoard::say(ByteView bytes, MutableBytes answer, int64_t deadline
   return LinkFault::kNone;
 }
 
-LinkFault FalconBoard::ask(const falcon::Command& command, int64_t deadline_ns) noexcept {
+LinkFault Falcon::ask(const falcon::Command& command, int64_t deadline_ns) noexcept {
   falcon::encode_command(command, out_);
   falcon::Packet answer{};
   const LinkFault fault = say(out_, answer, deadline_ns);
@@ -95,13 +95,13 @@ LinkFault FalconBoard::ask(const falcon::Command& command, int64_t deadline_ns) 
 }
 
 /// Whether the firmware answers.
-LinkFault FalconBoard::start() noexcept {
+LinkFault Falcon::start() noexcept {
   const LinkFault fault = set_line(falcon::kRunLine);
   if (fault != LinkFault::kNone) return fault;
   return open_exchange([this](int64_t deadline_ns) { return ask({}, deadline_ns); }, *transport_);
 }
 
-LinkFault FalconBoard::greet_loader() noexcept {
+LinkFault Falcon::greet_loader() noexcept {
   LinkFault fault = set_line(falcon::kHelloLine);
   std::array<uint8_t, falcon::kHelloAnswer.size()> answer{};
   for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
@@ -118,7 +118,7 @@ LinkFault FalconBoard::greet_loader() noexcept {
 }
 
 /// Every piece is echoed, which is how errors on the line are noticed.
-LinkFault FalconBoard::load(const std::vector<uint8_t>& firmware) noexcept {
+LinkFault Falcon::load(const std::vector<uint8_t>& firmware) noexcept {
   LinkFault fault = greet_loader();
   std::array<uint8_t, falcon::kPieceSize> echo{};
   const auto send = [&](ByteView piece) {
@@ -136,7 +136,7 @@ LinkFault FalconBoard::load(const std::vector<uint8_t>& firmware) noexcept {
   return fault;
 }
 
-void FalconBoard::begin() {
+void Falcon::begin() {
   LinkFault fault = start();
   if (fault == LinkFault::kTimeout || fault == LinkFault::kWrongReply) {
     fault = load(read_firmware(name_, fault));
@@ -146,7 +146,7 @@ void FalconBoard::begin() {
   see();
 }
 
-void FalconBoard::open() {
+void Falcon::open() {
   transport_->open();
   try {
     begin();
@@ -157,7 +157,7 @@ void FalconBoard::open() {
 }
 
 /// From the counts, if they are counted from the marks.
-void FalconBoard::see() noexcept {
+void Falcon::see() noexcept {
   position_.reset();
   if (!seen_.all_homed()) return;
   const Eigen::Vector3d angles_rad(falcon::angle_rad(seen_.count[0]),
@@ -169,7 +169,7 @@ void FalconBoard::see() noexcept {
 }
 
 /// Shortened together, where one motor cannot give its part, so that the direction remains.
-std::array<int, 3> FalconBoard::digits_for(const Eigen::Vector3d& force_N) const noexcept {
+std::array<int, 3> Falcon::digits_for(const Eigen::Vector3d& force_N) const noexcept {
   std::array<int, 3> digits{};
   if (!position_ || !force_N.allFinite()) return digits;
   Eigen::Vector3d wanted = falcon::kDigitsPerNm * (position_->jacobian.transpose() * force_N);
@@ -181,8 +181,8 @@ std::array<int, 3> FalconBoard::digits_for(const Eigen::Vector3d& force_N) const
   return digits;
 }
 
-LinkFault FalconBoard::cycle(const ForceOutput& output, ForceReading& reading,
-                             int64_t deadline_ns) noexcept {
+LinkFault Falcon::cycle(const ForceOutput& output, ForceReading& reading,
+                        int64_t deadline_ns) noexcept {
   falcon::Command command;
   command.digit = digits_for(output.force_N);
   command.light = seen_.all_homed() ? falcon::Light::kGreen : falcon::Light::kRed;
@@ -196,20 +196,20 @@ LinkFault FalconBoard::cycle(const ForceOutput& output, ForceReading& reading,
   return LinkFault::kNone;
 }
 
-void FalconBoard::recover() noexcept {
+void Falcon::recover() noexcept {
   transport_->recover();
   stale_ = true;
 }
 
-std::vector<LastWill> FalconBoard::last_wills() const {
+std::vector<LastWill> Falcon::last_wills() const {
   falcon::Packet rest;
   falcon::encode_command({}, rest);
   return wills(*transport_, {rest});
 }
 
-std::string FalconBoard::description() const {
+std::string Falcon::description() const {
   return std::string("Novint Falcon") +
          (seen_.all_homed() ? "" : "; pull its grip all the way out, then push it all the way in");
 }
 
-}  // namespace spidar
+}  // namespace spidar::boards

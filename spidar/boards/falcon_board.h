@@ -12,7 +12,7 @@
 #include "spidar/protocols/novint_falcon.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Its firmware, which it forgets without power, is not ours to ship. open() takes it from the file
 /// that $SPIDAR_FALCON_FIRMWARE names, or from ~/.local/share/gst-spidar/novint-falcon.bin, if the
@@ -20,9 +20,9 @@ namespace spidar {
 ///
 /// Until every encoder has passed its mark there is no position and no force: the user pulls the
 /// grip all the way out and pushes it all the way in.
-class FalconBoard final : public ForceBoard {
+class Falcon final : public ForceBoard {
  public:
-  FalconBoard(std::string name, std::unique_ptr<Transport> transport);
+  Falcon(std::string name, std::unique_ptr<Transport> transport);
 
   void open() override;
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
@@ -67,4 +67,4 @@ class FalconBoard final : public ForceBoard {
   bool stale_ = false;  ///< bytes of an exchange that failed may still arrive
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

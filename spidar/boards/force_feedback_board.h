@@ -17,21 +17,21 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// A stick that is pushed all the way corresponds to a grip half way from the middle to the points
 /// where the strings of the profile leave its frame, which is the edge of the picture for
 /// pointer=grip.
-class ForceFeedbackBoard final : public ForceBoard {
+class ForceFeedback final : public ForceBoard {
  public:
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
   using Updates = StickEffects::Updates;
-  ForceFeedbackBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
-                     Updates updates, const StickEffects::Options& options = {})
+  ForceFeedback(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+                Updates updates, const StickEffects::Options& options = {})
       : name_(std::move(name)),
         reach_m_(half_picture_m(profile.geometry)),
         effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {}
-  ~ForceFeedbackBoard() override { effects_->close(false); }
+  ~ForceFeedback() override { effects_->close(false); }
 
   void open() override {
     reopening_ = false;
@@ -94,4 +94,4 @@ class ForceFeedbackBoard final : public ForceBoard {
   bool reopening_ = false;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

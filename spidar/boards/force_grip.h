@@ -14,14 +14,14 @@
 #include "spidar/grip/pose_trust.h"
 #include "spidar/profiles/profile.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Sends the force to its board in the axes that it renders, up to what it can give, and
 /// takes the position from it. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:
   /// Only the settings of the guardian and of the thread are used.
-  ForceGrip(std::unique_ptr<ForceBoard> board, const BoardSettings& settings)
+  ForceGrip(std::unique_ptr<ForceBoard> board, const Settings& settings)
       : board_(*board), traits_(traits_of(board_.abilities())), link_(std::move(board), settings) {}
 
   void open() override {
@@ -115,4 +115,4 @@ class ForceGrip final : public Grip {
   ForceLink link_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

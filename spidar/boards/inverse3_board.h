@@ -14,14 +14,14 @@
 #include "spidar/protocols/inverse3.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// One force and one state in each cycle: the service answers every message. A force is sent only
 /// when the one before has been answered, so that none can arrive late.
-class Inverse3Board final : public ForceBoard {
+class Inverse3 final : public ForceBoard {
  public:
   /// `id` is the device's number in the service ("049D"); empty: the first one.
-  Inverse3Board(std::string name, std::string id, std::unique_ptr<Transport> transport)
+  Inverse3(std::string name, std::string id, std::unique_ptr<Transport> transport)
       : name_(std::move(name)),
         id_(std::move(id)),
         transport_(std::move(transport)),
@@ -146,4 +146,4 @@ class Inverse3Board final : public ForceBoard {
   std::vector<uint8_t> answer_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

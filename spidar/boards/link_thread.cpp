@@ -10,7 +10,7 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 
-namespace spidar {
+namespace spidar::boards {
 namespace {
 
 /// A single fault on the wire may concern only one packet; several in a row do not.
@@ -33,7 +33,7 @@ bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
 
 template <typename Output, typename Reading>
 LinkThread<Output, Reading>::LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board,
-                                        const BoardSettings& settings)
+                                        const Settings& settings)
     : board_(std::move(board)), settings_(settings) {
   sem_init(&requested_, 0, 0);
   sem_init(&replied_, 0, 0);
@@ -274,4 +274,4 @@ LinkHealth LinkThread<Output, Reading>::health() const noexcept {
 template class LinkThread<MotorVolts, DeviceReading>;
 template class LinkThread<ForceOutput, ForceReading>;
 
-}  // namespace spidar
+}  // namespace spidar::boards

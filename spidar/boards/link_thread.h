@@ -20,7 +20,7 @@
 #include "spidar/realtime/latency_histogram.h"
 #include "spidar/realtime/spsc_ring.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// A separate thread makes the exchanges, because libusb and the kernel may take locks, allocate
 /// memory and need any amount of time. The haptic thread only waits for them, up to kReplyWait_ns.
@@ -44,7 +44,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   static constexpr int kRamp_ms = 20;
 
   /// CountZero::kByProfile is for make_grip(); here it means kFirstOpen.
-  LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board, const BoardSettings& settings);
+  LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board, const Settings& settings);
   ~LinkThread() override;
 
   void open() override;
@@ -82,7 +82,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   bool bring_to_zero() noexcept;
 
   const std::unique_ptr<BoardOf<Output, Reading>> board_;
-  const BoardSettings settings_;
+  const Settings settings_;
   bool zeroed_ = false;  ///< the counts have been zeroed once
   std::vector<std::unique_ptr<Guardian>> guardians_;
   bool open_ = false;
@@ -111,4 +111,4 @@ class LinkThread final : public DeviceOf<Output, Reading> {
 using StringLink = LinkThread<MotorVolts, DeviceReading>;
 using ForceLink = LinkThread<ForceOutput, ForceReading>;
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -13,12 +13,12 @@
 #include "spidar/protocols/spidar_mouse.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Its grip is always at the centre.
-class MouseBoard final : public ForceBoard {
+class Mouse final : public ForceBoard {
  public:
-  MouseBoard(std::string name, std::unique_ptr<Transport> transport)
+  Mouse(std::string name, std::unique_ptr<Transport> transport)
       : name_(std::move(name)), transport_(std::move(transport)) {}
 
   void open() override {
@@ -91,4 +91,4 @@ class MouseBoard final : public ForceBoard {
   mouse::Report in_{};
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

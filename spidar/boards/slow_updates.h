@@ -13,7 +13,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/seqlock.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// A driver that needs 50 ms for an update gives a position every 55 ms, and a hand moves a stick
 /// by 20 mm in that time. As a step, this would look to a damper like a very fast hand. The
@@ -133,4 +133,4 @@ class UpdateWatch {
   uint32_t reported_ = 0;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

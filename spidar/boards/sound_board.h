@@ -16,13 +16,13 @@
 #include "spidar/protocols/sound.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Needs no guardian: the card stops by itself. The kernel stops it when this process ends, and
 /// what is written ends within the buffer of the card when it is stopped (SoundTransport).
-class SoundBoard final : public ForceBoard {
+class Sound final : public ForceBoard {
  public:
-  SoundBoard(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})
+  Sound(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})
       : name_(std::move(name)), settings_(std::move(settings)), transport_(std::move(transport)) {
     abilities_.torque = false;
     abilities_.position = {};
@@ -103,4 +103,4 @@ class SoundBoard final : public ForceBoard {
   std::atomic<int> underruns_{0}, period_ms_{0};
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -13,7 +13,7 @@
 #include "spidar/device.h"
 #include "spidar/realtime/thread_setup.h"
 
-namespace spidar {
+namespace spidar::boards {
 namespace {
 
 constexpr int64_t kMs = kSecond_ns / 1000;
@@ -346,4 +346,4 @@ std::vector<LastWill> StickEffects::last_wills() const {
   return will;
 }
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -20,7 +20,7 @@
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
 /// each axis is set at most every kUpdate_ms, one at a time, and only if it has changed. It lasts
@@ -140,4 +140,4 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   StickPosition position_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -6,7 +6,7 @@
 
 #include "spidar/boards/board_parts.h"
 
-namespace spidar {
+namespace spidar::boards {
 namespace {
 
 constexpr int64_t kEnquiry_ns = 10'000'000;  // the published wait
@@ -16,8 +16,7 @@ static_assert(LastWill::kMaxLength >= uart_motor::kZerosBefore + uart_motor::kMa
 
 }  // namespace
 
-UartBoard::UartBoard(std::string name, const Profile& profile,
-                     std::vector<std::unique_ptr<Transport>> lines)
+Uart::Uart(std::string name, const Profile& profile, std::vector<std::unique_ptr<Transport>> lines)
     : name_(std::move(name)),
       strings_(static_cast<size_t>(profile.geometry.count)),
       dac_(uart_dac(profile)),
@@ -25,7 +24,7 @@ UartBoard::UartBoard(std::string name, const Profile& profile,
   require_fitting(name_, profile, kUartTraits);
 }
 
-void UartBoard::find_stations(Transport& line, int64_t patience_ns) {
+void Uart::find_stations(Transport& line, int64_t patience_ns) {
   std::array<uint8_t, uart_motor::kEnquiryLength> enquiry{};
   std::array<uint8_t, uart_motor::kInfoLength> reply{};
   const size_t before = stations_.size();
@@ -50,7 +49,7 @@ void UartBoard::find_stations(Transport& line, int64_t patience_ns) {
   }
 }
 
-void UartBoard::find_all(int64_t patience_ns) {
+void Uart::find_all(int64_t patience_ns) {
   stations_.clear();
   motors_ = 0;
   for (const auto& line : lines_) {
@@ -60,7 +59,7 @@ void UartBoard::find_all(int64_t patience_ns) {
 }
 
 /// Behind the same adapter there may be other boards now.
-void UartBoard::require_same_stations() {
+void Uart::require_same_stations() {
   if (first_description_.empty()) first_description_ = description();
   if (description() == first_description_) return;
   throw DeviceError(name_ + ": these are other boards than those that were lost, " +
@@ -69,7 +68,7 @@ void UartBoard::require_same_stations() {
                     DeviceErrorCode::kSettings);
 }
 
-void UartBoard::open() {
+void Uart::open() {
   try {
     for (const auto& line : lines_) line->open();
     // On a busy computer an answer may be missed.
@@ -100,8 +99,8 @@ void UartBoard::open() {
   }
 }
 
-LinkFault UartBoard::exchange(const Station& station, const MotorVolts& volts,
-                              uart_motor::Reading& reading, int64_t deadline_ns) noexcept {
+LinkFault Uart::exchange(const Station& station, const MotorVolts& volts,
+                         uart_motor::Reading& reading, int64_t deadline_ns) noexcept {
   std::array<int, uart_motor::kMaxMotors> digits{};
   for (size_t i = 0; i < station.info.motors; ++i) {
     digits[i] = dac_.digit(volts.volt[station.first + i]);
@@ -118,8 +117,8 @@ LinkFault UartBoard::exchange(const Station& station, const MotorVolts& volts,
 
 /// Every board gets its command, whether or not earlier ones failed. Returns the first fault, or
 /// kGone if any board is gone.
-LinkFault UartBoard::exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
-                                  int64_t deadline_ns) noexcept {
+LinkFault Uart::exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
+                             int64_t deadline_ns) noexcept {
   LinkFault worst = LinkFault::kNone;
   for (const Station& station : stations_) {
     uart_motor::Reading reading;
@@ -130,8 +129,8 @@ LinkFault UartBoard::exchange_all(const MotorVolts& volts, std::array<uint32_t, 
   return worst;
 }
 
-LinkFault UartBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
-                           int64_t deadline_ns) noexcept {
+LinkFault Uart::cycle(const MotorVolts& volts, DeviceReading& reading,
+                      int64_t deadline_ns) noexcept {
   std::array<uint32_t, kMaxStrings> raw{};
   const LinkFault fault = exchange_all(volts, raw, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
@@ -141,15 +140,15 @@ LinkFault UartBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   return LinkFault::kNone;
 }
 
-void UartBoard::recover() noexcept {
+void Uart::recover() noexcept {
   for (const auto& line : lines_) line->recover();
 }
 
-void UartBoard::close() noexcept {
+void Uart::close() noexcept {
   for (const auto& line : lines_) line->close();
 }
 
-std::string UartBoard::description() const {
+std::string Uart::description() const {
   std::string text = "UART motor boards:";
   for (const Station& station : stations_) {
     text += (text.back() == ':' ? " number " : ", number ") + std::to_string(station.id) +
@@ -159,7 +158,7 @@ std::string UartBoard::description() const {
   return text;
 }
 
-std::vector<LastWill> UartBoard::last_wills() const {
+std::vector<LastWill> Uart::last_wills() const {
   std::vector<LastWill> result;
   for (const auto& line : lines_) {
     std::optional<LastWill> will = line->last_will();
@@ -178,4 +177,4 @@ std::vector<LastWill> UartBoard::last_wills() const {
   return result;
 }
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -14,14 +14,13 @@
 #include "spidar/protocols/uart_motor.h"
 #include "spidar/transports/transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// Strings are numbered by line, then by board number, then by motor.
-class UartBoard final : public Board {
+class Uart final : public Board {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
-  UartBoard(std::string name, const Profile& profile,
-            std::vector<std::unique_ptr<Transport>> lines);
+  Uart(std::string name, const Profile& profile, std::vector<std::unique_ptr<Transport>> lines);
 
   void open() override;
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
@@ -63,4 +62,4 @@ class UartBoard final : public Board {
   std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -8,7 +8,7 @@
 #include "spidar/device.h"
 #include "spidar/transports/usb_transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 int rotary_of(const std::string& id) {
   const bool digits =
@@ -185,4 +185,4 @@ void UsbBoardOf<BoardType>::open() {
 template class UsbBoardOf<Board>;
 template class UsbBoardOf<ForceBoard>;
 
-}  // namespace spidar
+}  // namespace spidar::boards

@@ -14,7 +14,7 @@
 #include "spidar/transports/device_identity.h"
 #include "spidar/transports/usb_transport.h"
 
-namespace spidar {
+namespace spidar::boards {
 
 /// A kind of board, wherever it is connected.
 struct BoardKind {
@@ -142,4 +142,4 @@ class UsbForceBoard final : public UsbBoardOf<ForceBoard> {
   GripAbilities abilities() const noexcept override { return first().abilities(); }
 };
 
-}  // namespace spidar
+}  // namespace spidar::boards

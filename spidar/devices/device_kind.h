@@ -24,7 +24,7 @@ struct BoardInfo {
   std::string path;    ///< on the bus: "1-2"; empty for simulated devices
   std::string serial;  ///< empty when it has none
   std::string usb_id;  ///< "0cec:0205"; empty when not on USB
-  Verification verification = Verification::kEmulated;
+  boards::Verification verification = boards::Verification::kEmulated;
   std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
   bool accessible = true;  ///< this process may open it
   /// The profile with which it is driven if none is named: that of a simulation, that of a device
@@ -42,15 +42,15 @@ struct BoardInfo {
 /// BoardInfo::note of a device that 70-spidar.rules would make accessible.
 constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
 
-struct DeviceKind : BoardKind {
+struct DeviceKind : boards::BoardKind {
   const char* board = "";  ///< "sh4", for sim:sh4; that of the real device if there is one only
   const char* names = "";  ///< how a real one may be named, separated by ", "
   /// With which it is driven if none is named: its simulation, and the real one, too, if it has no
   /// strings.
   const char* profile = kDefaultProfile;
-  Verification verification = Verification::kEmulated;
+  boards::Verification verification = boards::Verification::kEmulated;
   const char* note = "";  ///< what is inferred
-  BoardTraits traits;     ///< of a board with strings: what profiles have to fit
+  boards::Traits traits;  ///< of a board with strings: what profiles have to fit
   /// The emulation of the board, connected to these motors.
   std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
   /// The motors of the simulation, and the hand that holds them.
@@ -61,8 +61,8 @@ struct DeviceKind : BoardKind {
 
   /// Makes the real board with this whole name; `rest` is what follows its colon. Opens nothing.
   /// Throws DeviceError when `rest` is wrong.
-  AnyBoard (*make)(const std::string& name, const std::string& rest,
-                   const Profile& profile) = nullptr;
+  boards::AnyBoard (*make)(const std::string& name, const std::string& rest,
+                           const Profile& profile) = nullptr;
   /// What is plugged in, as far as the system tells: the name, and what the kind does not say.
   std::vector<BoardInfo> (*list)() = nullptr;
 

@@ -20,12 +20,14 @@ namespace spidar {
 
 /// For DeviceKind::attach.
 template <typename BoardType>
-AnyBoard attach(const std::string& name, const Profile& profile,
-                std::unique_ptr<Transport> transport) {
-  if constexpr (std::is_base_of_v<Board, BoardType>) {
-    return std::unique_ptr<Board>(std::make_unique<BoardType>(name, profile, std::move(transport)));
+boards::AnyBoard attach(const std::string& name, const Profile& profile,
+                        std::unique_ptr<Transport> transport) {
+  if constexpr (std::is_base_of_v<boards::Board, BoardType>) {
+    return std::unique_ptr<boards::Board>(
+        std::make_unique<BoardType>(name, profile, std::move(transport)));
   } else {
-    return std::unique_ptr<ForceBoard>(std::make_unique<BoardType>(name, std::move(transport)));
+    return std::unique_ptr<boards::ForceBoard>(
+        std::make_unique<BoardType>(name, std::move(transport)));
   }
 }
 
@@ -49,7 +51,7 @@ std::shared_ptr<emulated::Motors> simulated_hand(const Profile&,
   return std::make_shared<emulated::SpringHand>(inputs);
 }
 
-template <DacScale (*dac)(const Profile&)>
+template <boards::DacScale (*dac)(const Profile&)>
 std::shared_ptr<emulated::Motors> simulated_strings(const Profile& profile,
                                                     const emulated::SimulatedMechanics& mechanics) {
   return std::make_shared<emulated::SimulatedMotors>(profile, dac(profile), mechanics);

@@ -37,8 +37,9 @@ const DeviceKind* simulated_kind(const DeviceName& name) {
   return nullptr;
 }
 
-AnyBoard simulated_board(const DeviceKind& kind, const std::string& name, const Profile& profile,
-                         const emulated::SimulatedMechanics& mechanics) {
+boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
+                                 const Profile& profile,
+                                 const emulated::SimulatedMechanics& mechanics) {
   auto emulated = kind.emulate(kind.simulated_motors(profile, mechanics));
   return kind.attach(name, profile,
                      std::make_unique<emulated::Transport>(std::move(emulated),

@@ -33,7 +33,8 @@ const DeviceKind* simulated_kind(const DeviceName& name);
 
 /// The board that its emulation answers, which needs no thread and no guardian. Throws DeviceError
 /// when the board cannot drive the profile, and std::invalid_argument as SimulatedDevice does.
-AnyBoard simulated_board(const DeviceKind& kind, const std::string& name, const Profile& profile,
-                         const emulated::SimulatedMechanics& mechanics = {});
+boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
+                                 const Profile& profile,
+                                 const emulated::SimulatedMechanics& mechanics = {});
 
 }  // namespace spidar

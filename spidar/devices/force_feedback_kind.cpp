@@ -12,7 +12,7 @@ namespace {
 
 /// One of axes=N, gain=PERCENT, flip=x, flip=y and flip=xy. Returns false if it is none of them, or
 /// was given before.
-bool take_option(const std::string& option, int& axes, StickEffects::Options& options) {
+bool take_option(const std::string& option, int& axes, boards::StickEffects::Options& options) {
   if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
   if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0) {
     return true;
@@ -24,12 +24,12 @@ bool take_option(const std::string& option, int& axes, StickEffects::Options& op
 }
 
 /// `rest` is empty, PATH, or PATH with options after commas.
-AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
-                             const Profile& profile) {
+boards::AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
+                                     const Profile& profile) {
   const size_t comma = rest.find(',');
   const std::string path = rest.substr(0, comma);
   int axes = 0;
-  StickEffects::Options options;
+  boards::StickEffects::Options options;
   for (size_t at = comma; at != std::string::npos;) {
     const size_t end = rest.find(',', at + 1);
     const std::string option = rest.substr(at + 1, end == std::string::npos ? end : end - at - 1);
@@ -47,15 +47,15 @@ AnyBoard make_force_feedback(const std::string& name, const std::string& rest,
           DeviceErrorCode::kSettings);
     }
   }
-  return std::unique_ptr<ForceBoard>(std::make_unique<ForceFeedbackBoard>(
+  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),
-      ForceFeedbackBoard::Updates::kOwnThread, options));
+      boards::ForceFeedback::Updates::kOwnThread, options));
 }
 
-AnyBoard attach_force_feedback(const std::string& name, const Profile& profile,
-                               std::unique_ptr<Transport> transport) {
-  return std::unique_ptr<ForceBoard>(std::make_unique<ForceFeedbackBoard>(
-      name, profile, std::move(transport), ForceFeedbackBoard::Updates::kInCycle));
+boards::AnyBoard attach_force_feedback(const std::string& name, const Profile& profile,
+                                       std::unique_ptr<Transport> transport) {
+  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
+      name, profile, std::move(transport), boards::ForceFeedback::Updates::kInCycle));
 }
 
 std::vector<BoardInfo> list_force_feedback_boards() {

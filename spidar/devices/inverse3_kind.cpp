@@ -10,7 +10,7 @@ namespace spidar {
 namespace {
 
 /// `rest` is empty, ID, or ID,port=N.
-AnyBoard make_inverse3(const std::string& name, const std::string& rest, const Profile&) {
+boards::AnyBoard make_inverse3(const std::string& name, const std::string& rest, const Profile&) {
   constexpr int kLastPort = 65535;
   const size_t comma = rest.find(',');
   int port = inverse3::kPort;
@@ -22,17 +22,17 @@ AnyBoard make_inverse3(const std::string& name, const std::string& rest, const P
                           " unless it was changed",
                       DeviceErrorCode::kSettings);
   }
-  return std::unique_ptr<ForceBoard>(std::make_unique<Inverse3Board>(
+  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::Inverse3>(
       name, rest.substr(0, comma),
       std::make_unique<WebSocketTransport>(
           name, static_cast<uint16_t>(port),
           "start Haply's Inverse Service (Haply Hub, or: systemctl start haply-inverse-service)")));
 }
 
-AnyBoard attach_inverse3(const std::string& name, const Profile&,
-                         std::unique_ptr<Transport> transport) {
-  return std::unique_ptr<ForceBoard>(
-      std::make_unique<Inverse3Board>(name, "", std::move(transport)));
+boards::AnyBoard attach_inverse3(const std::string& name, const Profile&,
+                                 std::unique_ptr<Transport> transport) {
+  return std::unique_ptr<boards::ForceBoard>(
+      std::make_unique<boards::Inverse3>(name, "", std::move(transport)));
 }
 
 /// To ask the service would be a session there.
@@ -53,7 +53,7 @@ DeviceKind inverse3_kind() {
   kind.title = "Haply Inverse3";
   kind.board = "inverse3";
   kind.names = "inverse3, inverse3:ID";
-  kind.verification = Verification::kInferred;
+  kind.verification = boards::Verification::kInferred;
   kind.attach = attach_inverse3;
   kind.emulate = emulate<emulated::Inverse3>;
   kind.simulated_motors = simulated_hand<0>;

@@ -13,9 +13,9 @@
 namespace spidar {
 namespace {
 
-AnyBoard make_sound(const std::string& name, const std::string& rest, const Profile&) {
+boards::AnyBoard make_sound(const std::string& name, const std::string& rest, const Profile&) {
   const sound::Settings settings = sound::Settings::parse(name, rest);
-  return std::unique_ptr<ForceBoard>(std::make_unique<SoundBoard>(
+  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::Sound>(
       name, std::make_unique<SoundTransport>(name, settings), settings));
 }
 
@@ -40,7 +40,7 @@ DeviceKind sound_kind() {
   kind.title = "sound card";
   kind.board = "sound";
   kind.names = "sound:CARD, sound:CARD,CHANNEL=DIRECTION";
-  kind.attach = attach<SoundBoard>;
+  kind.attach = attach<boards::Sound>;
   kind.emulate = emulate<emulated::Sound>;
   kind.simulated_motors = unconnected_motors;
   kind.make = make_sound;

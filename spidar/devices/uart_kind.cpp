@@ -14,20 +14,22 @@
 namespace spidar {
 namespace {
 
-AnyBoard uart_board(const std::string& name, const Profile& profile,
-                    std::vector<std::unique_ptr<Transport>> lines) {
-  return std::unique_ptr<Board>(std::make_unique<UartBoard>(name, profile, std::move(lines)));
+boards::AnyBoard uart_board(const std::string& name, const Profile& profile,
+                            std::vector<std::unique_ptr<Transport>> lines) {
+  return std::unique_ptr<boards::Board>(
+      std::make_unique<boards::Uart>(name, profile, std::move(lines)));
 }
 
-AnyBoard attach_uart(const std::string& name, const Profile& profile,
-                     std::unique_ptr<Transport> line) {
+boards::AnyBoard attach_uart(const std::string& name, const Profile& profile,
+                             std::unique_ptr<Transport> line) {
   std::vector<std::unique_ptr<Transport>> lines;
   lines.push_back(std::move(line));
   return uart_board(name, profile, std::move(lines));
 }
 
 /// `paths` are separated by commas.
-AnyBoard make_uart(const std::string& name, const std::string& paths, const Profile& profile) {
+boards::AnyBoard make_uart(const std::string& name, const std::string& paths,
+                           const Profile& profile) {
   std::vector<std::unique_ptr<Transport>> lines;
   for (size_t begin = 0; begin <= paths.size();) {
     const size_t end = std::min(paths.find(',', begin), paths.size());
@@ -72,10 +74,10 @@ DeviceKind uart_kind() {
   kind.board = "uart";
   kind.names = "uart:PATH";
   kind.profile = "spidar-g6x4";
-  kind.traits = kUartTraits;
+  kind.traits = boards::kUartTraits;
   kind.attach = attach_uart;
   kind.emulate = emulate_uart;
-  kind.simulated_motors = simulated_strings<uart_dac>;
+  kind.simulated_motors = simulated_strings<boards::uart_dac>;
   kind.make = make_uart;
   kind.list = list_uart;
   return kind;

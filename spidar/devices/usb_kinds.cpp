@@ -26,8 +26,8 @@ DeviceKind cyverse_kind() {
   kind.names = "usb, usb:ID";
   kind.profile = kPositiveProfile;
   kind.note = "endpoints and D/A range are inferred";
-  kind.traits = kCyverseTraits;
-  kind.simulated_motors = simulated_strings<unipolar_dac>;
+  kind.traits = boards::kCyverseTraits;
+  kind.simulated_motors = simulated_strings<boards::unipolar_dac>;
   return kind;
 }
 
@@ -39,7 +39,7 @@ DeviceKind sh4_kind() {
   kind.profile_board = board_name::kSh4;
   kind.usb = {sh4::kVendor, sh4::kProduct, {sh4::kEndpointOut, sh4::kEndpointIn}};
   kind.board = "sh4";
-  kind.attach = attach<Sh4Board>;
+  kind.attach = attach<boards::Sh4>;
   kind.emulate = emulate<emulated::Sh4>;
   return kind;
 }
@@ -52,7 +52,7 @@ DeviceKind simple_kind() {
               usb_simple::kProduct,
               {usb_simple::kEndpointOut, usb_simple::kEndpointIn}};
   kind.board = "simple";
-  kind.attach = attach<SimpleBoard>;
+  kind.attach = attach<boards::Simple>;
   kind.emulate = emulate<emulated::Simple>;
   return kind;
 }
@@ -65,7 +65,7 @@ DeviceKind falcon_kind() {
   kind.board = "falcon";
   kind.names = "falcon, falcon:ID";
   kind.note = "reach and scale of the force are inferred";
-  kind.attach = attach<FalconBoard>;
+  kind.attach = attach<boards::Falcon>;
   kind.emulate = emulate<emulated::Falcon>;
   kind.simulated_motors = simulated_hand<emulated::Falcon::kHomed>;
   return kind;
@@ -79,9 +79,9 @@ DeviceKind mouse_kind() {
       mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true}, true};
   kind.board = "mouse";
   kind.names = "mouse, mouse:ID";
-  kind.verification = Verification::kInferred;
+  kind.verification = boards::Verification::kInferred;
   kind.note = "other devices have this id; asked when it is opened";
-  kind.attach = attach<MouseBoard>;
+  kind.attach = attach<boards::Mouse>;
   kind.emulate = emulate<emulated::Mouse>;
   kind.simulated_motors = unconnected_motors;
   return kind;

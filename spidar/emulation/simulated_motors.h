@@ -23,7 +23,8 @@ struct SimulatedMechanics {
 class SimulatedMotors final : public Motors {
  public:
   /// `dac` is that of the board. Throws std::invalid_argument as SimulatedDevice does.
-  SimulatedMotors(const Profile& profile, const DacScale& dac, const SimulatedMechanics& mechanics)
+  SimulatedMotors(const Profile& profile, const boards::DacScale& dac,
+                  const SimulatedMechanics& mechanics)
       : device_(profile, SimulatedDevice::Time::kClock,
                 mechanics.model.value_or(grip_model_of(profile)), mechanics.clock),
         dac_(dac) {
@@ -40,7 +41,7 @@ class SimulatedMotors final : public Motors {
 
  private:
   SimulatedDevice device_;
-  const DacScale dac_;
+  const boards::DacScale dac_;
   DeviceReading reading_;
 };
 

@@ -197,7 +197,7 @@ void HapticLoop::count_gap(const TickRecord& record) noexcept {
 }
 
 void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
-  TouchMailbox* const mailbox = touch_mailbox_.load(std::memory_order_acquire);
+  touch::Mailbox* const mailbox = touch_mailbox_.load(std::memory_order_acquire);
   if (mailbox == nullptr) return;
   if (!record.playing || !grip_->reading().knows_pose() ||
       closing_.load(std::memory_order_acquire)) {

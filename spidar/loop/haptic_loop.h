@@ -86,7 +86,7 @@ class HapticLoop {
   /// Lets the grip touch the surfaces that are published in `touch`, which must outlive the loop.
   /// The contact force is added to the wanted wrench, before every safety step. Null, the default:
   /// there is nothing to touch.
-  void connect_touch(TouchMailbox* touch) noexcept {
+  void connect_touch(touch::Mailbox* touch) noexcept {
     touch_mailbox_.store(touch, std::memory_order_release);
   }
 
@@ -175,7 +175,7 @@ class HapticLoop {
   SpscRing<TickRecord, 4096> records_;
   SpscRing<ForceTick, kForces> forces_;
   std::atomic<bool> closing_{false};
-  std::atomic<TouchMailbox*> touch_mailbox_{nullptr};
+  std::atomic<touch::Mailbox*> touch_mailbox_{nullptr};
   WrenchCallback callback_;
   Seqlock<PlaybackClock> shared_clock_;
   Seqlock<SafetyLimits> shared_limits_;
@@ -186,7 +186,7 @@ class HapticLoop {
   SafetyLimits limits_;         ///< in effect, see limits_in_effect()
   SafetyLimits limits_before_;  ///< in effect before this tick
   Wrench exerted_;              ///< delivered by the last acknowledged command
-  TouchRendering touch_;
+  touch::Rendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};
   VibrationBudget vibration_{grip_->traits().radius_m};

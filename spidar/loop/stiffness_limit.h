@@ -27,10 +27,10 @@ constexpr double surface_delay_s(double drive_lag_s) noexcept {
 }
 
 /// The damping that the hand must contribute for stability grows with stiffness · delay. It was
-/// measured up to kMostStiffness_N_m at the default delay of ContactSettings.
+/// measured up to kMostStiffness_N_m at the default delay of touch::ContactSettings.
 inline double most_stiffness_N_m(double drive_lag_s) noexcept {
-  const ContactSettings measured;
-  return ContactSettings::kMostStiffness_N_m *
+  const touch::ContactSettings measured;
+  return touch::ContactSettings::kMostStiffness_N_m *
          std::min(1.0, measured.delay_s / surface_delay_s(drive_lag_s));
 }
 

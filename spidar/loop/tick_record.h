@@ -84,7 +84,7 @@ struct TickRecord : GripReport {
   bool called_back = false;  ///< the application's callback was asked
   double max_force_N = 0;    ///< limits in effect
   double max_torque_Nm = 0;
-  Contact contact;  ///< with the touched surface; its force is part of `wanted`
+  touch::Contact contact;  ///< with the touched surface; its force is part of `wanted`
 };
 
 /// What a plot shows of one tick.
@@ -117,7 +117,7 @@ struct LoopSnapshot {
   SafetyLimits limits;       ///< in effect in the last tick
   int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
   int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
-  VibrationState vibration{};
+  VibrationBudget::State vibration{};
   /// How much later than its frame the device renders a wrench, because the film is not known as
   /// far ahead as the device lags.
   int64_t late_ns = 0;

@@ -16,8 +16,8 @@
 namespace spidar {
 namespace {
 
-ForcePath path_of(const SafetyLimits& limits, double drive_lag_s) noexcept {
-  ForcePath path;
+touch::ForcePath path_of(const SafetyLimits& limits, double drive_lag_s) noexcept {
+  touch::ForcePath path;
   path.max_force_N = limits.max_force_N;
   path.max_slew_N_s = limits.max_slew_N_s;
   path.lag_s = drive_lag_s;
@@ -91,7 +91,8 @@ void WrenchCallback::stop(State why) noexcept {
 /// Without the torque, and with no more force than the hand has put in energy for since there was
 /// none.
 Wrench WrenchCallback::bounded(const Wrench& wanted, const CallbackInput& input,
-                               const Eigen::Vector3d& beside_N, const ForcePath& path) noexcept {
+                               const Eigen::Vector3d& beside_N,
+                               const touch::ForcePath& path) noexcept {
   constexpr double kAny_J = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& grip_m = input.pose.position_m;
   const Eigen::Vector3d way_m = has_position_ ? grip_m - position_m_ : Eigen::Vector3d(0, 0, 0);

@@ -75,7 +75,7 @@ class WrenchCallback {
 
   Wrench ask(const Called& called, const CallbackInput& input) noexcept;
   Wrench bounded(const Wrench& wanted, const CallbackInput& input, const Eigen::Vector3d& beside_N,
-                 const ForcePath& path) noexcept;
+                 const touch::ForcePath& path) noexcept;
   void stop(State why) noexcept;
 
   std::unique_ptr<Called> owned_;
@@ -87,7 +87,7 @@ class WrenchCallback {
   // Loop thread only.
   int slow_in_a_row_ = 0;
   uint64_t last_ = 0;  ///< number of the function that was called last
-  EnergyBudget budget_;
+  touch::EnergyBudget budget_;
   Eigen::Vector3d position_m_ = Eigen::Vector3d::Zero();
   bool has_position_ = false;
   bool pushes_ = false;  ///< the last wrench had a force

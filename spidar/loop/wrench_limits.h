@@ -107,16 +107,6 @@ class WrenchLimits {
   StaleRamp stale_before_;
 };
 
-struct VibrationState {
-  /// Fraction of the wanted wrench that may be exerted, 0 … 1.
-  double fraction = 1;
-  /// What is left in the store, 0 … 1.
-  double left = 1;
-
-  /// A hand notices that the force is lowered: a force must change by 7 % for that.
-  bool lowered() const noexcept { return fraction < 0.93; }
-};
-
 /// Measures the vibration that the strings cause and finds the fraction of the force that may go
 /// on.
 ///
@@ -132,6 +122,16 @@ struct VibrationState {
 /// second, and is 1 as long as this is no restriction.
 class VibrationBudget {
  public:
+  struct State {
+    /// Fraction of the wanted wrench that may be exerted, 0 … 1.
+    double fraction = 1;
+    /// What is left in the store, 0 … 1.
+    double left = 1;
+
+    /// A hand notices that the force is lowered: a force must change by 7 % for that.
+    bool lowered() const noexcept { return fraction < 0.93; }
+  };
+
   static constexpr double kActionValue_m_s2 = 2.5;
   static constexpr double kDay_m2_s3 = kActionValue_m_s2 * kActionValue_m_s2 * 8 * 3600;
   static constexpr double kStore_m2_s3 = kDay_m2_s3 / 2;
@@ -155,7 +155,7 @@ class VibrationBudget {
 
   double fraction() const noexcept { return state_.fraction; }
   /// The state after the last pass().
-  const VibrationState& state() const noexcept { return state_; }
+  const State& state() const noexcept { return state_; }
 
   /// When the store will be full again if there is no more vibration, on the clock of pass().
   int64_t full_at_ns() const noexcept {
@@ -186,7 +186,7 @@ class VibrationBudget {
   Section high_pass_;
   double mean_m2_s4_ = 0;  ///< of the unlowered vibration, at present
   double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
-  VibrationState state_;
+  State state_;
   int64_t full_at_ns_ = INT64_MIN;
   std::atomic<int64_t> restored_ns_{INT64_MIN};
   std::atomic<int64_t> taken_ns_{0};

@@ -41,7 +41,7 @@ struct Settings {
   int channels = 2;  ///< up to the last one that plays
   /// The geometric middle of the range; many bass shakers are strongest from 40 to 50 Hz.
   int carrier_Hz = 50;
-  /// The fraction of full scale that is used, as with sticks (StickEffects::kDefaultGain).
+  /// The fraction of full scale that is used, as with sticks (boards::StickEffects::kDefaultGain).
   double gain = 0.2;
 
   /// "CARD", "CARD,3=x,4=0.6/0.8/0,carrier=40,gain=50". Channel 1 plays x and channel 2 y if none

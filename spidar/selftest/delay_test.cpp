@@ -239,7 +239,7 @@ DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace
 }
 
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns) {
-  const int64_t beyond_ns = std::max<int64_t>(answer_ns - StringLink::kReplyWait_ns, 0);
+  const int64_t beyond_ns = std::max<int64_t>(answer_ns - boards::StringLink::kReplyWait_ns, 0);
   const double late_s = kTick_s * static_cast<double>((beyond_ns + kTick_ns - 1) / kTick_ns);
   // The tolerance keeps rounding errors from adding a step.
   constexpr double kStep_s = 1e-4;

@@ -70,8 +70,8 @@ struct LagVerdict {
 };
 
 /// `answer_ns`: the time after which a board answers in 99 of 100 exchanges. While playing, the
-/// loop does not wait longer than StringLink::kReplyWait_ns, and the ticks that later answers cost
-/// are added to the lag.
+/// loop does not wait longer than boards::StringLink::kReplyWait_ns, and the ticks that later
+/// answers cost are added to the lag.
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);
 
 }  // namespace spidar::selftest

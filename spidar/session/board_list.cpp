@@ -128,7 +128,7 @@ BoardInfo board_info(const std::string& device) {
     ++of_kind;
   }
   if (id.empty() && of_kind == 1) return *only;
-  if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && rotary_of(id) >= 0) {
+  if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && boards::rotary_of(id) >= 0) {
     // Whether its switch is so is seen when it is opened.
     BoardInfo board = *only;
     board.device = device;

@@ -93,7 +93,7 @@ auto simulating(const std::string& text, const Profile& profile, const Make& mak
 }
 
 /// All but "sim".
-AnyBoard make_board(const std::string& text, const Profile& profile) {
+boards::AnyBoard make_board(const std::string& text, const Profile& profile) {
   const DeviceName name(text);
   if (name.device == "sim" && name.has_end) {
     const DeviceKind* const kind = simulated_kind(name);
@@ -119,32 +119,33 @@ AnyBoard make_board(const std::string& text, const Profile& profile) {
         DeviceErrorCode::kSettings);
   }
   if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
-  const BoardKinds usb(kinds.begin(), kinds.end());
+  const boards::BoardKinds usb(kinds.begin(), kinds.end());
   if (kinds[0]->has_strings()) {
-    return std::unique_ptr<Board>(std::make_unique<UsbBoard>(text, name.rest, profile, usb));
+    return std::unique_ptr<boards::Board>(
+        std::make_unique<boards::UsbBoard>(text, name.rest, profile, usb));
   }
-  return std::unique_ptr<ForceBoard>(
-      std::make_unique<UsbForceBoard>(text, name.rest, profile, usb));
+  return std::unique_ptr<boards::ForceBoard>(
+      std::make_unique<boards::UsbForceBoard>(text, name.rest, profile, usb));
 }
 
-BoardSettings settings_for(const std::string& text, const Profile& profile,
-                           BoardSettings settings) {
+boards::Settings settings_for(const std::string& text, const Profile& profile,
+                              boards::Settings settings) {
   if (is_simulated(text)) return settings_of_simulation();
-  if (settings.count_zero != CountZero::kByProfile) return settings;
+  if (settings.count_zero != boards::CountZero::kByProfile) return settings;
   const bool calibrated =
       std::any_of(profile.drives.begin(), profile.drives.end(),
                   [](const StringDrive& drive) { return drive.home_offset_m != 0; });
-  settings.count_zero = calibrated ? CountZero::kNever : CountZero::kFirstOpen;
+  settings.count_zero = calibrated ? boards::CountZero::kNever : boards::CountZero::kFirstOpen;
   return settings;
 }
 
 /// Either of the two.
 struct MadeDevice {
   std::unique_ptr<StringDevice> strings;
-  std::unique_ptr<ForceBoard> force;
+  std::unique_ptr<boards::ForceBoard> force;
 };
 
-MadeDevice make(const std::string& text, const Profile& profile, const BoardSettings& settings) {
+MadeDevice make(const std::string& text, const Profile& profile, const boards::Settings& settings) {
   if (text == "sim") {
     return {simulating(text, profile,
                        [&] {
@@ -153,13 +154,13 @@ MadeDevice make(const std::string& text, const Profile& profile, const BoardSett
                        }),
             nullptr};
   }
-  AnyBoard board = make_board(text, profile);
-  if (auto* force = std::get_if<std::unique_ptr<ForceBoard>>(&board)) {
+  boards::AnyBoard board = make_board(text, profile);
+  if (auto* force = std::get_if<std::unique_ptr<boards::ForceBoard>>(&board)) {
     return {nullptr, std::move(*force)};
   }
-  return {
-      std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(board)), settings),
-      nullptr};
+  return {std::make_unique<boards::StringLink>(
+              std::get<std::unique_ptr<boards::Board>>(std::move(board)), settings),
+          nullptr};
 }
 
 }  // namespace
@@ -168,16 +169,16 @@ bool is_simulated(const std::string& spec) {
   return spec == "sim" || spec.compare(0, 4, "sim:") == 0;
 }
 
-BoardSettings settings_of_simulation() {
-  BoardSettings settings;
-  settings.count_zero = CountZero::kNever;
+boards::Settings settings_of_simulation() {
+  boards::Settings settings;
+  settings.count_zero = boards::CountZero::kNever;
   settings.guardian = false;
   settings.threaded = false;
   return settings;
 }
 
 std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile& profile,
-                                          const BoardSettings& settings) {
+                                          const boards::Settings& settings) {
   MadeDevice made = make(text, profile, settings_for(text, profile, settings));
   if (!made.strings) {
     throw DeviceError(text + ": takes a force; it has no strings, and no encoders",
@@ -187,10 +188,10 @@ std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile
 }
 
 std::unique_ptr<Grip> make_grip(const std::string& text, const Profile& profile,
-                                const BoardSettings& settings) {
-  const BoardSettings fitting = settings_for(text, profile, settings);
+                                const boards::Settings& settings) {
+  const boards::Settings fitting = settings_for(text, profile, settings);
   MadeDevice made = make(text, profile, fitting);
-  if (made.force) return std::make_unique<ForceGrip>(std::move(made.force), fitting);
+  if (made.force) return std::make_unique<boards::ForceGrip>(std::move(made.force), fitting);
   return std::make_unique<StringGrip>(profile, std::move(made.strings));
 }
 

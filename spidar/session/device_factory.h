@@ -32,15 +32,15 @@ bool is_simulated(const std::string& spec);
 /// drive the profile, and std::invalid_argument when a device with strings gets a profile with
 /// fewer than six. "none" is not a device, because it needs no loop.
 std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
-                                const BoardSettings& settings = {});
+                                const boards::Settings& settings = {});
 
 /// Makes a device that takes volts and gives counts of the strings. Throws DeviceError as above,
 /// and for a device that takes a force, which has no strings.
 std::unique_ptr<StringDevice> make_device(const std::string& spec, const Profile& profile,
-                                          const BoardSettings& settings = {});
+                                          const boards::Settings& settings = {});
 
 /// Those of a board behind which everything is simulated: no thread and no guardian. The simulated
 /// user begins at the centre, from which the profile's home offsets are counted.
-BoardSettings settings_of_simulation();
+boards::Settings settings_of_simulation();
 
 }  // namespace spidar

@@ -109,7 +109,8 @@ void require_plugged_in(const std::string& device) {
   const auto kinds = kinds_called(name.device);
   if (kinds.empty()) return;
   if (kinds[0]->usb.vendor != 0) {
-    return UsbSearch(BoardKinds(kinds.begin(), kinds.end()), device, name.rest).require_one();
+    return boards::UsbSearch(boards::BoardKinds(kinds.begin(), kinds.end()), device, name.rest)
+        .require_one();
   }
   std::istringstream paths(name.rest);
   for (std::string path; std::getline(paths, path, ',');) {
@@ -138,7 +139,7 @@ std::string why_not(const BoardInfo& board, const Profile& profile) {
   for (const DeviceKind* kind : kinds_of(board)) {
     names += (names.empty() ? "" : " or ") + std::string(kind->profile_board);
     if (profile.board != board_name::kUnknown && profile.board != kind->profile_board) continue;
-    why = misfit(profile, kind->traits);
+    why = boards::misfit(profile, kind->traits);
     if (why.empty()) return {};
   }
   return board.device + ": profile \"" + profile.name + "\" " +

@@ -102,7 +102,7 @@ GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& m
 // h v. Its eigenvalues are inside the unit circle when κ < 4 + 2β (Jury): damping always improves
 // stability, and h ω < 2 is sufficient.
 void GripDynamics::substep(const StringVector& target_N, const Pose& hand, double h_s,
-                           double lag_decay, DynamicState& state) const noexcept {
+                           double lag_decay, GripDynamics::State& state) const noexcept {
   state.tension_N = target_N + lag_decay * (state.tension_N - target_N);
   const Wrench strings = string_wrench(state);
 
@@ -133,7 +133,7 @@ void GripDynamics::substep(const StringVector& target_N, const Pose& hand, doubl
 }
 
 void GripDynamics::advance(const StringVector& target_N, const Pose& hand, double dt_s,
-                           DynamicState& state) const noexcept {
+                           GripDynamics::State& state) const noexcept {
   if (!(dt_s > 0)) return;
   const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / max_step_s_)));
   const double h_s = dt_s / steps;
@@ -142,7 +142,7 @@ void GripDynamics::advance(const StringVector& target_N, const Pose& hand, doubl
   for (int i = 0; i < steps; ++i) substep(target_N, hand, h_s, lag_decay, state);
 }
 
-Wrench GripDynamics::string_wrench(const DynamicState& state) const noexcept {
+Wrench GripDynamics::string_wrench(const GripDynamics::State& state) const noexcept {
   const Eigen::Matrix<double, 6, 1> wrench =
       structure_matrix(geometry_, state.pose) * state.tension_N;
   return {wrench.head<3>(), wrench.tail<3>()};

@@ -28,17 +28,17 @@ struct GripModel {
   static constexpr double kMostDelay_s = 0.05;
 };
 
-struct DynamicState {
-  Pose pose;
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
-  StringVector tension_N = StringVector::Zero();
-};
-
 /// Newton–Euler equations of the grip, integrated by the semi-implicit Euler method with implicit
 /// dampers. All forces are in D; the inertia is a sphere's, so there is no gyroscopic term.
 class GripDynamics {
  public:
+  struct State {
+    Pose pose;
+    Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
+    StringVector tension_N = StringVector::Zero();
+  };
+
   /// `max_tension_N` bounds the tensions that advance() will be given; the step follows from it.
   /// Throws std::invalid_argument when the model is not physical (mass and inertia above zero, the
   /// rest not negative, all finite) or so stiff that a millisecond takes more than kMaxSubsteps.
@@ -52,10 +52,10 @@ class GripDynamics {
   /// the position of the hand is given. The grip's origin stays within limit_m() of the
   /// centre: at the limit it stops, losing its outward velocity.
   void advance(const StringVector& target_N, const Pose& hand, double dt_s,
-               DynamicState& state) const noexcept;
+               State& state) const noexcept;
 
   /// Wrench of the strings on the grip.
-  Wrench string_wrench(const DynamicState& state) const noexcept;
+  Wrench string_wrench(const State& state) const noexcept;
 
   /// Longest substep, seconds.
   double max_step_s() const noexcept { return max_step_s_; }
@@ -65,7 +65,7 @@ class GripDynamics {
 
  private:
   void substep(const StringVector& target_N, const Pose& hand, double h_s, double lag_decay,
-               DynamicState& state) const noexcept;
+               State& state) const noexcept;
 
   StringGeometry geometry_;
   GripModel model_;

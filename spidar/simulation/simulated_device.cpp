@@ -123,7 +123,7 @@ struct SimulatedDevice::Impl {
   Pose hand;
   HandLead lead;
   LedHand led_hand;
-  DynamicState state;
+  GripDynamics::State state;
   DelayedTensions delayed;
   // Shared.
   std::mutex hand_writers;

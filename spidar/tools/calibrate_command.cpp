@@ -57,8 +57,8 @@ class Bench {
   Bench(const CalibrateOptions& options, const Profile& profile) : geometry_(profile.geometry) {
     if (options.device != "sim") {
       // Offsets refer to the board's own counters.
-      BoardSettings as_counted;
-      as_counted.count_zero = CountZero::kNever;
+      boards::Settings as_counted;
+      as_counted.count_zero = boards::CountZero::kNever;
       device_ = make_device(options.device, profile, as_counted);
       return;
     }

@@ -103,7 +103,7 @@ struct ChosenDevice {
 
 /// Throws ProfileError, DeviceError, and NoProfile, which is one.
 ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
-                           CountZero count_zero = CountZero::kByProfile);
+                           boards::CountZero count_zero = boards::CountZero::kByProfile);
 
 /// Throws DeviceError when the board has no strings; its message says that `command` needs them.
 void require_strings(const BoardInfo& board, const std::string& command);

@@ -244,7 +244,7 @@ Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
 
 int info(const InfoOptions& options) {
   // Shows the counts as the board gives them, without a new zero.
-  ChosenDevice chosen = choose_device(options, Motors::kOff, CountZero::kNever);
+  ChosenDevice chosen = choose_device(options, Motors::kOff, boards::CountZero::kNever);
   catch_signals();
   const FoundBoard found = read(chosen);
   if (interrupted()) return kInterrupted;

@@ -69,7 +69,8 @@ void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
   add_output(app, name, file, description)->check(CLI::Validator(check, "FILE.toml"));
 }
 
-ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZero count_zero) {
+ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
+                           boards::CountZero count_zero) {
   ChosenDevice chosen;
   chosen.board = board_info(options.device);
   const bool named = !options.profile.empty() || !chosen.board.profile.empty();
@@ -78,7 +79,7 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors, CountZer
   } else {
     chosen.profile = to_read_only(chosen.board);
   }
-  BoardSettings settings;
+  boards::Settings settings;
   settings.count_zero = count_zero;
   // No tool is in such a hurry that it could not wait for an exchange.
   settings.threaded = false;

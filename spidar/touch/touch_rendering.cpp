@@ -6,30 +6,30 @@
 #include <stdexcept>
 #include <string>
 
-namespace spidar {
+namespace spidar::touch {
 
-TouchMailbox::TouchMailbox(double width_m, double height_m, size_t slots) {
+Mailbox::Mailbox(double width_m, double height_m, size_t slots) {
   if (slots < kLeastSlots) {
-    throw std::invalid_argument("TouchMailbox: slots must be at least " +
+    throw std::invalid_argument("touch::Mailbox: slots must be at least " +
                                 std::to_string(kLeastSlots) + ", but is " + std::to_string(slots));
   }
   frames_.reserve(slots);
   for (size_t i = 0; i < slots; ++i) frames_.emplace_back(width_m, height_m);
 }
 
-TouchFrame* TouchMailbox::begin(uint32_t generation) noexcept {
+Frame* Mailbox::begin(uint32_t generation) noexcept {
   const size_t tail = tail_.load(std::memory_order_relaxed);
   if (tail - head_.load(std::memory_order_acquire) == frames_.size()) return nullptr;
-  TouchFrame& frame = frames_[tail % frames_.size()];
+  Frame& frame = frames_[tail % frames_.size()];
   frame.generation = generation;
   return &frame;
 }
 
-void TouchMailbox::publish() noexcept {
+void Mailbox::publish() noexcept {
   tail_.store(tail_.load(std::memory_order_relaxed) + 1, kRelease);
 }
 
-const TouchFrame* TouchMailbox::front(size_t nth) const noexcept {
+const Frame* Mailbox::front(size_t nth) const noexcept {
   const size_t head = head_.load(std::memory_order_relaxed);
   if (tail_.load(std::memory_order_acquire) - head <= nth) return nullptr;
   return &frames_[(head + nth) % frames_.size()];
@@ -38,7 +38,7 @@ const TouchFrame* TouchMailbox::front(size_t nth) const noexcept {
 namespace {
 
 /// Whether the surface can change continuously from one frame to the other.
-bool leads_to(const TouchFrame& before, const TouchFrame& after) noexcept {
+bool leads_to(const Frame& before, const Frame& after) noexcept {
   return after.follows && before.has_surface && after.has_surface &&
          after.time_ns > before.time_ns && after.displacement_m.allFinite();
 }
@@ -50,12 +50,12 @@ bool is_older(uint32_t generation, uint32_t than) noexcept {
 
 }  // namespace
 
-Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
-                             const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vector3d& grip_m,
+                        double dt_s) noexcept {
   drop_cleared(mailbox);
   advance(mailbox, running_ns);
   Contact result;
-  const TouchFrame* const now = frame(mailbox, 0);
+  const Frame* const now = frame(mailbox, 0);
   if (!reached_ || now == nullptr || !now->has_surface) {
     contact_.reset();
     stiffness_N_m_ = 0;
@@ -63,9 +63,9 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   }
   if (!(dt_s <= kLongestTick_s)) contact_.reset();
 
-  const TouchFrame* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
+  const Frame* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
   MovingRelief surface{&now->relief};
-  const TouchFrame* nearest = now;
+  const Frame* nearest = now;
   if (next != nullptr && leads_to(*now, *next)) {
     surface.after = &next->relief;
     surface.displacement_m = next->displacement_m;
@@ -90,7 +90,7 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   result.has_surface = true;
   result.force_N = contact_.tick(surface, nearest->has_texture ? &nearest->texture : nullptr,
                                  settings, grip_m, dt_s);
-  const TouchProxy& proxy = contact_.proxy();
+  const Proxy& proxy = contact_.proxy();
   result.touching = proxy.touching();
   result.stiffness_fraction = shake_watch_.fraction();
   if (result.touching) {
@@ -101,32 +101,32 @@ Contact TouchRendering::tick(TouchMailbox& mailbox, int64_t running_ns,
   return result;
 }
 
-void TouchRendering::rest(TouchMailbox& mailbox) noexcept {
+void Rendering::rest(Mailbox& mailbox) noexcept {
   drop_cleared(mailbox);
   contact_.reset();
 }
 
-void TouchRendering::drop_cleared(TouchMailbox& mailbox) noexcept {
+void Rendering::drop_cleared(Mailbox& mailbox) noexcept {
   const uint32_t generation = mailbox.generation();
   if (generation != generation_) {
     generation_ = generation;
     reached_ = leads_on_ = false;
     contact_.reset();
   }
-  for (const TouchFrame* oldest = mailbox.front();
+  for (const Frame* oldest = mailbox.front();
        oldest != nullptr && is_older(oldest->generation, generation_); oldest = mailbox.front()) {
     mailbox.drop();
   }
 }
 
 /// Also null if the frame belongs to a generation that began after this tick.
-const TouchFrame* TouchRendering::frame(const TouchMailbox& mailbox, size_t nth) const noexcept {
-  const TouchFrame* const found = mailbox.front(nth);
+const Frame* Rendering::frame(const Mailbox& mailbox, size_t nth) const noexcept {
+  const Frame* const found = mailbox.front(nth);
   return found != nullptr && found->generation == generation_ ? found : nullptr;
 }
 
-void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept {
-  const TouchFrame* now = frame(mailbox, 0);
+void Rendering::advance(Mailbox& mailbox, int64_t running_ns) noexcept {
+  const Frame* now = frame(mailbox, 0);
   if (now == nullptr) {
     reached_ = leads_on_ = false;
     return;
@@ -138,7 +138,7 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
     leads_on_ = false;
     reached_ns_ = now->time_ns;
   }
-  for (const TouchFrame* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
+  for (const Frame* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
     if (!leads_on_) {
       leads_on_ = true;
       jumped_ = false;
@@ -150,7 +150,7 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
                    ? std::max(next->time_ns, from_ns_ + std::min(kShortest_ns, interval_ns))
                    : next->time_ns;
     }
-    const TouchFrame* const after_next = frame(mailbox, 2);
+    const Frame* const after_next = frame(mailbox, 2);
     const bool late = after_next != nullptr && after_next->time_ns <= running_ns;
     if (running_ns < to_ns_ && !late) return;
     mailbox.drop();
@@ -162,20 +162,20 @@ void TouchRendering::advance(TouchMailbox& mailbox, int64_t running_ns) noexcept
 }
 
 /// Whether the surface rises faster at this position than kRise_m_s.
-bool TouchRendering::jumps(const MovingRelief& surface,
-                           const Eigen::Vector2d& position_m) const noexcept {
+bool Rendering::jumps(const MovingRelief& surface,
+                      const Eigen::Vector2d& position_m) const noexcept {
   const Eigen::Vector2d before_m = position_m - surface.fraction * surface.displacement_m;
   const Eigen::Vector2d after_m = before_m + surface.displacement_m;
   const double rise_m = surface.after->at(after_m.x(), after_m.y()).z_m -
                         surface.before->at(before_m.x(), before_m.y()).z_m;
-  return rise_m > TouchProxy::kRise_m_s * 1e-9 * static_cast<double>(to_ns_ - from_ns_);
+  return rise_m > Proxy::kRise_m_s * 1e-9 * static_cast<double>(to_ns_ - from_ns_);
 }
 
-double TouchRendering::fraction_of_next(int64_t running_ns) const noexcept {
+double Rendering::fraction_of_next(int64_t running_ns) const noexcept {
   if (to_ns_ <= from_ns_) return 1;
   const double fraction =
       static_cast<double>(running_ns - from_ns_) / static_cast<double>(to_ns_ - from_ns_);
   return std::clamp(fraction, 0.0, 1.0);
 }
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -15,12 +15,11 @@
 #include "core/touch/contact_force.h"
 #include "core/touch/height_field.h"
 
-namespace spidar {
+namespace spidar::touch {
 
 /// The touchable surface of one frame.
-struct TouchFrame {
-  TouchFrame(double width_m, double height_m)
-      : relief(width_m, height_m), texture(width_m, height_m) {}
+struct Frame {
+  Frame(double width_m, double height_m) : relief(width_m, height_m), texture(width_m, height_m) {}
 
   int64_t time_ns = 0;       ///< running time at which the frame is shown
   bool has_surface = false;  ///< false: nothing can be touched from that time on
@@ -39,16 +38,16 @@ struct TouchFrame {
 /// slot in place and the reader keeps the two frames it interpolates between, so at least three
 /// slots are needed. More slots allow for frames that pass the element long before they are shown,
 /// because GStreamer's queues hold some of them before the sink.
-class TouchMailbox {
+class Mailbox {
  public:
   static constexpr size_t kLeastSlots = 3;
 
   /// The picture measures `width_m` × `height_m` in the device frame. Throws std::invalid_argument
   /// unless both are finite and above 0, and `slots` is at least kLeastSlots. Allocates 300 kB per
   /// slot; no other method allocates.
-  TouchMailbox(double width_m, double height_m, size_t slots);
-  TouchMailbox(const TouchMailbox&) = delete;
-  TouchMailbox& operator=(const TouchMailbox&) = delete;
+  Mailbox(double width_m, double height_m, size_t slots);
+  Mailbox(const Mailbox&) = delete;
+  Mailbox& operator=(const Mailbox&) = delete;
 
   size_t slots() const noexcept { return frames_.size(); }
 
@@ -62,21 +61,21 @@ class TouchMailbox {
 
   /// Returns the slot to fill, with its old content, or null when none is free. Pass the generation
   /// that was current when processing of the frame began.
-  TouchFrame* begin(uint32_t generation) noexcept;
+  Frame* begin(uint32_t generation) noexcept;
   /// Publishes the slot that begin() returned.
   void publish() noexcept;
 
   // --- reader
 
   /// Returns the oldest frame or the `nth` after it, null if there is none. Valid until dropped.
-  const TouchFrame* front(size_t nth = 0) const noexcept;
+  const Frame* front(size_t nth = 0) const noexcept;
   /// Releases the slot of front(), which must not be null.
   void drop() noexcept { head_.store(head_.load(std::memory_order_relaxed) + 1, kRelease); }
 
  private:
   static constexpr std::memory_order kRelease = std::memory_order_release;
 
-  std::vector<TouchFrame> frames_;
+  std::vector<Frame> frames_;
   // On separate cache lines, to avoid false sharing between writer and reader.
   alignas(64) std::atomic<size_t> head_{0};  ///< number of frames dropped
   alignas(64) std::atomic<size_t> tail_{0};  ///< number of frames published
@@ -155,10 +154,10 @@ struct Contact {
 /// it when that frame is due. If the frame arrives late, the transition takes at least
 /// kShortest_ns, or the interval between the two frames if that is shorter. The last frame stays
 /// until another one follows. A frame that does not continue the previous one (`follows` is false)
-/// appears when it is due, and TouchProxy raises it slowly from the grip. The same applies to a
+/// appears when it is due, and Proxy raises it slowly from the grip. The same applies to a
 /// frame that rises under the grip faster than kRise_m_s after compensation of its displacement, as
 /// with a flash, an undetected cut, or an undetected motion.
-class TouchRendering {
+class Rendering {
  public:
   static constexpr int64_t kShortest_ns = 15'000'000;
   /// A longer pause between two ticks resets the contact.
@@ -168,7 +167,7 @@ class TouchRendering {
 
   /// Renders a tick `dt_s` after the last. `running_ns` is the running time of the frame on the
   /// screen; `grip_m` is in the device frame.
-  Contact tick(TouchMailbox& mailbox, int64_t running_ns, const Eigen::Vector3d& grip_m,
+  Contact tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vector3d& grip_m,
                double dt_s) noexcept;
 
   /// Sets the limits of the safety chain, both above 0. Initially the defaults of ContactSettings
@@ -181,12 +180,12 @@ class TouchRendering {
   void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
   /// A tick without contact, because nothing is playing or the pose of the grip is unknown.
-  void rest(TouchMailbox& mailbox) noexcept;
+  void rest(Mailbox& mailbox) noexcept;
 
  private:
-  void drop_cleared(TouchMailbox& mailbox) noexcept;
-  const TouchFrame* frame(const TouchMailbox& mailbox, size_t nth) const noexcept;
-  void advance(TouchMailbox& mailbox, int64_t running_ns) noexcept;
+  void drop_cleared(Mailbox& mailbox) noexcept;
+  const Frame* frame(const Mailbox& mailbox, size_t nth) const noexcept;
+  void advance(Mailbox& mailbox, int64_t running_ns) noexcept;
   double fraction_of_next(int64_t running_ns) const noexcept;
   bool jumps(const MovingRelief& surface, const Eigen::Vector2d& position_m) const noexcept;
 
@@ -205,4 +204,4 @@ class TouchRendering {
   ShakeWatch shake_watch_;
 };
 
-}  // namespace spidar
+}  // namespace spidar::touch

@@ -65,7 +65,7 @@ struct UsbId {
 /// All transfers of an exchange are submitted to the kernel at once, the reply's first, so that an
 /// exchange takes one round trip on the bus. The thread that exchanges also handles the events. At
 /// the deadline it cancels transfers and waits for their end, which may take any time in libusb and
-/// the kernel. Do not use this class in a thread that must not wait; see StringLink.
+/// the kernel. Do not use this class in a thread that must not wait; see boards::StringLink.
 class UsbTransport final : public Transport {
  public:
   /// `name` is for messages.

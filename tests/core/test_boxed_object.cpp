@@ -62,7 +62,7 @@ class Watcher {
   }
 
   Orientation turn_;
-  ChoiceState state_ = ChoiceState::kGood;
+  Chosen::State state_ = Chosen::State::kGood;
 
  private:
   ObjectChoice choice_;
@@ -121,20 +121,20 @@ TEST(BoxedObject, ADetectorMayMissFramesButNotTheThing) {
 }
 
 TEST(BoxedObject, SaysWhetherBoxesOrObjectsAreMissingAndNotAtOnce) {
-  const std::pair<PictureBoxes, ChoiceState> cases[] = {
-      {{}, ChoiceState::kNoBox},
-      {{box("cat", kLeft, kSize)}, ChoiceState::kNoBox},
-      {{box("dog", {0, 60}, {20, 20})}, ChoiceState::kBoxAtRest}};
+  const std::pair<PictureBoxes, Chosen::State> cases[] = {
+      {{}, Chosen::State::kNoBox},
+      {{box("cat", kLeft, kSize)}, Chosen::State::kNoBox},
+      {{box("dog", {0, 60}, {20, 20})}, Chosen::State::kBoxAtRest}};
   for (const auto& [boxes, state] : cases) {
     Watcher watcher("box dog");
     watcher.see_for(BoxedObject::kPatience_s - kFrame_s, two(), boxes);
-    EXPECT_EQ(watcher.state_, ChoiceState::kGood);
+    EXPECT_EQ(watcher.state_, Chosen::State::kGood);
     watcher.see_for(2 * kFrame_s, two(), boxes);
     EXPECT_EQ(watcher.state_, state);
     EXPECT_EQ(watcher.see(two(), {box("dog", kLeft, kSize)}), 1u);
-    EXPECT_EQ(watcher.state_, ChoiceState::kGood);
+    EXPECT_EQ(watcher.state_, Chosen::State::kGood);
     watcher.see_for(10, two(), boxes);
-    EXPECT_EQ(watcher.state_, ChoiceState::kGood) << "it rests, or has left";
+    EXPECT_EQ(watcher.state_, Chosen::State::kGood) << "it rests, or has left";
   }
 }
 

@@ -19,16 +19,16 @@ namespace {
 
 constexpr double kTick_s = 1e-3;
 
-ContactSettings settings_of(double stiffness_N_m, double friction = 0) {
-  ContactSettings settings;
+touch::ContactSettings settings_of(double stiffness_N_m, double friction = 0) {
+  touch::ContactSettings settings;
   settings.stiffness_N_m = stiffness_N_m;
   settings.friction = {friction, 0.8 * friction};
   return settings;
 }
 
 /// Moves straight to `to_m`; the last force.
-Eigen::Vector3d go(ContactForce& force, const MovingRelief& surface,
-                   const ContactSettings& settings, const Eigen::Vector3d& from_m,
+Eigen::Vector3d go(touch::ContactForce& force, const touch::MovingRelief& surface,
+                   const touch::ContactSettings& settings, const Eigen::Vector3d& from_m,
                    const Eigen::Vector3d& to_m, int ticks) {
   Eigen::Vector3d last_N = Eigen::Vector3d::Zero();
   for (int n = 1; n <= ticks; ++n) {
@@ -38,10 +38,10 @@ Eigen::Vector3d go(ContactForce& force, const MovingRelief& surface,
 }
 
 TEST(ContactForce, OfAPlaneIsStiffnessTimesDepth) {
-  const HeightField plane = plane_field(0);
+  const touch::HeightField plane = plane_field(0);
   for (double stiffness_N_m = 300; stiffness_N_m <= 800; stiffness_N_m += 50) {
-    ContactForce force;
-    const ContactSettings settings = settings_of(stiffness_N_m);
+    touch::ContactForce force;
+    const touch::ContactSettings settings = settings_of(stiffness_N_m);
     const Eigen::Vector3d inside_m(0.001, -0.002, -0.003);
     go(force, {&plane}, settings, {0.001, -0.002, 0.001}, inside_m, 100);
     // At rest: the velocity has faded by exp(−2π 60 Hz · 100 ms).
@@ -55,11 +55,11 @@ TEST(ContactForce, NeverPullsIn) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const std::vector<TouchScene> scenes = touch_scenes();
-  ContactForce force;
-  const ContactSettings settings = settings_of(800, 0.4);
+  touch::ContactForce force;
+  const touch::ContactSettings settings = settings_of(800, 0.4);
   Eigen::Vector3d grip_m(0, 0, 0.003);
   Eigen::Vector3d velocity_m_s(0, 0, 0);
-  const HeightField* relief = &scenes[0].relief;
+  const touch::HeightField* relief = &scenes[0].relief;
   int pushed = 0;
   for (int n = 0; n < 100000; ++n) {
     if (n % 33 == 0) relief = &scenes[random() % scenes.size()].relief;
@@ -81,13 +81,13 @@ TEST(ContactForce, NeverPullsIn) {
 }
 
 TEST(ContactForce, ACutOfACentimetreMovesTheGripSlowly) {
-  const HeightField low = plane_field(0);
-  const HeightField high = plane_field(0.010);
+  const touch::HeightField low = plane_field(0);
+  const touch::HeightField high = plane_field(0.010);
   for (const double stiffness_N_m : {300.0, 500.0, 800.0}) {
     for (const Hand& hand : {kFirmHand, kLightHand, kLooseHand}) {
-      ContactForce force;
+      touch::ContactForce force;
       TouchedGrip grip(hand, {0, 0, 0.0005});
-      const ContactSettings settings = settings_of(stiffness_N_m);
+      const touch::ContactSettings settings = settings_of(stiffness_N_m);
       double fastest_m_s = 0;
       for (int n = 0; n < 2000; ++n) {
         const Eigen::Vector3d wanted_N =
@@ -104,18 +104,18 @@ TEST(ContactForce, ACutOfACentimetreMovesTheGripSlowly) {
 TEST(ContactForce, OfAMovingPlaneChangesAsFastAsItMoves) {
   // ±4 mm at 0.5 Hz, 30 frames a second, the grip still at −5 mm.
   constexpr int kFrame_ticks = 33;
-  std::vector<HeightField> frames;
+  std::vector<touch::HeightField> frames;
   for (int f = 0; f < 62; ++f) {
     frames.push_back(plane_field(0.004 * std::sin(M_PI * f * kFrame_ticks * kTick_s)));
   }
-  ContactForce force;
-  const ContactSettings settings = settings_of(500);
+  touch::ContactForce force;
+  const touch::ContactSettings settings = settings_of(500);
   double last_N = 0;
   double fastest_N_s = 0;
   for (int n = 0; n < 2000; ++n) {
     const auto f = static_cast<size_t>(n / kFrame_ticks);
-    const MovingRelief moving{&frames[f], &frames[f + 1],
-                              static_cast<double>(n % kFrame_ticks) / kFrame_ticks};
+    const touch::MovingRelief moving{&frames[f], &frames[f + 1],
+                                     static_cast<double>(n % kFrame_ticks) / kFrame_ticks};
     const double now_N = force.tick(moving, nullptr, settings, {0, 0, -0.005}, kTick_s).z();
     // Half a second to come up from the grip, where it starts.
     if (n > 500) fastest_N_s = std::max(fastest_N_s, std::abs(now_N - last_N) / kTick_s);
@@ -129,13 +129,13 @@ TEST(ContactForce, OfAMovingPlaneChangesAsFastAsItMoves) {
 TEST(ContactForce, OfTextureIsItsSlopeTimesWhatPresses) {
   constexpr double kWave_m = 0.004;
   constexpr double kSlope = 0.1;
-  const HeightField plane = plane_field(0);
-  const HeightField stripes = sampled_field([](double x_m, double) {
+  const touch::HeightField plane = plane_field(0);
+  const touch::HeightField stripes = sampled_field([](double x_m, double) {
     return kSlope * kWave_m / (2 * M_PI) * std::sin(2 * M_PI * x_m / kWave_m);
   });
   for (const double x_m : {0.0, 0.0005, 0.0017, 0.0031}) {
-    ContactForce force;
-    const ContactSettings settings = settings_of(500);
+    touch::ContactForce force;
+    const touch::ContactSettings settings = settings_of(500);
     const Eigen::Vector3d inside_m(x_m, 0, -0.001);
     go(force, {&plane}, settings, {x_m, 0, 0.001}, inside_m, 100);
     Eigen::Vector3d at_rest_N;
@@ -148,23 +148,24 @@ TEST(ContactForce, OfTextureIsItsSlopeTimesWhatPresses) {
 }
 
 TEST(ContactForce, OfTextureIsBounded) {
-  const HeightField plane = plane_field(0);
-  const HeightField steep = sampled_field([](double x_m, double) { return 3 * x_m; });
-  ContactForce force;
-  const ContactSettings settings = settings_of(500);
+  const touch::HeightField plane = plane_field(0);
+  const touch::HeightField steep = sampled_field([](double x_m, double) { return 3 * x_m; });
+  touch::ContactForce force;
+  const touch::ContactSettings settings = settings_of(500);
   Eigen::Vector3d last_N;
   for (int n = 0; n < 300; ++n) {
     last_N =
         force.tick({&plane}, &steep, settings, {0, 0, std::max(-0.004, 0.001 - 1e-4 * n)}, kTick_s);
   }
-  EXPECT_NEAR(last_N.x(), -ContactForce::kMostTextureSlope * ContactForce::kMostTexture_N, 1e-6);
+  EXPECT_NEAR(last_N.x(),
+              -touch::ContactForce::kMostTextureSlope * touch::ContactForce::kMostTexture_N, 1e-6);
   EXPECT_NEAR(last_N.z(), 2, 1e-6) << "what presses stays";
 }
 
 TEST(ContactForce, SaysWhichSettingIsWrong) {
-  EXPECT_NO_THROW(validate(ContactSettings()));
+  EXPECT_NO_THROW(validate(touch::ContactSettings()));
   const auto message = [](auto&& change) {
-    ContactSettings settings;
+    touch::ContactSettings settings;
     change(settings);
     try {
       validate(settings);

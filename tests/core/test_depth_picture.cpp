@@ -16,8 +16,8 @@
 namespace spidar::test::depth_picture_test {
 namespace {
 
-constexpr int kColumns = HeightField::kColumns;
-constexpr int kRows = HeightField::kRows;
+constexpr int kColumns = touch::HeightField::kColumns;
+constexpr int kRows = touch::HeightField::kRows;
 constexpr double kFrame_s = 0.04;
 
 /// Depth of one or two bytes a sample, with rows that are longer than the picture.
@@ -35,7 +35,7 @@ class Samples {
     }
     return *this;
   }
-  DepthView view() {
+  touch::DepthView view() {
     view_.data = bytes_.data();
     return view_;
   }
@@ -49,11 +49,11 @@ class Samples {
   }
 
   int stride_;
-  DepthView view_;
+  touch::DepthView view_;
   std::vector<uint8_t> bytes_;
 };
 
-float level_at(const DepthPicture& picture, int x, int y) {
+float level_at(const touch::DepthPicture& picture, int x, int y) {
   return picture.levels()[y * kColumns + x];
 }
 
@@ -63,7 +63,7 @@ constexpr double kRounding = 8.0 / (1 << 24);
 TEST(DepthPicture, OfADistanceIsHighWhereItIsNear) {
   Samples samples(320, 180, 2);
   samples.fill([](int x, int) { return x < 160 ? 2000 : 1000; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(samples.view(), {false, 500, 2500}, kFrame_s));
   EXPECT_NEAR(level_at(picture, 10, 70), 0.25, kRounding);
   EXPECT_NEAR(level_at(picture, 250, 70), 0.75, kRounding);
@@ -83,7 +83,7 @@ TEST(DepthPicture, OfEverySizeAndOrderIsTheSamePlane) {
       // From left to right, from 1 to most.
       const double slope = static_cast<double>(most - 1) / std::max(1, width - 1);
       samples.fill([&](int x, int) { return 1 + slope * x; });
-      DepthPicture picture;
+      touch::DepthPicture picture;
       ASSERT_TRUE(picture.read(samples.view(), {false, 0, 65535}, kFrame_s));
       for (const int x : {0, 1, 100, 255}) {
         // A cell's centre in samples. The four that are read lie up to half a cell from it, where
@@ -102,7 +102,7 @@ TEST(DepthPicture, OfEverySizeAndOrderIsTheSamePlane) {
 TEST(DepthPicture, MarksHoles) {
   Samples words(256, 144, 2);
   words.fill([](int x, int) { return x < 10 ? 0 : x < 20 ? 65535 : 1000; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(words.view(), {false, 500, 1500}, kFrame_s));
   EXPECT_TRUE(std::isnan(level_at(picture, 5, 5)));
   EXPECT_TRUE(std::isnan(level_at(picture, 15, 5)));
@@ -113,7 +113,7 @@ TEST(DepthPicture, MarksHoles) {
   ASSERT_TRUE(picture.read(bytes.view(), {true, 255, 0}, kFrame_s));
   EXPECT_TRUE(std::isnan(level_at(picture, 5, 5)));
   EXPECT_EQ(level_at(picture, 15, 5), 1) << "of a byte the largest value is one";
-  DepthView drawn = bytes.view();
+  touch::DepthView drawn = bytes.view();
   drawn.has_holes = false;
   ASSERT_TRUE(picture.read(drawn, {true, 255, 0}, kFrame_s));
   EXPECT_EQ(level_at(picture, 5, 5), 0);
@@ -123,15 +123,16 @@ TEST(DepthPicture, AHoleDoesNotChangeWhatIsBesideIt) {
   // In each 2×2 samples of a cell one is missing.
   Samples samples(2 * kColumns, 2 * kRows, 2);
   samples.fill([](int x, int y) { return x % 2 == 0 && y % 2 == 0 ? 0 : 1000; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(samples.view(), {false, 500, 1500}, kFrame_s));
-  for (int i = 0; i < HeightField::kCells; ++i) EXPECT_NEAR(picture.levels()[i], 0.5, kRounding);
+  for (int i = 0; i < touch::HeightField::kCells; ++i)
+    EXPECT_NEAR(picture.levels()[i], 0.5, kRounding);
 }
 
 TEST(DepthPicture, WhereThereIsNothingTheLastOneStays) {
   Samples samples(64, 36, 2);
   samples.fill([](int, int) { return 1000; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(samples.view(), {false, 500, 1500}, kFrame_s));
   samples.fill([](int x, int) { return x % 2 ? 0 : 65535; });
   EXPECT_FALSE(picture.read(samples.view(), {false, 500, 1500}, kFrame_s));
@@ -145,7 +146,7 @@ TEST(DepthPicture, FindsTheRangeByPercentiles) {
   samples.fill([](int x, int y) {
     return y == 7 && x < 100 ? 10 : y == 9 && x < 100 ? 60000 : 1000 + x * 2000 / 511;
   });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(samples.view(), {}, kFrame_s));
   // 2 % of the ramp; the strays are half of two rows in 144, a fifth of a column, 0.14 %; a bin of
   // one sample, a column of cells 2000/256 = 8.
@@ -163,7 +164,7 @@ TEST(DepthPicture, FindsTheRangeByPercentiles) {
 TEST(DepthPicture, TheRangeDoesNotPump) {
   Samples room(256, 144, 2);
   room.fill([](int x, int) { return 2000 + 8 * x; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   for (int n = 0; n < 100; ++n) picture.read(room.view(), {}, kFrame_s);
   const double near = picture.near_sample();
   // Something comes near, over a quarter of the picture, for a fifth of a second.
@@ -173,7 +174,8 @@ TEST(DepthPicture, TheRangeDoesNotPump) {
   for (int n = 0; n < 5; ++n) {
     picture.read(visitor.view(), {}, kFrame_s);
     // A step is at most 1 − exp(−40 ms / 1 s) of what is left.
-    EXPECT_LE(last - picture.near_sample(), (near - 500) * kFrame_s / DepthPicture::kRange_s);
+    EXPECT_LE(last - picture.near_sample(),
+              (near - 500) * kFrame_s / touch::DepthPicture::kRange_s);
     EXPECT_LT(picture.near_sample(), last) << "but it follows";
     last = picture.near_sample();
   }
@@ -189,7 +191,7 @@ TEST(DepthPicture, ACutTakesItsRangeAtOnce) {
   near.fill([](int x, int) { return 500 + x; });
   Samples far(256, 144, 2);
   far.fill([](int x, int) { return 5000 + 10 * x; });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(near.view(), {}, kFrame_s));
   ASSERT_TRUE(picture.read(far.view(), {}, kFrame_s));
   EXPECT_GT(picture.near_sample(), 5000);
@@ -202,19 +204,19 @@ TEST(DepthPicture, AWallHasNoReliefOfNoise) {
   std::normal_distribution<double> noise(1600, 2);
   Samples wall(640, 480, 2);
   wall.fill([&](int, int) { return noise(random); });
-  DepthPicture picture;
+  touch::DepthPicture picture;
   ASSERT_TRUE(picture.read(wall.view(), {}, kFrame_s));
   // 1/16 of 1600, about the middle. Noise is 2 / √4 in a cell's mean, of which the largest of
   // 36864 is below 5 standard deviations.
   EXPECT_NEAR(picture.far_sample() - picture.near_sample(), 100, 1);
-  for (int i = 0; i < HeightField::kCells; ++i) {
+  for (int i = 0; i < touch::HeightField::kCells; ++i) {
     ASSERT_NEAR(picture.levels()[i], 0.5, 5.0 * 1 / 100 + 0.02);
   }
   Samples flat(16, 16, 1);
   flat.fill([](int, int) { return 1; });
   picture.reset();
   ASSERT_TRUE(picture.read(flat.view(), {true, -1, -1}, kFrame_s));
-  EXPECT_EQ(picture.near_sample() - picture.far_sample(), DepthPicture::kLeastSpan);
+  EXPECT_EQ(picture.near_sample() - picture.far_sample(), touch::DepthPicture::kLeastSpan);
   EXPECT_NEAR(level_at(picture, 0, 0), 0.5, kRounding);
 }
 
@@ -224,33 +226,33 @@ TEST(DepthPicture, APackedPictureIsSplit) {
       std::vector<uint8_t> memory(static_cast<size_t>(bytes * width * height));
       for (size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<uint8_t>(i % 251);
       const ImageView packed{memory.data(), width, height, bytes * width, {bytes, 2, false}};
-      const ImageView left = picture_half(packed, DepthLayout::kRight);
-      const DepthView right = depth_half(packed, DepthLayout::kRight);
+      const ImageView left = touch::picture_half(packed, touch::DepthLayout::kRight);
+      const touch::DepthView right = touch::depth_half(packed, touch::DepthLayout::kRight);
       EXPECT_EQ(left.width, width / 2);
       EXPECT_EQ(right.width, width / 2);
       EXPECT_EQ(right.height, height);
       EXPECT_EQ(right.data, packed.at(width - width / 2, 0));
       EXPECT_FALSE(right.has_holes);
-      const DepthView below = depth_half(packed, DepthLayout::kBelow);
-      EXPECT_EQ(picture_half(packed, DepthLayout::kBelow).height, height / 2);
+      const touch::DepthView below = touch::depth_half(packed, touch::DepthLayout::kBelow);
+      EXPECT_EQ(touch::picture_half(packed, touch::DepthLayout::kBelow).height, height / 2);
       EXPECT_EQ(below.height, height / 2);
       EXPECT_EQ(below.data, packed.at(0, height - height / 2));
       EXPECT_EQ(below.bytes, bytes);
     }
   }
   const uint8_t one = 7;
-  EXPECT_EQ(depth_half({&one, 1, 1, 1}, DepthLayout::kRight).data, nullptr);
+  EXPECT_EQ(touch::depth_half({&one, 1, 1, 1}, touch::DepthLayout::kRight).data, nullptr);
 }
 
 TEST(DepthPicture, RubbishIsReadWithoutHarm) {
   std::mt19937 random(11);
-  DepthPicture picture;
+  touch::DepthPicture picture;
   for (int n = 0; n < 200; ++n) {
     Samples samples(1 + static_cast<int>(random() % 700), 1 + static_cast<int>(random() % 500),
                     1 + static_cast<int>(random() % 2), random() % 2 == 0);
     samples.fill([&](int, int) { return random() & 65535; });
     const bool disparity = random() % 2 == 0;
-    DepthSettings settings{disparity, -1, -1};
+    touch::DepthSettings settings{disparity, -1, -1};
     if (random() % 3 == 0) settings.near_sample = static_cast<double>(random() % 65536);
     if (random() % 3 == 0) settings.far_sample = static_cast<double>(random() % 65536);
     try {
@@ -262,7 +264,7 @@ TEST(DepthPicture, RubbishIsReadWithoutHarm) {
     if (!picture.read(samples.view(), settings, dt_s)) continue;
     ASSERT_TRUE(std::isfinite(picture.near_sample()) && std::isfinite(picture.far_sample()));
     ASSERT_EQ(disparity, picture.near_sample() > picture.far_sample());
-    for (int i = 0; i < HeightField::kCells; ++i) {
+    for (int i = 0; i < touch::HeightField::kCells; ++i) {
       const float level = picture.levels()[i];
       ASSERT_TRUE(std::isnan(level) || (level >= 0 && level <= 1));
     }
@@ -273,8 +275,8 @@ TEST(DepthPicture, TakesNothingFromTheHeapAfterTheFirst) {
   if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
   Samples samples(640, 480, 2);
   samples.fill([](int x, int y) { return x % 7 ? 500 + x + y : 0; });
-  const DepthView view = samples.view();
-  DepthPicture picture;
+  const touch::DepthView view = samples.view();
+  touch::DepthPicture picture;
   picture.read(view, {}, kFrame_s);
   const long before = allocations;
   for (int n = 0; n < 3; ++n) picture.read(view, {}, kFrame_s);
@@ -282,7 +284,7 @@ TEST(DepthPicture, TakesNothingFromTheHeapAfterTheFirst) {
 }
 
 TEST(DepthPicture, SaysWhatIsWrong) {
-  const auto message = [](const DepthSettings& settings) {
+  const auto message = [](const touch::DepthSettings& settings) {
     try {
       validate(settings);
     } catch (const std::invalid_argument& error) {

@@ -16,8 +16,9 @@ const Eigen::Vector3d kStill(0, 0, 0);
 const Eigen::Vector3d kNothing(0, 0, 0);
 
 /// A budget that `left_J` are left of, for a grip of this speed, after a steady force.
-EnergyBudget budget_of(double left_J, double out_m_s, double force_N, const ForcePath& path) {
-  EnergyBudget budget;
+touch::EnergyBudget budget_of(double left_J, double out_m_s, double force_N,
+                              const touch::ForcePath& path) {
+  touch::EnergyBudget budget;
   for (int n = 0; n < 100; ++n) {
     budget.follow(kStill, out_m_s * kUp, n == 99 ? left_J : 0, left_J);
     budget.command(force_N * kUp, kNothing, path, kTick_s);
@@ -29,10 +30,10 @@ TEST(EnergyBudget, WhatIsTakenBackFromTheBoundOnDoesTheWorkThatIsLeft) {
   for (const double lag_s : {0.0, 0.002}) {
     for (const double left_J : {1e-5, 1e-4, 1e-3, 5e-3}) {
       for (const double out_m_s : {-0.3, 0.0, 0.1, 0.5}) {
-        ForcePath path;
+        touch::ForcePath path;
         path.lag_s = lag_s;
         const double before_N = 0.001 * left_J / 1e-5;
-        const EnergyBudget budget = budget_of(left_J, out_m_s, before_N, path);
+        const touch::EnergyBudget budget = budget_of(left_J, out_m_s, before_N, path);
         const double most_N = budget.most_N(kUp, path, kTick_s);
         if (most_N == 0) continue;
         // The mass feels the force that is still there, and then the bound, which is taken back by
@@ -61,10 +62,10 @@ TEST(EnergyBudget, WhatIsTakenBackFromTheBoundOnDoesTheWorkThatIsLeft) {
 }
 
 TEST(EnergyBudget, IsWhatTheHandHasDoneAndNoMoreThanTheSpringHolds) {
-  ForcePath path;
+  touch::ForcePath path;
   path.lag_s = 0;
   path.max_slew_N_s = 1e9;
-  EnergyBudget budget;
+  touch::EnergyBudget budget;
   budget.command(2 * kUp, kNothing, path, kTick_s);
   budget.command(3 * kUp, kNothing, path, kTick_s);
   // The way of the tick of 2 N.
@@ -82,15 +83,15 @@ TEST(EnergyBudget, IsWhatTheHandHasDoneAndNoMoreThanTheSpringHolds) {
 }
 
 TEST(EnergyBudget, KnowsTheLimitsOfThePath) {
-  ForcePath path;
+  touch::ForcePath path;
   path.lag_s = 0;
   path.max_force_N = 1;
-  EnergyBudget budget;
+  touch::EnergyBudget budget;
   // 0.3 N in the first tick, and 1 N at most.
   for (int n = 0; n < 10; ++n) budget.command(50 * kUp, kNothing, path, kTick_s);
   budget.follow(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
-  EnergyBudget fresh;
+  touch::EnergyBudget fresh;
   fresh.command(50 * kUp, kNothing, path, kTick_s);
   fresh.command(50 * kUp, kNothing, path, kTick_s);
   fresh.follow(-0.001 * kUp, kStill, 0, 1);
@@ -98,23 +99,23 @@ TEST(EnergyBudget, KnowsTheLimitsOfThePath) {
 }
 
 TEST(EnergyBudget, CountsWhatTheContactAddsToAForceBesideIt) {
-  ForcePath path;
+  touch::ForcePath path;
   path.lag_s = 0;
   path.max_slew_N_s = 1e9;
   path.max_force_N = 3;
   // 2 N beside it leave 1 N of the contact's 2.5 N.
-  EnergyBudget budget;
+  touch::EnergyBudget budget;
   for (int n = 0; n < 3; ++n) budget.command(2.5 * kUp, 2 * kUp, path, kTick_s);
   EXPECT_NEAR(budget.force_N().z(), 1, 1e-12);
   budget.follow(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
   // Against it there is room for all of it.
-  EnergyBudget against;
+  touch::EnergyBudget against;
   for (int n = 0; n < 3; ++n) against.command(2.5 * kUp, -2 * kUp, path, kTick_s);
   EXPECT_NEAR(against.force_N().z(), 2.5, 1e-12);
   // Both share the slew limit.
   path.max_slew_N_s = 300;
-  EnergyBudget rising;
+  touch::EnergyBudget rising;
   rising.command(1 * kUp, 1 * kUp, path, kTick_s);
   EXPECT_NEAR(rising.force_N().z(), 0, 1e-12) << "0.3 N are let through with and without it";
 }
@@ -122,10 +123,10 @@ TEST(EnergyBudget, CountsWhatTheContactAddsToAForceBesideIt) {
 TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
   // ½ F²/K are left at rest. The bound is above F as long as √(m/K) exceeds lag + tick + F / 2 S:
   // up to 4.2 N at 500 N/m and up to 2.9 N at 800.
-  const ForcePath path;
+  const touch::ForcePath path;
   for (const auto& [stiffness_N_m, force_N] : {std::pair{500.0, 4.1}, {800.0, 2.9}}) {
     const double stored_J = 0.5 * force_N * force_N / stiffness_N_m;
-    const EnergyBudget budget = budget_of(stored_J, 0, force_N, path);
+    const touch::EnergyBudget budget = budget_of(stored_J, 0, force_N, path);
     EXPECT_GE(budget.most_N(kUp, path, kTick_s), force_N);
   }
 }

@@ -49,7 +49,7 @@ TEST(FeatureSelection, AFlatPictureHasNone) {
     picture.fill([grey](double, double) { return grey; });
     OpenCvTracker tracker;
     EXPECT_EQ(tracker.track(picture.view()).features, 0);
-    const TrackedFrame& again = tracker.track(picture.view());
+    const OpenCvTracker::Result& again = tracker.track(picture.view());
     EXPECT_EQ(again.features, 0);
     EXPECT_TRUE(again.points.empty());
     EXPECT_NE(again.picture, PictureKind::kFirst);

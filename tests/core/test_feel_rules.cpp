@@ -33,18 +33,18 @@ TEST(FeelRules, AreALineEachWithRemarksAndEmptyLines) {
   ASSERT_EQ(rules.rules().size(), 3u);
   const FeelRule& dancer = rules.rules()[0];
   EXPECT_EQ(dancer.line, 3);
-  EXPECT_EQ(dancer.kind, FeelKind::kObjectAt);
+  EXPECT_EQ(dancer.kind, FeelRule::Kind::kObjectAt);
   EXPECT_EQ(dancer.position, Eigen::Vector2d(0.31, 0.62));
   EXPECT_EQ(dancer.gain, 1.5);
   EXPECT_EQ(dancer.to_ns, 12 * kSecond);
   const FeelRule& region = rules.rules()[1];
-  EXPECT_EQ(region.kind, FeelKind::kRegion);
+  EXPECT_EQ(region.kind, FeelRule::Kind::kRegion);
   EXPECT_EQ(region.position, Eigen::Vector2d(0.5, 0));
   EXPECT_EQ(region.far_corner, Eigen::Vector2d(1, 1));
   EXPECT_EQ(region.to_ns, 3723 * kSecond + kSecond / 2);
   const FeelRule& last = rules.rules()[2];
   EXPECT_EQ(last.line, 5);
-  EXPECT_EQ(last.kind, FeelKind::kFurthest);
+  EXPECT_EQ(last.kind, FeelRule::Kind::kFurthest);
   EXPECT_EQ(last.direction, Eigen::Vector2d(-1, 0));
   EXPECT_EQ(last.to_ns, FeelRule::kNoEnd);
 }
@@ -52,14 +52,14 @@ TEST(FeelRules, AreALineEachWithRemarksAndEmptyLines) {
 TEST(FeelRules, HoldFromTheirBeginUpToTheirEnd) {
   const FeelRules rules("1-2 largest; 2-3 camera; 5- nothing");
   EXPECT_EQ(rules.at(kSecond - 1), nullptr);
-  EXPECT_EQ(rules.at(kSecond)->kind, FeelKind::kLargest);
-  EXPECT_EQ(rules.at(2 * kSecond - 1)->kind, FeelKind::kLargest);
-  EXPECT_EQ(rules.at(2 * kSecond)->kind, FeelKind::kCamera);
+  EXPECT_EQ(rules.at(kSecond)->kind, FeelRule::Kind::kLargest);
+  EXPECT_EQ(rules.at(2 * kSecond - 1)->kind, FeelRule::Kind::kLargest);
+  EXPECT_EQ(rules.at(2 * kSecond)->kind, FeelRule::Kind::kCamera);
   EXPECT_EQ(rules.at(3 * kSecond), nullptr);
-  EXPECT_EQ(rules.at(100'000 * kSecond)->kind, FeelKind::kNothing);
+  EXPECT_EQ(rules.at(100'000 * kSecond)->kind, FeelRule::Kind::kNothing);
   const FeelRules always("largest");
-  EXPECT_EQ(always.at(0)->kind, FeelKind::kLargest);
-  EXPECT_EQ(always.at(100'000 * kSecond)->kind, FeelKind::kLargest);
+  EXPECT_EQ(always.at(0)->kind, FeelRule::Kind::kLargest);
+  EXPECT_EQ(always.at(100'000 * kSecond)->kind, FeelRule::Kind::kLargest);
 }
 
 TEST(FeelRules, HaveOneFormInWhichTheyCanBeReadAgain) {

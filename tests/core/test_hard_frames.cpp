@@ -29,7 +29,7 @@ TEST_P(HardFrames, ShowNoMotion) {
     ReducedFrame reduced;
     for (int n = 0; n < kFrames; ++n) {
       const ImageView frame = film.draw(n);
-      const TrackedFrame& tracked = tracker.track(frame);
+      const OpenCvTracker::Result& tracked = tracker.track(frame);
       reduced.read(frame);
       MeasuredFrame scene;
       scene.interval_ns = kFrame_ns;

@@ -20,10 +20,10 @@ constexpr double kHeight_m = 0.034;
 
 using Surface = std::function<double(double x_m, double y_m)>;
 
-HeightField field_of(const Surface& surface) {
-  HeightField field(kWidth_m, kHeight_m);
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
+touch::HeightField field_of(const Surface& surface) {
+  touch::HeightField field(kWidth_m, kHeight_m);
+  for (int y = 0; y < touch::HeightField::kRows; ++y) {
+    for (int x = 0; x < touch::HeightField::kColumns; ++x) {
       field.row(y)[x] = static_cast<float>(surface(field.x_m(x), field.y_m(y)));
     }
   }
@@ -33,10 +33,10 @@ HeightField field_of(const Surface& surface) {
 /// Samples are floats: heights of at most 1 cm are rounded by 2^-24 of it, and a slope is a
 /// difference of two of them over a cell.
 constexpr double kRounding_m = 0.01 / (1 << 24);
-const double kSlopeRounding = 4 * kRounding_m / (kHeight_m / HeightField::kRows);
+const double kSlopeRounding = 4 * kRounding_m / (kHeight_m / touch::HeightField::kRows);
 
 TEST(HeightField, ReproducesAPlane) {
-  const HeightField field =
+  const touch::HeightField field =
       field_of([](double x_m, double y_m) { return 0.001 + 0.1 * x_m - 0.2 * y_m; });
   std::mt19937 random(1);
   // Three cells from the border the border's heights do not matter.
@@ -45,7 +45,7 @@ TEST(HeightField, ReproducesAPlane) {
   for (int n = 0; n < 1000; ++n) {
     const double x_m = across(random);
     const double y_m = along(random);
-    const SurfacePoint p = field.at(x_m, y_m);
+    const touch::SurfacePoint p = field.at(x_m, y_m);
     EXPECT_NEAR(p.z_m, 0.001 + 0.1 * x_m - 0.2 * y_m, kRounding_m);
     EXPECT_NEAR(p.slope.x(), 0.1, kSlopeRounding);
     EXPECT_NEAR(p.slope.y(), -0.2, kSlopeRounding);
@@ -58,9 +58,9 @@ TEST(HeightField, ShadingTellsWhereASlopeFaces) {
   const auto shade = [](double slope_x, double slope_y) {
     const std::string shading =
         field_of([&](double x_m, double y_m) { return slope_x * x_m + slope_y * y_m; }).shading();
-    EXPECT_EQ(shading.size(), static_cast<size_t>(HeightField::kCells));
-    return static_cast<int>(
-        static_cast<uint8_t>(shading[HeightField::kCells / 2 + HeightField::kColumns / 2]));
+    EXPECT_EQ(shading.size(), static_cast<size_t>(touch::HeightField::kCells));
+    return static_cast<int>(static_cast<uint8_t>(
+        shading[touch::HeightField::kCells / 2 + touch::HeightField::kColumns / 2]));
   };
   EXPECT_EQ(shade(0, 0), 128);
   EXPECT_NEAR(shade(facing, -facing), 255, 1);
@@ -73,7 +73,7 @@ TEST(HeightField, ShadingTellsWhereASlopeFaces) {
 TEST(HeightField, SlopeIsTheDerivativeOfTheHeight) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> height_m(0, 0.008);
-  const HeightField field = field_of([&](double, double) { return height_m(random); });
+  const touch::HeightField field = field_of([&](double, double) { return height_m(random); });
   std::uniform_real_distribution<double> across(-0.6 * kWidth_m, 0.6 * kWidth_m);
   std::uniform_real_distribution<double> along(-0.6 * kHeight_m, 0.6 * kHeight_m);
   // Central differences over 2 d are wrong by d²/6 of the third derivative, which is at most the
@@ -83,7 +83,7 @@ TEST(HeightField, SlopeIsTheDerivativeOfTheHeight) {
   for (int n = 0; n < 2000; ++n) {
     const double x_m = across(random);
     const double y_m = along(random);
-    const SurfacePoint p = field.at(x_m, y_m);
+    const touch::SurfacePoint p = field.at(x_m, y_m);
     EXPECT_NEAR(p.slope.x(),
                 (field.at(x_m + kStep_m, y_m).z_m - field.at(x_m - kStep_m, y_m).z_m) / 2 / kStep_m,
                 kError);
@@ -96,7 +96,8 @@ TEST(HeightField, SlopeIsTheDerivativeOfTheHeight) {
 }
 
 TEST(HeightField, GoesOnLevelOutsideThePicture) {
-  const HeightField field = field_of([](double x_m, double y_m) { return 0.1 * x_m + 0.1 * y_m; });
+  const touch::HeightField field =
+      field_of([](double x_m, double y_m) { return 0.1 * x_m + 0.1 * y_m; });
   const double inf = std::numeric_limits<double>::infinity();
   for (const double x_m : {-inf, -1e9, -0.04, 0.04, 1e9, inf}) {
     EXPECT_EQ(field.at(x_m, 0).slope.x(), 0) << x_m;
@@ -108,10 +109,10 @@ TEST(HeightField, GoesOnLevelOutsideThePicture) {
 }
 
 TEST(HeightField, SaysWhichExtentIsWrong) {
-  EXPECT_THROW(HeightField(0, 1), std::invalid_argument);
-  EXPECT_THROW(HeightField(1, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(touch::HeightField(0, 1), std::invalid_argument);
+  EXPECT_THROW(touch::HeightField(1, std::nan("")), std::invalid_argument);
   try {
-    HeightField(-1, 1);
+    touch::HeightField(-1, 1);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("width_m"), std::string::npos) << error.what();

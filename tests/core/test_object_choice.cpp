@@ -160,7 +160,7 @@ TEST(ObjectChoice, TheOneThatBeginsToMoveLaterIsFound) {
   Player player({sleeper, middle()});
   player.set_rules(rule_at(0, 9, sleeper));
   player.play_to(30);
-  EXPECT_EQ(player.next().choice.state, ChoiceState::kNotThere) << "this is told";
+  EXPECT_EQ(player.next().choice.state, Chosen::State::kNotThere) << "this is told";
   EXPECT_EQ(player.felt(), -1);
   player.play_to(50 + kKnown);
   EXPECT_GE(player.fraction_felt(0, 110), kMostFrames);
@@ -175,7 +175,7 @@ TEST(ObjectChoice, AnObjectThatHasLeftIsLostAndItsForceFades) {
   // Out of the picture after 34 frames; nothing is left of the force 0.1 s later.
   player.play_to(40);
   for (int n = 40; n < 75; ++n) EXPECT_EQ(player.next().wrench.force_N.norm(), 0) << n;
-  EXPECT_EQ(player.next().choice.state, ChoiceState::kLost);
+  EXPECT_EQ(player.next().choice.state, Chosen::State::kLost);
 }
 
 TEST(ObjectChoice, WhatWasNotSeenAtItsTimeIsNotKnown) {
@@ -183,7 +183,7 @@ TEST(ObjectChoice, WhatWasNotSeenAtItsTimeIsNotKnown) {
   player.set_rules(rule_at(0, 9, large()));
   player.skip(50);
   player.play_to(60);
-  EXPECT_EQ(player.next().choice.state, ChoiceState::kNotSeen);
+  EXPECT_EQ(player.next().choice.state, Chosen::State::kNotSeen);
   EXPECT_EQ(player.felt(), -1);
 }
 
@@ -343,7 +343,7 @@ TEST(ObjectChoice, AClickKeepsWhatIsThereAndComesBeforeRules) {
   player.next();
   EXPECT_EQ(player.felt(), 0) << "there is nothing";
   player.play_to(100);
-  EXPECT_EQ(player.next().choice.state, ChoiceState::kNotThere);
+  EXPECT_EQ(player.next().choice.state, Chosen::State::kNotThere);
 }
 
 }  // namespace

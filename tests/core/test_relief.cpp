@@ -15,22 +15,22 @@
 namespace spidar::test::relief_test {
 namespace {
 
-constexpr int kColumns = HeightField::kColumns;
-constexpr int kRows = HeightField::kRows;
+constexpr int kColumns = touch::HeightField::kColumns;
+constexpr int kRows = touch::HeightField::kRows;
 
-HeightField empty_field() {
-  return HeightField(0.06, 0.03375);  // square cells of 0.23 mm
+touch::HeightField empty_field() {
+  return touch::HeightField(0.06, 0.03375);  // square cells of 0.23 mm
 }
 
-float lowest(const HeightField& field) {
-  return *std::min_element(field.row(0), field.row(0) + HeightField::kCells);
+float lowest(const touch::HeightField& field) {
+  return *std::min_element(field.row(0), field.row(0) + touch::HeightField::kCells);
 }
-float highest(const HeightField& field) {
-  return *std::max_element(field.row(0), field.row(0) + HeightField::kCells);
+float highest(const touch::HeightField& field) {
+  return *std::max_element(field.row(0), field.row(0) + touch::HeightField::kCells);
 }
 
 /// The steepest position, looked for twice as densely as the samples lie.
-double steepest(const HeightField& field) {
+double steepest(const touch::HeightField& field) {
   double most = 0;
   for (int y = 0; y < 2 * kRows; ++y) {
     for (int x = 0; x < 2 * kColumns; ++x) {
@@ -48,8 +48,8 @@ TEST(Relief, OfBrightnessIsAsHighAsThePictureIsBright) {
        {std::pair{16, 16}, {256, 144}, {640, 361}, {99, 700}, {1, 1}, {1920, 1080}}) {
     Picture picture(width, height, 3);
     picture.fill([](double, double) { return 51; });
-    HeightField field = empty_field();
-    ReliefBuilder builder;
+    touch::HeightField field = empty_field();
+    touch::ReliefBuilder builder;
     ASSERT_TRUE(builder.from_brightness(picture.view(), {0.001, 0.01, 5e-4}, field));
     // 51/255 of 10 mm; sums of less than 10⁴ weights, each rounded by 2^-24 of it.
     EXPECT_NEAR(lowest(field), 0.003, 0.003 * 1e4 / (1 << 24)) << width << "×" << height;
@@ -59,15 +59,15 @@ TEST(Relief, OfBrightnessIsAsHighAsThePictureIsBright) {
 
 TEST(Relief, BlackAndWhiteAreThoseOfTheFilm) {
   // Of a film with limited range; what is blacker or whiter counts as black or white.
-  ReliefSettings settings{0.001, 0.01, 5e-4};
+  touch::ReliefSettings settings{0.001, 0.01, 5e-4};
   settings.black_grey = 16;
   settings.white_grey = 235;
   for (const auto& [grey, level] :
        {std::pair{16, 0.0}, {235, 1.0}, {16 + 73, 1.0 / 3}, {0, 0.0}, {255, 1.0}}) {
     Picture picture(64, 36);
     picture.fill([level_of = grey](double, double) { return level_of; });
-    HeightField field = empty_field();
-    ReliefBuilder builder;
+    touch::HeightField field = empty_field();
+    touch::ReliefBuilder builder;
     ASSERT_TRUE(builder.from_brightness(picture.view(), settings, field));
     const double height_m = 0.001 + 0.01 * level;
     EXPECT_NEAR(lowest(field), height_m, 0.011 * 1e4 / (1 << 24)) << grey;
@@ -79,14 +79,14 @@ TEST(Relief, HasTheOrientationOfThePicture) {
   // Brighter to the right and to the bottom, at different rates.
   Picture picture(640, 360);
   picture.fill([](double x, double y) { return 0.2 * x + 0.1 * y; });
-  HeightField field = empty_field();
-  ReliefBuilder builder;
+  touch::HeightField field = empty_field();
+  touch::ReliefBuilder builder;
   ASSERT_TRUE(builder.from_brightness(picture.view(), {0, 0.008, 5e-4}, field));
   // A pixel is 0.06 m / 640; levels are rounded to 1/255, which the mean of 2.5² pixels and the
   // Gaussian of 2 cells bring below 0.1/255, over two cells.
   const double pixel_m = 0.06 / 640;
   const double error = 0.008 * 0.1 / 255 / (2 * field.cell_x_m());
-  const SurfacePoint p = field.at(0.005, -0.004);
+  const touch::SurfacePoint p = field.at(0.005, -0.004);
   EXPECT_NEAR(p.slope.x(), 0.008 * 0.2 / 255 / pixel_m, error);
   EXPECT_NEAR(p.slope.y(), -0.008 * 0.1 / 255 / pixel_m, error);
   const double level = (0.2 * (320 + 0.005 / pixel_m) + 0.1 * (180 + 0.004 / pixel_m)) / 255;
@@ -102,14 +102,14 @@ TEST(Relief, IsNowhereSteeperThanTheLimit) {
     picture.fill([&](double x, double y) {
       return std::cos(a) * (x - 256) + std::sin(a) * (y - 144) > 0 ? 255 : 0;
     });
-    HeightField field = empty_field();
-    ReliefBuilder builder;
+    touch::HeightField field = empty_field();
+    touch::ReliefBuilder builder;
     ASSERT_TRUE(builder.from_brightness(picture.view(), {}, field));
     // Where the edge goes from one row of pixels to the next, the slopes across and down are those
     // of positions up to two cells apart, on flanks whose directions differ: 1/1000 at most.
     const double slope = steepest(field);
-    EXPECT_LE(slope, 1.001 * ReliefBuilder::kMaxSlope) << degrees;
-    EXPECT_GE(slope, 0.9 * ReliefBuilder::kMaxSlope) << "the limit has something to do";
+    EXPECT_LE(slope, 1.001 * touch::ReliefBuilder::kMaxSlope) << degrees;
+    EXPECT_GE(slope, 0.9 * touch::ReliefBuilder::kMaxSlope) << "the limit has something to do";
     EXPECT_NEAR(highest(field), 0.008, 1e-6) << "the top stays";
   }
 }
@@ -119,13 +119,13 @@ TEST(Relief, OfNoiseIsNotSteeperAlongAnAxis) {
   std::uniform_int_distribution<int> level(0, 255);
   Picture picture(256, 144);
   picture.fill([&](double, double) { return level(random); });
-  HeightField field = empty_field();
-  ReliefBuilder builder;
+  touch::HeightField field = empty_field();
+  touch::ReliefBuilder builder;
   ASSERT_TRUE(builder.from_brightness(picture.view(), {0, 0.008, 0}, field));
   for (double x_m = -0.03; x_m < 0.03; x_m += 0.00011) {
     for (double y_m = -0.017; y_m < 0.017; y_m += 0.00013) {
-      const SurfacePoint p = field.at(x_m, y_m);
-      ASSERT_LE(p.slope.cwiseAbs().maxCoeff(), ReliefBuilder::kMaxSlope);
+      const touch::SurfacePoint p = field.at(x_m, y_m);
+      ASSERT_LE(p.slope.cwiseAbs().maxCoeff(), touch::ReliefBuilder::kMaxSlope);
     }
   }
 }
@@ -139,8 +139,8 @@ TEST(Relief, FillsAHoleWithTheFartherNeighbour) {
       levels.push_back(y < 48 || (x > 100 && x < 150) ? hole : x < 125 ? 0.0F : 1.0F);
     }
   }
-  HeightField field = empty_field();
-  ReliefBuilder builder;
+  touch::HeightField field = empty_field();
+  touch::ReliefBuilder builder;
   ASSERT_TRUE(builder.from_levels(levels.data(), {0, 0.008, 0}, field));
   EXPECT_NEAR(field.row(100)[110], 0, 1e-7);
   EXPECT_NEAR(field.row(100)[150], 0.008, 1e-7);
@@ -149,10 +149,10 @@ TEST(Relief, FillsAHoleWithTheFartherNeighbour) {
 }
 
 TEST(Relief, LeavesTheFieldWhereThereIsNothing) {
-  HeightField field = empty_field();
+  touch::HeightField field = empty_field();
   field.row(3)[4] = 0.5F;
-  ReliefBuilder builder;
-  const std::vector<float> holes(HeightField::kCells, std::nanf(""));
+  touch::ReliefBuilder builder;
+  const std::vector<float> holes(touch::HeightField::kCells, std::nanf(""));
   EXPECT_FALSE(builder.from_levels(holes.data(), {}, field));
   EXPECT_FALSE(builder.from_brightness({}, {}, field));
   EXPECT_EQ(field.row(3)[4], 0.5F);
@@ -166,10 +166,10 @@ TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
     return 127.5 + 50 * std::sin(2 * M_PI * 10 * x / 1024) +
            50 * std::sin(2 * M_PI * 85 * x / 1024);
   });
-  HeightField field = empty_field();
-  HeightField fine = empty_field();
-  ReliefBuilder builder;
-  const ReliefSettings settings{0, 0.008, 2 * field.cell_x_m()};
+  touch::HeightField field = empty_field();
+  touch::HeightField fine = empty_field();
+  touch::ReliefBuilder builder;
+  const touch::ReliefSettings settings{0, 0.008, 2 * field.cell_x_m()};
   ASSERT_TRUE(builder.from_brightness(picture.view(), settings, field));
   builder.fine_detail(settings, fine);
   double coarse = 0;
@@ -187,10 +187,10 @@ TEST(Relief, FineDetailIsWhatSmoothingTookOut) {
 
 TEST(Relief, SaysWhichSettingIsWrong) {
   const double nan = std::nan("");
-  EXPECT_NO_THROW(validate(ReliefSettings()));
-  EXPECT_THROW(validate(ReliefSettings{nan, 0.01, 0}), std::invalid_argument);
-  EXPECT_THROW(validate(ReliefSettings{0, -0.01, 0}), std::invalid_argument);
-  EXPECT_THROW(validate(ReliefSettings{0, 0.01, nan}), std::invalid_argument);
+  EXPECT_NO_THROW(validate(touch::ReliefSettings()));
+  EXPECT_THROW(validate(touch::ReliefSettings{nan, 0.01, 0}), std::invalid_argument);
+  EXPECT_THROW(validate(touch::ReliefSettings{0, -0.01, 0}), std::invalid_argument);
+  EXPECT_THROW(validate(touch::ReliefSettings{0, 0.01, nan}), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 /// For each scene and hand.
 constexpr long kTicks = 30'000;
 
-ContactEnergy explore_all(const ContactSettings& settings, bool with_texture) {
+ContactEnergy explore_all(const touch::ContactSettings& settings, bool with_texture) {
   ContactEnergy all;
   for (const TouchScene& scene : touch_scenes()) {
     for (const Hand& hand : {kFirmHand, kLightHand}) {
@@ -36,7 +36,7 @@ constexpr double kBound_J = 5e-6;
 constexpr double kStiffBound_J = 1e-4;
 
 TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
-  ContactSettings settings;
+  touch::ContactSettings settings;
   EXPECT_LE(explore_all(settings, false).worst_J, kBound_J);
   settings.friction = {0.3, 0.24};
   EXPECT_LE(explore_all(settings, false).worst_J, kBound_J) << "with friction";
@@ -44,28 +44,28 @@ TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
 }
 
 TEST(TouchEnergy, NoContactGivesMuchOutWhereItIsStiffest) {
-  ContactSettings settings;
-  settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
+  touch::ContactSettings settings;
+  settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
   settings.friction = {0.3, 0.24};
   EXPECT_LE(explore_all(settings, false).worst_J, kStiffBound_J);
   EXPECT_LE(explore_all(settings, true).worst_J, kStiffBound_J) << "with texture";
 }
 
 TEST(TouchEnergy, ATapGivesNoneBackHoweverFast) {
-  ContactSettings settings;
+  touch::ContactSettings settings;
   for (const Hand& hand : {kFirmHand, kLightHand, kLooseHand}) {
     settings.stiffness_N_m = 500;
     EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
-    settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
+    settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
     EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
   }
 }
 
 TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
-  ContactSettings settings;
+  touch::ContactSettings settings;
   settings.bounds_energy = false;
   EXPECT_GT(worst_tap_J(settings, kLightHand), kStiffBound_J);
-  settings.stiffness_N_m = ContactSettings::kMostStiffness_N_m;
+  settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
   EXPECT_GT(worst_tap_J(settings, kFirmHand), kStiffBound_J);
   EXPECT_GT(worst_tap_J(settings, kLightHand), 10 * kStiffBound_J);
 }
@@ -74,11 +74,11 @@ TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
 /// depth: before and after 5 mm.
 std::pair<double, double> sink_N(double slew_N_s) {
   constexpr int kIn_ticks = 10, kRest_ticks = 40, kSink_ticks = 500;
-  const HeightField high = plane_field(0);
-  const HeightField low = plane_field(-0.005);
-  ContactSettings settings;
+  const touch::HeightField high = plane_field(0);
+  const touch::HeightField low = plane_field(-0.005);
+  touch::ContactSettings settings;
   settings.max_slew_N_s = slew_N_s;
-  ContactForce force;
+  touch::ContactForce force;
   double before_N = 0, after_N = 0;
   for (int n = -1; n < kIn_ticks + kRest_ticks + kSink_ticks; ++n) {
     const double fraction =
@@ -99,10 +99,10 @@ std::pair<double, double> sink_N(double slew_N_s) {
 std::pair<double, double> least_and_most_N(bool is_busy, double step_m) {
   constexpr int kIn_ticks = 10, kRest_ticks = 200, kBusy_ticks = 400;
   constexpr double kLate_s[] = {2.5e-3, 0.2e-3, 0.3e-3, 1.8e-3, 0.2e-3, 1e-3};
-  const HeightField plane = plane_field(0);
-  ContactSettings settings;
+  const touch::HeightField plane = plane_field(0);
+  touch::ContactSettings settings;
   settings.max_slew_N_s = 20;
-  ContactForce force;
+  touch::ContactForce force;
   std::pair<double, double> found{1e9, 0};
   for (int n = -1; n < kIn_ticks + kRest_ticks + kBusy_ticks; ++n) {
     const bool is_at_rest = n >= kIn_ticks + kRest_ticks;

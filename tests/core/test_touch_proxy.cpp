@@ -17,7 +17,7 @@ namespace {
 constexpr double kTick_s = 1e-3;
 
 /// Moves straight to `to_m` in so many ticks.
-void go(TouchProxy& proxy, const MovingRelief& surface, const Friction& friction,
+void go(touch::Proxy& proxy, const touch::MovingRelief& surface, const touch::Friction& friction,
         Eigen::Vector3d from_m, const Eigen::Vector3d& to_m, int ticks) {
   for (int n = 1; n <= ticks; ++n) {
     proxy.move(surface, friction, from_m + (to_m - from_m) * n / ticks, kTick_s);
@@ -25,8 +25,8 @@ void go(TouchProxy& proxy, const MovingRelief& surface, const Friction& friction
 }
 
 TEST(TouchProxy, IsTheGripWhereItDoesNotTouch) {
-  const HeightField plane = plane_field(0);
-  TouchProxy proxy;
+  const touch::HeightField plane = plane_field(0);
+  touch::Proxy proxy;
   go(proxy, {&plane}, {}, {0, 0, 0.01}, {0.003, 0.002, 0.001}, 20);
   EXPECT_FALSE(proxy.touching());
   // Rounding of a centimetre.
@@ -35,13 +35,13 @@ TEST(TouchProxy, IsTheGripWhereItDoesNotTouch) {
 
 TEST(TouchProxy, IsTheNearestPointOfASphere) {
   constexpr double kRadius_m = 0.02;
-  const HeightField sphere = sphere_field(0, 0, kRadius_m, 0);
+  const touch::HeightField sphere = sphere_field(0, 0, kRadius_m, 0);
   const Eigen::Vector3d centre_m(0, 0, -kRadius_m);
   for (double degrees = 0; degrees < 360; degrees += 17) {
     const double a = degrees * M_PI / 180;
     const Eigen::Vector3d out =
         Eigen::Vector3d(0.5 * std::cos(a), 0.5 * std::sin(a), std::sqrt(0.75));
-    TouchProxy proxy;
+    touch::Proxy proxy;
     // From above, 2 mm deep, where it then stays.
     const Eigen::Vector3d end_m = centre_m + (kRadius_m - 0.002) * out;
     go(proxy, {&sphere}, {}, end_m + Eigen::Vector3d(0, 0, 0.006), end_m, 100);
@@ -53,10 +53,10 @@ TEST(TouchProxy, IsTheNearestPointOfASphere) {
 }
 
 TEST(TouchProxy, SticksAndSlides) {
-  const HeightField plane = plane_field(0);
-  const Friction friction{0.5, 0.3};
+  const touch::HeightField plane = plane_field(0);
+  const touch::Friction friction{0.5, 0.3};
   constexpr double kDepth_m = 0.002;
-  TouchProxy proxy;
+  touch::Proxy proxy;
   go(proxy, {&plane}, friction, {0, 0, 0.001}, {0, 0, -kDepth_m}, 100);
   // Still held at 0.49 of the depth, not any more at 0.51; then it stays 0.3 behind.
   go(proxy, {&plane}, friction, {0, 0, -kDepth_m}, {0.49 * kDepth_m, 0, -kDepth_m}, 50);
@@ -80,7 +80,7 @@ TEST(TouchProxy, ItsOwnMoveNeverMakesTheSpringLonger) {
   for (const TouchScene& scene : touch_scenes()) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    TouchProxy proxy;
+    touch::Proxy proxy;
     Eigen::Vector3d grip_m(0, 0, 0.003);
     int touched = 0;
     for (int n = 0; n < 20000; ++n) {
@@ -101,39 +101,39 @@ TEST(TouchProxy, ItsOwnMoveNeverMakesTheSpringLonger) {
 }
 
 TEST(TouchProxy, StartingInsideTheSurfaceComesUpSlowly) {
-  const HeightField plane = plane_field(0);
-  TouchProxy proxy;
+  const touch::HeightField plane = plane_field(0);
+  touch::Proxy proxy;
   const Eigen::Vector3d inside_m(0, 0, -0.005);
   proxy.move({&plane}, {}, inside_m, kTick_s);
   ASSERT_TRUE(proxy.touching());
-  EXPECT_LE(proxy.position_m().z() - inside_m.z(), TouchProxy::kFastest_m_s * kTick_s + 1e-12);
+  EXPECT_LE(proxy.position_m().z() - inside_m.z(), touch::Proxy::kFastest_m_s * kTick_s + 1e-12);
   double last_m = proxy.position_m().z();
   int ticks = 0;
   for (; ticks < 1000 && proxy.position_m().z() < -1e-9; ++ticks) {
     proxy.move({&plane}, {}, inside_m, kTick_s);
-    ASSERT_LE(proxy.position_m().z() - last_m, TouchProxy::kRise_m_s * kTick_s + 1e-12);
+    ASSERT_LE(proxy.position_m().z() - last_m, touch::Proxy::kRise_m_s * kTick_s + 1e-12);
     last_m = proxy.position_m().z();
   }
   // What is left of 5 mm after the first tick.
-  const double left_m = 0.005 - TouchProxy::kFastest_m_s * kTick_s;
+  const double left_m = 0.005 - touch::Proxy::kFastest_m_s * kTick_s;
   // Half of the speed on the way there.
-  const double late_s = TouchProxy::kRise_m_s / (2 * TouchProxy::kRise_m_s2);
-  EXPECT_NEAR(ticks, (left_m / TouchProxy::kRise_m_s + late_s) / kTick_s, 1);
+  const double late_s = touch::Proxy::kRise_m_s / (2 * touch::Proxy::kRise_m_s2);
+  EXPECT_NEAR(ticks, (left_m / touch::Proxy::kRise_m_s + late_s) / kTick_s, 1);
 }
 
 TEST(TouchProxy, ACutNeitherJumpsUpNorDown) {
-  const HeightField low = plane_field(0);
-  const HeightField high = plane_field(0.010);
+  const touch::HeightField low = plane_field(0);
+  const touch::HeightField high = plane_field(0.010);
   const Eigen::Vector3d grip_m(0, 0, -0.001);
-  TouchProxy proxy;
+  touch::Proxy proxy;
   go(proxy, {&low}, {}, {0, 0, 0.001}, grip_m, 100);
   double last_m = proxy.position_m().z();
-  for (const HeightField* field : {&high, &low, &high, &low}) {
+  for (const touch::HeightField* field : {&high, &low, &high, &low}) {
     for (int n = 0; n < 400; ++n) {
       proxy.move({field}, {}, grip_m, kTick_s);
       ASSERT_TRUE(proxy.touching());
       ASSERT_LE(std::abs(proxy.position_m().z() - last_m),
-                TouchProxy::kFastest_m_s * kTick_s + 1e-12);
+                touch::Proxy::kFastest_m_s * kTick_s + 1e-12);
       last_m = proxy.position_m().z();
     }
     EXPECT_NEAR(last_m, field == &high ? 0.010 : 0, 1e-9) << "it arrives";
@@ -142,8 +142,8 @@ TEST(TouchProxy, ACutNeitherJumpsUpNorDown) {
 
 TEST(TouchProxy, AGripThatIsPushedInFastIsNotTakenForACut) {
   // 1 m/s onto the steepest flank, sideways too: all of the depth is its own way.
-  const HeightField slope = sampled_field([](double x_m, double) { return 1.4 * x_m; });
-  TouchProxy proxy;
+  const touch::HeightField slope = sampled_field([](double x_m, double) { return 1.4 * x_m; });
+  touch::Proxy proxy;
   go(proxy, {&slope}, {}, {-0.006, 0, 0.004}, {0.004, 0, -0.004}, 12);
   EXPECT_TRUE(proxy.touching());
   EXPECT_EQ(proxy.shift_m(), 0);
@@ -154,10 +154,10 @@ TEST(TouchProxy, NeverGoesThrough) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<TouchScene> scenes = touch_scenes();
-  TouchProxy proxy;
+  touch::Proxy proxy;
   Eigen::Vector3d grip_m(0, 0, 0.003);
   Eigen::Vector3d velocity_m_s(0, 0, 0);
-  MovingRelief surface{&scenes[0].relief};
+  touch::MovingRelief surface{&scenes[0].relief};
   int touched = 0;
   for (int n = 0; n < 100000; ++n) {
     if (n % 33 == 0) {
@@ -183,8 +183,8 @@ TEST(TouchProxy, NeverGoesThrough) {
 }
 
 TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {
-  const HeightField plane = plane_field(0);
-  TouchProxy proxy;
+  const touch::HeightField plane = plane_field(0);
+  touch::Proxy proxy;
   go(proxy, {&plane}, {}, {0, 0, 0.001}, {0, 0, -0.001}, 20);
   ASSERT_TRUE(proxy.touching());
   proxy.move({&plane}, {}, {0, std::numeric_limits<double>::quiet_NaN(), 0}, kTick_s);
@@ -194,10 +194,10 @@ TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {
 /// Largest difference from the moving sphere itself, half-way between two frames.
 double error_half_way_m(const Eigen::Vector2d& displacement_m) {
   constexpr double kMoved_m = 0.004;
-  const HeightField before = sphere_field(-kMoved_m / 2, 0, 0.008, 0);
-  const HeightField after = sphere_field(kMoved_m / 2, 0, 0.008, 0);
-  const HeightField truth = sphere_field(0, 0, 0.008, 0);
-  const MovingRelief moving{&before, &after, 0.5, displacement_m};
+  const touch::HeightField before = sphere_field(-kMoved_m / 2, 0, 0.008, 0);
+  const touch::HeightField after = sphere_field(kMoved_m / 2, 0, 0.008, 0);
+  const touch::HeightField truth = sphere_field(0, 0, 0.008, 0);
+  const touch::MovingRelief moving{&before, &after, 0.5, displacement_m};
   double worst_m = 0;
   for (double x_m = -0.015; x_m <= 0.015; x_m += 0.0003) {
     for (double y_m = -0.012; y_m <= 0.012; y_m += 0.0003) {
@@ -211,7 +211,7 @@ TEST(MovingRelief, WithItsDisplacementLeavesNoGhost) {
   // 2 mm are 8.53 cells: the two spheres are sampled at other positions than the one between them.
   // A spline takes cell²/6 · d²z/dx² off a surface; the kink at the foot of the sphere, a change of
   // slope of 1.36, is off by at most 1.36 · cell / 4 wherever it lies between samples.
-  const double cell_m = kPictureWidth_m / HeightField::kColumns;
+  const double cell_m = kPictureWidth_m / touch::HeightField::kColumns;
   EXPECT_LT(error_half_way_m({0.004, 0}), 1.36 * cell_m / 4);
   EXPECT_GT(error_half_way_m({0, 0}), 5e-4) << "cross-fading does";
 }

@@ -35,7 +35,7 @@ TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
     int looked_for = tracker.track(scene.frame(0)).features;
     ASSERT_GE(looked_for, 50);
     for (int n = 1; n <= 3; ++n) {
-      const TrackedFrame& frame = tracker.track(scene.frame(n));
+      const OpenCvTracker::Result& frame = tracker.track(scene.frame(n));
       ASSERT_NE(frame.picture, PictureKind::kFirst);
       // All but those that leave: the fraction that leaves a frame is at most the displaced margin.
       const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
@@ -66,7 +66,7 @@ TEST(OpenCvTracker, APeriodicTextureDoesNotJumpAPeriod) {
     picture.fill([n](double x, double y) {
       return 128 + 50 * std::sin(kWave_px * (x - 2 * n)) + 50 * std::sin(kWave_px * (y + n));
     });
-    const TrackedFrame& frame = tracker.track(picture.view());
+    const OpenCvTracker::Result& frame = tracker.track(picture.view());
     if (n == 0) continue;
     ASSERT_GE(frame.points.size(), 50u);
     for (const FollowedPoint& point : frame.points) {
@@ -82,7 +82,7 @@ TEST(OpenCvTracker, APointKeepsItsIdAndStartsWhereItEnded) {
   tracker.track(scene.frame(0));
   std::map<uint32_t, ImagePoint> last;
   for (int n = 1; n <= 12; ++n) {
-    const TrackedFrame& frame = tracker.track(scene.frame(n));
+    const OpenCvTracker::Result& frame = tracker.track(scene.frame(n));
     std::map<uint32_t, ImagePoint> now;
     size_t known = 0;
     for (const FollowedPoint& point : frame.points) {
@@ -131,7 +131,7 @@ TEST(OpenCvTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   int looked_for = tracker.track(scene.frame(0)).features;
   int dropped = 0;
   for (int n = 1; n <= 8; ++n) {
-    const TrackedFrame& frame = tracker.track(scene.frame(n));
+    const OpenCvTracker::Result& frame = tracker.track(scene.frame(n));
     dropped += looked_for - static_cast<int>(frame.points.size());
     for (const FollowedPoint& point : frame.points) {
       EXPECT_NEAR(dx(point), kSpeed_px, kPointTolerance_px) << n << " from " << point.from.x_px;
@@ -149,11 +149,11 @@ TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   OpenCvTracker tracker;
   tracker.track(scene.frame(0));
   EXPECT_NE(tracker.track(scene.frame(1)).picture, PictureKind::kFirst);
-  const TrackedFrame& cut = tracker.track(other.frame(2));
+  const OpenCvTracker::Result& cut = tracker.track(other.frame(2));
   EXPECT_EQ(cut.picture, PictureKind::kFirst);
   EXPECT_TRUE(cut.points.empty());
   EXPECT_GT(cut.features, 100);
-  const TrackedFrame& after = tracker.track(other.frame(3));
+  const OpenCvTracker::Result& after = tracker.track(other.frame(3));
   EXPECT_NE(after.picture, PictureKind::kFirst);
   ASSERT_GE(after.points.size(), 50u);
   for (const FollowedPoint& point : after.points) EXPECT_NEAR(dx(point), -3, kPointTolerance_px);
@@ -169,7 +169,7 @@ TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
   EXPECT_EQ(tracker.track(scene.frame(1)).features, 1);
   settings.min_distance_px = 10;
   tracker.configure(settings);
-  const TrackedFrame& more = tracker.track(scene.frame(2));
+  const OpenCvTracker::Result& more = tracker.track(scene.frame(2));
   EXPECT_GT(more.features, 100);
   EXPECT_LE(more.points.size(), 1u);
 }
@@ -203,7 +203,7 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
     }
     OpenCvTracker tracker;
     EXPECT_EQ(tracker.track(picture.view()).picture, PictureKind::kFirst);
-    const TrackedFrame& frame = tracker.track(picture.view());
+    const OpenCvTracker::Result& frame = tracker.track(picture.view());
     EXPECT_NE(frame.picture, PictureKind::kFirst) << size.width << "x" << size.height;
     EXPECT_GE(frame.points.size(), 1u) << size.width << "x" << size.height;
     for (const FollowedPoint& point : frame.points) {
@@ -214,7 +214,7 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
 }
 
 /// Points that begin on the ball and follow it.
-int on_ball(const TrackedFrame& frame, const BallScene& scene, double t0_s, double t1_s) {
+int on_ball(const OpenCvTracker::Result& frame, const BallScene& scene, double t0_s, double t1_s) {
   const Eigen::Vector2d centre = scene.position_px(t0_s);
   const Eigen::Vector2d moved = scene.position_px(t1_s) - centre;
   return static_cast<int>(
@@ -244,7 +244,7 @@ int found_on_entering_ball(uint32_t seed) {
   // latest, and followed from the next on.
   for (int n = 0; n <= 29 + 6; ++n) {
     scene.render(n * kFrame_s, picture.pixels.data(), picture.stride);
-    const TrackedFrame& frame = tracker.track(picture.view());
+    const OpenCvTracker::Result& frame = tracker.track(picture.view());
     if (n > 0) most = std::max(most, on_ball(frame, scene, (n - 1) * kFrame_s, n * kFrame_s));
   }
   return most;

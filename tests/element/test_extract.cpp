@@ -120,7 +120,7 @@ TEST_F(Extract, BackwardsThereAreGapsOnly) {
 
 TEST_F(Extract, ReportsTheLatencyOfSamples) {
   gst_harness_set_upstream_latency(h, 7 * GST_MSECOND);
-  EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND + TrackStream::latency_ns());
+  EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND + tracks::Stream::latency_ns());
   open("src");
   gst_harness_set_upstream_latency(h, 7 * GST_MSECOND);
   EXPECT_EQ(gst_harness_query_latency(h), 7 * GST_MSECOND);
@@ -130,7 +130,7 @@ TEST_F(Extract, NoSampleExceedsTheLatency) {
   for (GstClockTime i = 0; i < 50; ++i) {
     gst_harness_push(h, make_frame(i * kExtractedFrame, wrench_of(1)));
     take_all();
-    EXPECT_GE(samples.size() * kTrackPeriod_ns + TrackStream::latency_ns(), i * kExtractedFrame);
+    EXPECT_GE(samples.size() * kTrackPeriod_ns + tracks::Stream::latency_ns(), i * kExtractedFrame);
   }
 }
 

@@ -107,7 +107,7 @@ class LongTrack : public testing::TestWithParam<const char*> {
 
   const TemporaryFolder folder;
   std::string path;
-  TrackLoader loader;
+  tracks::Loader loader;
   std::shared_ptr<ReadAhead> blocks;
   filter::TrackReplay replay;
   uint32_t epoch = 0;

@@ -49,11 +49,11 @@ Frame unfelt() {
 
 TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
   FeelRule rule;
-  rule.kind = FeelKind::kNothing;
+  rule.kind = FeelRule::Kind::kNothing;
   Frame frame = unfelt();
   frame.choice.rule = rule;
   EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNotChosen);
-  frame.choice.rule->kind = FeelKind::kObjectAt;
+  frame.choice.rule->kind = FeelRule::Kind::kObjectAt;
   EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNotChosen) << "it is lost";
   frame.felt_object = 1;
   EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNothingMoves)

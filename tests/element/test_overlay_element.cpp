@@ -50,7 +50,9 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
   for (int n = 0; n < 9; ++n) {
     const bool on = n / 3 == 1;
     if (n % 3 == 0)
-      g_object_set(h.element(), "overlay", on ? OverlayKind::kPoints : OverlayKind::kNone, nullptr);
+      g_object_set(h.element(), "overlay",
+                   on ? DisplayProperties::Overlay::kPoints : DisplayProperties::Overlay::kNone,
+                   nullptr);
     GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
     GstBuffer* before = gst_buffer_copy_deep(frame);
     ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);

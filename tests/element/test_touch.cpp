@@ -110,7 +110,7 @@ TEST(ReliefStream, WhatTheLoopHasNoRoomForIsLeftOutAndCounted) {
   TouchProperties touch;
   reliefs.stream.add(luma, some_analysis(), 0, touch, {0.5, 0.5});
   EXPECT_EQ(number_of(reliefs.stream, "reliefs"), 0u) << "off";
-  touch.kind = TouchKind::kLuma;
+  touch.kind = TouchProperties::Kind::kLuma;
   for (size_t n = 0; n < filter::ReliefStream::kSlots + 5; ++n) {
     reliefs.stream.add(luma, some_analysis(), static_cast<int64_t>(n * kFrame), touch, {0.5, 0.5});
   }
@@ -125,7 +125,7 @@ TEST(ReliefStream, TakesNothingFromTheHeapAfterTheFirstFrame) {
   reliefs.loop->open();
   const std::vector<uint8_t> grey(1920 * 1080, 128);
   TouchProperties touch;
-  touch.kind = TouchKind::kLuma;
+  touch.kind = TouchProperties::Kind::kLuma;
   touch.texture = 1;
   int64_t now_ns = 0;
   long before = 0;
@@ -151,7 +151,7 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
   const Eigen::Vector2d pixel_m(0.06 / kWidth, 0.06 / kHeight);
   Reliefs reliefs;
   TouchProperties touch;
-  touch.kind = TouchKind::kLuma;
+  touch.kind = TouchProperties::Kind::kLuma;
   touch.friction = 0;
   Background background;
   background.model.kind = ModelKind::kTranslation;
@@ -200,9 +200,9 @@ TEST(ReliefStream, TheSurfaceMovesAsTheBackgroundDoes) {
 
 /// Force to the right for each newton to the viewer, on a grip that is pressed against the middle
 /// of a 2D+Z frame. From left to right each half is dark to bright, or grey.
-double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
+double tilt(touch::DepthLayout layout, bool picture_rises, bool depth_rises) {
   constexpr int kWidth = 512, kHeight = 256;
-  const bool is_right = layout == DepthLayout::kRight;
+  const bool is_right = layout == touch::DepthLayout::kRight;
   const int half_width = is_right ? kWidth / 2 : kWidth;
   std::vector<uint8_t> luma(kWidth * kHeight);
   for (int y = 0; y < kHeight; ++y) {
@@ -216,7 +216,7 @@ double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
   Reliefs reliefs;
   reliefs.loop->open();
   TouchProperties touch;
-  touch.kind = is_right ? TouchKind::kDepth : TouchKind::kDepthBelow;
+  touch.kind = is_right ? TouchProperties::Kind::kDepth : TouchProperties::Kind::kDepthBelow;
   touch.friction = 0;
   reliefs.stream.add({luma.data(), kWidth, kHeight, kWidth}, some_analysis(), 0, touch, {0.5, 0.5});
   Pose hand;
@@ -225,7 +225,7 @@ double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
   reliefs.loop->set_playback_clock({0, 0, 1.0, true});
   for (int64_t now_ns = kTick_ns; now_ns < 2000 * kTick_ns; now_ns += kTick_ns)
     reliefs.loop->tick(now_ns, now_ns);
-  const Contact contact = reliefs.loop->snapshot().last.contact;
+  const touch::Contact contact = reliefs.loop->snapshot().last.contact;
   EXPECT_TRUE(contact.touching);
   EXPECT_GT(contact.force_N.z(), 0.5);
   return contact.force_N.x() / contact.force_N.z();
@@ -233,7 +233,7 @@ double tilt(DepthLayout layout, bool picture_rises, bool depth_rises) {
 
 TEST(ReliefStream, DepthInHalfOfTheFrameIsTheRelief) {
   init_gstreamer();
-  for (const DepthLayout layout : {DepthLayout::kRight, DepthLayout::kBelow}) {
+  for (const touch::DepthLayout layout : {touch::DepthLayout::kRight, touch::DepthLayout::kBelow}) {
     // 8 mm of relief, for the depths between the percentiles 2 and 98, over 60 mm. Each end is
     // known to one of 256 grey levels or columns; and a step of an encoder is 22.5 µm of some 3 mm.
     const double slope = 0.008 / (0.96 * 0.06);
@@ -248,7 +248,7 @@ TEST(ReliefStream, ADeviceWithoutAWorkspaceIsAnErrorThatSaysSo) {
   reliefs.stream.connect(reliefs.loop.get(), reliefs.profile, {0.03, 0});
   const std::vector<uint8_t> grey(320 * 240, 128);
   TouchProperties touch;
-  touch.kind = TouchKind::kLuma;
+  touch.kind = TouchProperties::Kind::kLuma;
   EXPECT_THROW(
       reliefs.stream.add({grey.data(), 320, 240, 320}, some_analysis(), 0, touch, {0.5, 0.5}),
       std::invalid_argument);
@@ -258,12 +258,12 @@ TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
   Profile profile = load_profile(kDefaultProfile);
   EXPECT_EQ(most_stiffness_N_m(profile), 200) << "until the lag was measured";
   profile.drive_lag_known = true;
-  EXPECT_EQ(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m);
+  EXPECT_EQ(most_stiffness_N_m(profile), touch::ContactSettings::kMostStiffness_N_m);
   profile.drive_lag_s = 0.0055;  // twice the delay of 3.5 ms
-  EXPECT_NEAR(most_stiffness_N_m(profile), ContactSettings::kMostStiffness_N_m / 2, 1e-9);
+  EXPECT_NEAR(most_stiffness_N_m(profile), touch::ContactSettings::kMostStiffness_N_m / 2, 1e-9);
   TouchProperties touch;
   touch.stiffness_N_m = 700;
-  const ContactSettings contact = filter::contact_settings(touch, profile);
+  const touch::ContactSettings contact = filter::contact_settings(touch, profile);
   EXPECT_NEAR(contact.stiffness_N_m, 400, 1e-9);
   EXPECT_NEAR(contact.delay_s, 0.007, 1e-12);
   EXPECT_NEAR(contact.damping_N_s_m(), 1.5 * 400 * 0.007, 1e-9);

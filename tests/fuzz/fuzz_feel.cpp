@@ -31,7 +31,7 @@ bool is_position(const Eigen::Vector2d& position) {
 bool is_sound(const FeelRule& rule) {
   const bool has_end = std::find(rule.name.begin(), rule.name.end(), '\0') != rule.name.end();
   const bool has_direction =
-      rule.kind != FeelKind::kFurthest || std::fabs(rule.direction.norm() - 1) < 1e-12;
+      rule.kind != FeelRule::Kind::kFurthest || std::fabs(rule.direction.norm() - 1) < 1e-12;
   return rule.from_ns >= 0 && rule.to_ns > rule.from_ns && rule.line > 0 && has_end &&
          has_direction && is_position(rule.position) && is_position(rule.far_corner) &&
          rule.gain >= 0 && rule.gain <= 10;

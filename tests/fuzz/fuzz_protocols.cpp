@@ -148,7 +148,7 @@ void fuzz_falcon(ByteView bytes) {
 }
 
 void fuzz_counts(ByteView bytes, int bits) {
-  CountUnwrapper unwrapper(bits);
+  boards::CountUnwrapper unwrapper(bits);
   std::array<uint32_t, kMaxStrings> raw{};
   for (size_t at = 0; at < bytes.size; at += 4 * kMaxStrings) {
     for (size_t i = 0; i < kMaxStrings; ++i) raw[i] = bytes.u32(at + 4 * i);
@@ -157,8 +157,9 @@ void fuzz_counts(ByteView bytes, int bits) {
     for (size_t i = 0; i < kMaxStrings; ++i) {
       const int64_t step = int64_t{unwrapper.counts()[i]} - before[i];
       require(followed || step == 0, "fuzz_protocols: a count jumped");
-      require(std::abs(step) <= CountUnwrapper::kMaxStep || std::abs(step) > (int64_t{1} << 31),
-              "fuzz_protocols: a count went too far");
+      require(
+          std::abs(step) <= boards::CountUnwrapper::kMaxStep || std::abs(step) > (int64_t{1} << 31),
+          "fuzz_protocols: a count went too far");
     }
     if (!followed) unwrapper.begin(raw, kMaxStrings);
   }

@@ -47,7 +47,7 @@ TEST(KernelEvdev, WheelsAndPadsGetTheEffectsThatTheySupport) {
     const FeltPlayer player(listed("uinput wheel"));
     player.push(-1, 1);
     // It has no gain to set, so the levels are smaller.
-    constexpr double kForce_N = StickEffects::kDefaultGain;
+    constexpr double kForce_N = boards::StickEffects::kDefaultGain;
     wait_for([&] { return is_level(wheel.right(), -kForce_N, kForce_N) && wheel.up() == 0; });
   }
   UinputDevice pad(UinputKind::kPad, "uinput pad");
@@ -74,7 +74,7 @@ TEST(KernelEvdev, UpdatesAreFewAndAPauseIsAtZeroWithin60Ms) {
   const int uploads = stick.uploads - before;
   const double passed_s = 1e-9 * static_cast<double>(monotonic_now_ns() - begin_ns);
   // As many as fit into that time, and the one at its end.
-  EXPECT_LE(uploads, passed_s * 1000 / ForceFeedbackBoard::kUpdate_ms + 1);
+  EXPECT_LE(uploads, passed_s * 1000 / boards::ForceFeedback::kUpdate_ms + 1);
   EXPECT_GT(uploads, 50);
   EXPECT_EQ(stick.unchanged, 0);
 

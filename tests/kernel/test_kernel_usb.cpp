@@ -77,11 +77,11 @@ TEST_F(KernelUsb, BoardIsFoundByWhatTheKernelReadsFromIt) {
 }
 
 TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
-  BoardSettings settings;
+  boards::Settings settings;
   settings.threaded = false;
   const auto device = make_device("usb", profile, settings);
   device->open();
-  const DacScale dac = unipolar_dac(profile);
+  const boards::DacScale dac = boards::unipolar_dac(profile);
   MotorVolts volts;
   DeviceReading reading;
   for (int done = 0; done < kExchanges; ++done) {
@@ -110,7 +110,7 @@ TEST(KernelFalcon, TakesItsFirmwareAndExchanges) {
   UsbipBoard board{std::make_shared<RecordedMotors>(bench), "EMULATED", UsbKind::kFalcon};
   board.plug();
   wait_for(listed);
-  BoardSettings settings;
+  boards::Settings settings;
   settings.threaded = false;
   const auto grip = make_grip("falcon:EMULATED", load_profile(kDefaultProfile), settings);
   grip->open();
@@ -153,7 +153,7 @@ class KernelSession : public KernelUsb {
         std::abs(last.commanded.force_N.x() - force_x_N) > 1e-9)
       return false;
     const MotorVolts volts = to_volts(last.tension_N, profile);
-    const DacScale dac = unipolar_dac(profile);
+    const boards::DacScale dac = boards::unipolar_dac(profile);
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (bench.digit[i] != dac.digit(volts.volt[i])) return false;
     // The grip is in the middle, where every force below the limit can be made; a solver's

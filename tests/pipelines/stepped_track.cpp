@@ -40,7 +40,7 @@ SteppedTrack::SteppedTrack(const std::string& properties, const std::string& cap
   GstCaps* parsed = gst_caps_from_string(caps.c_str());
   stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_caps(parsed)));
   gst_caps_unref(parsed);
-  stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_tag(track_tags())));
+  stream_.push_back(GST_MINI_OBJECT_CAST(gst_event_new_tag(tracks::tags())));
   begin_segment(1, 0, GST_CLOCK_TIME_NONE);
   bus_ = gst_element_get_bus(pipeline_);
   output_ = &gst_spidar_sink_output(GST_SPIDAR_SINK(sink_));

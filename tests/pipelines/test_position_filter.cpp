@@ -26,7 +26,7 @@ struct Habit {
 constexpr Habit kMpv{"mpv", kSecond / 24, -10 * kMs, 12 * kMs};
 constexpr Habit kVlc{"VLC", 10 * kSecond / 27, -4 * kMs, 114 * kMs};
 
-/// A player, and what follows it as FollowedFilm does: 100 times a second.
+/// A player, and what follows it as follow::FollowedFilm does: 100 times a second.
 class Followed {
  public:
   explicit Followed(const Habit& habit, double rate = 1) : habit_(habit), rate_(rate) {
@@ -41,7 +41,7 @@ class Followed {
     for (const int64_t end_ns = now_ns_ + duration_ns; now_ns_ < end_ns; now_ns_ += kTick) {
       tell();
       const int64_t error_ns = filter_.position_at(now_ns_) - follows_ns_;
-      const int64_t shift_ns = small_correction_ns(error_ns, kTick, false);
+      const int64_t shift_ns = follow::small_correction_ns(error_ns, kTick, false);
       EXPECT_LE(std::abs(shift_ns), kTick / 50);
       follows_ns_ += shift_ns;
       errors.push_back(1e-6 * static_cast<double>(std::abs(follows_ns_ - position_ns_)));
@@ -55,7 +55,7 @@ class Followed {
   double estimate_error_ms() const {
     return 1e-6 * static_cast<double>(filter_.position_at(now_ns_) - position_ns_);
   }
-  PositionFilter& filter() { return filter_; }
+  follow::PositionFilter& filter() { return filter_; }
   int64_t now_ns() const { return now_ns_; }
   int64_t position_ns() const { return position_ns_; }
 
@@ -71,7 +71,7 @@ class Followed {
   const Habit habit_;
   const double rate_;
   std::mt19937 random_{7};
-  PositionFilter filter_;
+  follow::PositionFilter filter_;
   int64_t now_ns_ = kBegin, next_ns_ = kBegin + kMs;
   int64_t position_ns_ = 0, follows_ns_ = 0;
 };
@@ -117,7 +117,7 @@ TEST_P(Players, AreFoundAgainAfterAJump) {
 
 // It tells of it when it begins to look for it.
 TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   filter.tell_jump(kBegin, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 50 * kMs), 20 * kSecond + 50 * kMs);
@@ -127,7 +127,7 @@ TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
 
 // A jump to where it is holds VLC up for 80 ms.
 TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   for (int i = 1; i < 5; ++i) filter.tell(kBegin + i * 300 * kMs, i * 300 * kMs);
   filter.tell_jump(kBegin + 1300 * kMs, 1300 * kMs);
@@ -137,7 +137,7 @@ TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
 
 // At the beginning of a film, it first loads.
 TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + kSecond, 40 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 40 * kMs);
@@ -145,7 +145,7 @@ TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
 
 // What VLC told 0.3 s ago is told until it tells the next one.
 TEST(PositionFilter, GoesOnAtAnotherRateFromWhereItIs) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + kSecond, kSecond);
   filter.change_rate(kBegin + 1300 * kMs, 2);
@@ -157,7 +157,7 @@ TEST(PositionFilter, GoesOnAtAnotherRateFromWhereItIs) {
 TEST(PositionFilter, TheLargestSmallErrorAfterAJumpIsGoneAfterAQuarterOfASecond) {
   int64_t error_ns = 60 * kMs;
   for (int i = 0; i < 25; ++i) {
-    const int64_t shift_ns = small_correction_ns(error_ns, 10 * kMs, true);
+    const int64_t shift_ns = follow::small_correction_ns(error_ns, 10 * kMs, true);
     EXPECT_LE(shift_ns, 5 * kMs);
     error_ns -= shift_ns;
   }
@@ -166,14 +166,14 @@ TEST(PositionFilter, TheLargestSmallErrorAfterAJumpIsGoneAfterAQuarterOfASecond)
 
 // VLC says after a pause that it has jumped to the position at which it was paused.
 TEST(PositionFilter, AJumpThatWasNoneChangesNothing) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 20 * kSecond, 1);
   filter.tell_jump(kBegin + 90 * kMs, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 21 * kSecond);
 }
 
 TEST(PositionFilter, OneThatWasHeldUpAloneChangesNothing) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   filter.tell(kBegin + 500 * kMs, 500 * kMs);
   filter.tell(kBegin + kSecond, 600 * kMs);
@@ -183,7 +183,7 @@ TEST(PositionFilter, OneThatWasHeldUpAloneChangesNothing) {
 }
 
 TEST(PositionFilter, TheSamePositionOnceMoreIsNoNews) {
-  PositionFilter filter;
+  follow::PositionFilter filter;
   filter.reset(kBegin, kSecond, 1);
   for (int i = 1; i < 100; ++i) filter.tell(kBegin + i * 20 * kMs, kSecond);
   EXPECT_EQ(filter.newest_ns(), kBegin);

@@ -201,7 +201,7 @@ TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
     for (const double y_m : {-0.016, 0.0, 0.012}) {
       touched.hold(0.004, y_m, -0.008);
       touched.play(40);
-      const Contact& contact = touched.last().contact;
+      const touch::Contact& contact = touched.last().contact;
       ASSERT_TRUE(contact.touching);
       const Eigen::Vector3d grip_m = touched.last().pose.position_m;
       const Eigen::Vector2d position = pointer.position(grip_m);

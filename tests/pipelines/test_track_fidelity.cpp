@@ -114,7 +114,7 @@ class TrackFidelity : public testing::Test {
 
   static std::vector<TrackSample> samples_of(const std::string& path) {
     std::vector<TrackSample> samples;
-    const std::unique_ptr<OpenTrack> track = open_track(path);
+    const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(path);
     for (TrackBlock block; track->next(block);) {
       samples.insert(samples.end(), block.samples.begin(),
                      block.samples.begin() + static_cast<std::ptrdiff_t>(block.count));

@@ -113,7 +113,7 @@ TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
 }
 
 TEST(TrackPlayback, AMarkBeforeTheStartOfItsStreamCounts) {
-  StreamMark mark;
+  tracks::Mark mark;
   const auto follow = [&mark](GstEvent* event) {
     mark.follow(event);
     gst_event_unref(event);
@@ -121,7 +121,7 @@ TEST(TrackPlayback, AMarkBeforeTheStartOfItsStreamCounts) {
   };
   GstCaps* const caps = gst_caps_new_empty_simple("audio/x-raw");
   EXPECT_FALSE(follow(gst_event_new_stream_start("made up")));
-  EXPECT_TRUE(follow(gst_event_new_tag(track_tags())));
+  EXPECT_TRUE(follow(gst_event_new_tag(tracks::tags())));
   EXPECT_TRUE(follow(gst_event_new_stream_start("track"))) << "as after lost packets";
   EXPECT_TRUE(follow(gst_event_new_caps(caps)));
   EXPECT_FALSE(follow(gst_event_new_stream_start("sound")));

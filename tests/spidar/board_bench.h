@@ -27,17 +27,17 @@ struct BoardBench {
     return wire_to(std::move(emulated), wire);
   }
 
-  std::unique_ptr<Board> board() {
-    return std::get<std::unique_ptr<Board>>(
+  std::unique_ptr<boards::Board> board() {
+    return std::get<std::unique_ptr<boards::Board>>(
         kind.attach(kind.board, profile, transport_to(kind.emulate(recorded))));
   }
 
-  std::unique_ptr<StringLink> device(bool threaded = false,
-                                     CountZero count_zero = CountZero::kFirstOpen) {
-    BoardSettings settings;
+  std::unique_ptr<boards::StringLink> device(
+      bool threaded = false, boards::CountZero count_zero = boards::CountZero::kFirstOpen) {
+    boards::Settings settings;
     settings.threaded = threaded;
     settings.count_zero = count_zero;
-    return std::make_unique<StringLink>(board(), settings);
+    return std::make_unique<boards::StringLink>(board(), settings);
   }
 
   const DeviceKind& kind;

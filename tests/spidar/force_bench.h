@@ -28,20 +28,20 @@ struct ForceBench {
     if (is_falcon) motors.inputs = emulated::Falcon::kHomed;
   }
 
-  std::unique_ptr<ForceBoard> board() {
-    return std::get<std::unique_ptr<ForceBoard>>(
+  std::unique_ptr<boards::ForceBoard> board() {
+    return std::get<std::unique_ptr<boards::ForceBoard>>(
         kind.attach(kind.board, profile, wire_to(kind.emulate(recorded), wire)));
   }
-  static BoardSettings settings(bool threaded) {
-    BoardSettings settings;
+  static boards::Settings settings(bool threaded) {
+    boards::Settings settings;
     settings.threaded = threaded;
     return settings;
   }
-  std::unique_ptr<ForceLink> linked(bool threaded = false) {
-    return std::make_unique<ForceLink>(board(), settings(threaded));
+  std::unique_ptr<boards::ForceLink> linked(bool threaded = false) {
+    return std::make_unique<boards::ForceLink>(board(), settings(threaded));
   }
-  std::unique_ptr<ForceGrip> grip() {
-    return std::make_unique<ForceGrip>(board(), settings(false));
+  std::unique_ptr<boards::ForceGrip> grip() {
+    return std::make_unique<boards::ForceGrip>(board(), settings(false));
   }
 
   /// Number of exchanges in which it communicates with the device once.

@@ -22,7 +22,7 @@ TEST(Uart, ReportsTooFewMotors) {
   std::vector<std::unique_ptr<Transport>> lines;
   lines.push_back(bench.transport_to(std::make_unique<emulated::Uart>(
       bench.recorded, std::vector<emulated::Uart::Station>{{2, {5, 1, 4, 4, 0, 0}}})));
-  UartBoard board("uart:/dev/x", bench.profile, std::move(lines));
+  boards::Uart board("uart:/dev/x", bench.profile, std::move(lines));
   try {
     board.open();
     FAIL();
@@ -38,7 +38,7 @@ TEST(Uart, ReportsTooFewMotors) {
 TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
   constexpr int64_t kMs = 1'000'000;
   int64_t now_ns = 5 * kMs;
-  EncoderCounts counts(16);
+  boards::EncoderCounts counts(16);
   counts.open({5000}, 1);
   EXPECT_TRUE(counts.follow({5000}, now_ns));
   EXPECT_TRUE(counts.follow({5000 + 4096}, now_ns += kMs));
@@ -75,10 +75,11 @@ class EmulatedExample final : public emulated::Board {
 
 TEST(ExampleBoard, IsABoard) {
   BoardBench bench("sh4");
-  StringLink device(std::make_unique<ExampleBoard>(
-                        "example", bench.profile,
-                        bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
-                    {CountZero::kFirstOpen, false, false});
+  boards::StringLink device(
+      std::make_unique<ExampleBoard>(
+          "example", bench.profile,
+          bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
+      {boards::CountZero::kFirstOpen, false, false});
   device.open();
   bench.motors.count[6] = -9;
   DeviceReading reading;
@@ -121,7 +122,8 @@ TEST(StringLink, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
   auto transport = std::make_unique<HeldTransport>(
       bench.transport_to(std::make_unique<emulated::Sh4>(bench.recorded)));
   HeldTransport& wire = *transport;
-  StringLink device(std::make_unique<Sh4Board>("sh4", bench.profile, std::move(transport)), {});
+  boards::StringLink device(
+      std::make_unique<boards::Sh4>("sh4", bench.profile, std::move(transport)), {});
   device.open();
   DeviceReading reading;
   wire.hold(true);

@@ -75,11 +75,12 @@ TEST_P(Boards, CloseRampsToZero) {
   device->close();
   ASSERT_GT(motors.history.size(), before);
   EXPECT_TRUE(motors.all_zero());
-  ASSERT_GE(motors.history.size(), before + StringLink::kRamp_ms);
+  ASSERT_GE(motors.history.size(), before + boards::StringLink::kRamp_ms);
   const int full = motors.history[before - 1];
   for (size_t i = before; i < motors.history.size(); ++i) {
     // A twentieth a step, and half a digit of rounding at both ends.
-    EXPECT_LE(motors.history[i - 1] - motors.history[i], full / StringLink::kRamp_ms + 1) << i;
+    EXPECT_LE(motors.history[i - 1] - motors.history[i], full / boards::StringLink::kRamp_ms + 1)
+        << i;
     EXPECT_LE(motors.history[i], motors.history[i - 1]) << i;
   }
   const int updates = motors.updates;
@@ -157,10 +158,11 @@ TEST_P(Boards, CountsGoOnOverWrapsAndJumpsAreRefused) {
 
 TEST_P(Boards, CountsAreZeroedByPolicyOnly) {
   struct Case {
-    CountZero policy;
+    boards::CountZero policy;
     int32_t first, again;
   };
-  for (const Case c : {Case{CountZero::kFirstOpen, 0, 50}, Case{CountZero::kNever, 500, 550}}) {
+  for (const Case c :
+       {Case{boards::CountZero::kFirstOpen, 0, 50}, Case{boards::CountZero::kNever, 500, 550}}) {
     motors.count[3] = 500;
     const auto device = this->device(false, c.policy);
     DeviceReading reading;
@@ -179,7 +181,8 @@ TEST_P(Boards, CountsAreZeroedByPolicyOnly) {
 }
 
 TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
-  for (const CountZero policy : {CountZero::kFirstOpen, CountZero::kNever}) {
+  for (const boards::CountZero policy :
+       {boards::CountZero::kFirstOpen, boards::CountZero::kNever}) {
     motors.count[3] = 5000;
     const auto device = this->device(false, policy);
     DeviceReading reading;
@@ -201,7 +204,7 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     motors.count[3] = 5100;
     device->open();
     ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
-    EXPECT_EQ(reading.count[3], policy == CountZero::kNever ? 5100 : 100);
+    EXPECT_EQ(reading.count[3], policy == boards::CountZero::kNever ? 5100 : 100);
   }
 }
 

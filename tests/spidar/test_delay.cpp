@@ -66,10 +66,10 @@ selftest::DelayTest measure(const std::string& board, const Profile& profile,
     device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock, model,
                                                time.clock());
   } else {
-    AnyBoard simulated =
+    boards::AnyBoard simulated =
         simulated_board(kind_of(board.substr(4)), board, profile, {model, time.clock()});
-    device = std::make_unique<StringLink>(std::get<std::unique_ptr<Board>>(std::move(simulated)),
-                                          settings_of_simulation());
+    device = std::make_unique<boards::StringLink>(
+        std::get<std::unique_ptr<boards::Board>>(std::move(simulated)), settings_of_simulation());
   }
   selftest::DelaySettings settings;
   settings.seed = seed;

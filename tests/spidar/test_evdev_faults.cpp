@@ -27,30 +27,31 @@ class EvdevFaults : public testing::Test {
   EvdevFaults() { clear_bus(); }
   ~EvdevFaults() override { clear_bus(); }
 
-  static BoardSettings alone() {
-    BoardSettings settings;
+  static boards::Settings alone() {
+    boards::Settings settings;
     settings.threaded = settings.guardian = false;
     return settings;
   }
-  std::unique_ptr<ForceBoard> board(ForceFeedbackBoard::Updates updates) const {
-    return std::make_unique<ForceFeedbackBoard>(
+  std::unique_ptr<boards::ForceBoard> board(boards::ForceFeedback::Updates updates) const {
+    return std::make_unique<boards::ForceFeedback>(
         "ff", profile, std::make_unique<EvdevTransport>("ff", ""), updates);
   }
 
   /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
-  std::unique_ptr<ForceLink> stepped() const {
-    return std::make_unique<ForceLink>(board(ForceFeedbackBoard::Updates::kInCycle), alone());
+  std::unique_ptr<boards::ForceLink> stepped() const {
+    return std::make_unique<boards::ForceLink>(board(boards::ForceFeedback::Updates::kInCycle),
+                                               alone());
   }
 
   const Profile profile = load_profile(kDefaultProfile);
-  ForceReading reading;
+  boards::ForceReading reading;
 };
 
 /// Exchanges until every effect could be set once, and returns the worst status.
-LinkFault exchange(ForceLink& device, const ForceOutput& output, ForceReading& reading,
-                   int updates = 2) {
+LinkFault exchange(boards::ForceLink& device, const boards::ForceOutput& output,
+                   boards::ForceReading& reading, int updates = 2) {
   LinkFault worst = LinkFault::kNone;
-  for (int i = 0; i < updates * ForceFeedbackBoard::kUpdate_ms; ++i) {
+  for (int i = 0; i < updates * boards::ForceFeedback::kUpdate_ms; ++i) {
     const LinkFault status = device.exchange(output, reading);
     if (status != LinkFault::kNone) worst = status;
   }
@@ -228,9 +229,9 @@ TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   SessionSettings by_hand;
   by_hand.threaded = false;
-  HapticSession session(
-      std::make_unique<ForceGrip>(board(ForceFeedbackBoard::Updates::kOwnThread), alone()),
-      by_hand);
+  HapticSession session(std::make_unique<boards::ForceGrip>(
+                            board(boards::ForceFeedback::Updates::kOwnThread), alone()),
+                        by_hand);
   int64_t now_ns = 0;
   const auto tick = [&] {
     now_ns += kTick_ns;

@@ -29,7 +29,7 @@ constexpr int kGain = 13107;
 
 /// The message of open(); empty on success.
 std::string opening(const std::string& spec) {
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = false;
   const auto device = make_grip(spec, load_profile(kDefaultProfile), settings);
   try {
@@ -56,7 +56,7 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
   EXPECT_EQ(boards[0].name, "Emulated Stick");
   EXPECT_EQ(boards[0].path, "/dev/input/event2");
   EXPECT_EQ(boards[0].usb_id, "1209:0001");
-  EXPECT_EQ(boards[0].verification, Verification::kEmulated);
+  EXPECT_EQ(boards[0].verification, boards::Verification::kEmulated);
   EXPECT_EQ(boards[0].note, "");
   EXPECT_FALSE(boards[0].has_strings);
   EXPECT_TRUE(boards[0].accessible);
@@ -156,11 +156,12 @@ TEST_F(ForceFeedback, UpdatesAreRareAndNeverUnnecessary) {
     player.push(0, 0);
     wait_for([] { return evdev_levels(0).at_rest(); });
   }
-  EXPECT_GE(port.shortest_ns, ForceFeedbackBoard::kUpdate_ms * kMs);
+  EXPECT_GE(port.shortest_ns, boards::ForceFeedback::kUpdate_ms * kMs);
   EXPECT_EQ(port.unchanged, 0u);
   // Each of two effects, when it was opened, and at most once every kRefresh_ms of the time since.
   const int64_t lasted_ms = (HapticSession::monotonic_now_ns() - opened_ns) / kMs;
-  EXPECT_LE(static_cast<int64_t>(port.plays), 2 + 2 * (lasted_ms / StickEffects::kRefresh_ms + 1));
+  EXPECT_LE(static_cast<int64_t>(port.plays),
+            2 + 2 * (lasted_ms / boards::StickEffects::kRefresh_ms + 1));
 }
 
 /// A device whose spring was off before must not be left with a spring that pushes the hand.
@@ -210,7 +211,7 @@ TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
   for (const char* driver : {"logitech", "hid-generic"}) {
     EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
     const int before = port.autocentre;
-    BoardSettings settings;
+    boards::Settings settings;
     settings.guardian = false;
     const auto device = make_grip("ff", load_profile(kDefaultProfile), settings);
     device->open();
@@ -258,7 +259,7 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   // Until forces are switched on, and this one is there.
   while (now_ns < static_cast<int64_t>(HapticLoop::kEnergise_s * 1e9)) tick();
   while (session.loop().snapshot().last.commanded.force_N.x() != 2) tick();
-  for (int i = 0; i < 2 * ForceFeedbackBoard::kUpdate_ms; ++i) tick();
+  for (int i = 0; i < 2 * boards::ForceFeedback::kUpdate_ms; ++i) tick();
   EXPECT_TRUE(is_level(bench.motors.digit[0], 2, 2));
   EXPECT_TRUE(is_level(bench.motors.digit[1], -2, 2));
   session.loop().set_playback_clock({now_ns, 0, 1.0, false});
@@ -321,7 +322,7 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
   port.upload_error = 0;
   EXPECT_EQ(opening("ff"), "");
   // Without a loop, which may lose it for a moment on a busy machine.
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = false;
   const auto first = make_grip("ff", load_profile(kDefaultProfile), settings);
   first->open();

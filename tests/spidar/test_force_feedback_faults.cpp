@@ -39,7 +39,7 @@ ff::Position swinging(int64_t now_ns, int half_ms) {
 }
 
 TEST(UpdateWatch, AFailedUpdateIsReportedOnce) {
-  UpdateWatch watch;
+  boards::UpdateWatch watch;
   watch.start(0);
   int64_t now_ns = 0;
   for (int i = 0; i < 10; ++i) {
@@ -53,13 +53,13 @@ TEST(UpdateWatch, AFailedUpdateIsReportedOnce) {
 }
 
 TEST(UpdateWatch, FailuresInARowAreReportedUntilAnUpdateSucceeds) {
-  UpdateWatch watch;
+  boards::UpdateWatch watch;
   watch.start(0);
-  for (uint32_t failure = 1; failure <= UpdateWatch::kFailures; ++failure) {
+  for (uint32_t failure = 1; failure <= boards::UpdateWatch::kFailures; ++failure) {
     watch.finish(LinkFault::kStall, failure * 5 * kMs);
     EXPECT_EQ(watch.report(failure * 5 * kMs), LinkFault::kStall);
     EXPECT_EQ(watch.report((failure * 5 + 1) * kMs),
-              failure < UpdateWatch::kFailures ? LinkFault::kNone : LinkFault::kStall);
+              failure < boards::UpdateWatch::kFailures ? LinkFault::kNone : LinkFault::kStall);
   }
   watch.finish(LinkFault::kNone, 20 * kMs);
   EXPECT_EQ(watch.report(20 * kMs), LinkFault::kNone);
@@ -71,10 +71,10 @@ TEST(UpdateWatch, FailuresInARowAreReportedUntilAnUpdateSucceeds) {
 }
 
 TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
-  UpdateWatch watch;
+  boards::UpdateWatch watch;
   watch.start(0);
-  EXPECT_EQ(watch.report(UpdateWatch::kPatience_ns), LinkFault::kNone);
-  EXPECT_EQ(watch.report(UpdateWatch::kPatience_ns + 1), LinkFault::kTimeout);
+  EXPECT_EQ(watch.report(boards::UpdateWatch::kPatience_ns), LinkFault::kNone);
+  EXPECT_EQ(watch.report(boards::UpdateWatch::kPatience_ns + 1), LinkFault::kTimeout);
   const int64_t again_ns = 3 * kSecond_ns;
   watch.finish(LinkFault::kNone, again_ns);
   EXPECT_EQ(watch.report(again_ns), LinkFault::kNone);
@@ -84,7 +84,7 @@ TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
 TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
   const double reach_m = 0.059 / 2;
   for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
-    StickPosition place;
+    boards::StickPosition place;
     place.start(swinging(0, half_ms), 0);
     double largest_m = 0, read_m = 0, largest_read_m = 0;
     for (int64_t ms = 1; ms < 1000; ++ms) {
@@ -110,13 +110,13 @@ TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
 }
 
 TEST(StickPosition, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
-  StickPosition place;
+  boards::StickPosition place;
   place.start({100, 200}, 0);
   EXPECT_EQ(place.fraction(), Eigen::Vector2d(0.01, 0.02));
   place.see({10'000, -10'000}, 3 * kSecond_ns);
   place.advance(3 * kSecond_ns);
   EXPECT_LT(place.fraction().x(), 1);
-  place.advance(3 * kSecond_ns + StickPosition::kLongest_ns);
+  place.advance(3 * kSecond_ns + boards::StickPosition::kLongest_ns);
   EXPECT_EQ(place.fraction(), Eigen::Vector2d(1, -1));
   place.see({0, 0}, 4 * kSecond_ns);
   place.advance(5 * kSecond_ns);
@@ -147,7 +147,7 @@ TEST_F(ForceFeedbackFaults, AFastHandLosesNoPose) {
 /// that all is well. The test makes the ticks, so that no other thread can be too late for them.
 TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = settings.threaded = false;
   SessionSettings by_hand;
   by_hand.threaded = false;
@@ -190,7 +190,7 @@ TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
     wait_for([] { return evdev_levels(0).at_rest(); });
     port.hangs = false;
   }
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = settings.threaded = false;
   const Profile profile = load_profile(kDefaultProfile);
   const auto device = make_grip("ff", profile, settings);
@@ -205,7 +205,7 @@ TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
 /// Only then are the effects ended; and nobody else gets the device before.
 TEST_F(ForceFeedbackFaults, ADriverThatHangsDoesNotKeepTheDeviceFromBeingClosed) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = settings.threaded = false;
   const Profile profile = load_profile(kDefaultProfile);
   const auto device = make_grip("ff", profile, settings);
@@ -296,9 +296,9 @@ TEST_F(ForceFeedbackFaults, AnOpeningThatFailsChangesNoSetting) {
 /// A host and its guardian may be a 32-bit and a 64-bit program, which have different input events.
 TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
   plug_evdev(0, EvdevKind::kStick, "hid-generic");
-  ForceFeedbackBoard board("ff", load_profile(kDefaultProfile),
-                           std::make_unique<EvdevTransport>("ff", ""),
-                           ForceFeedbackBoard::Updates::kInCycle);
+  boards::ForceFeedback board("ff", load_profile(kDefaultProfile),
+                              std::make_unique<EvdevTransport>("ff", ""),
+                              boards::ForceFeedback::Updates::kInCycle);
   board.open();
   const std::vector<LastWill> wills = board.last_wills();
   ASSERT_EQ(wills.size(), 1u);
@@ -329,12 +329,12 @@ TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
 /// time. If it does not come back, nobody else turns it on.
 TEST_F(ForceFeedbackFaults, SettingsReturnWhenAReopeningFails) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
-  auto board = std::make_unique<ForceFeedbackBoard>("ff", load_profile(kDefaultProfile),
-                                                    std::make_unique<EvdevTransport>("ff", ""),
-                                                    ForceFeedbackBoard::Updates::kOwnThread);
+  auto board = std::make_unique<boards::ForceFeedback>("ff", load_profile(kDefaultProfile),
+                                                       std::make_unique<EvdevTransport>("ff", ""),
+                                                       boards::ForceFeedback::Updates::kOwnThread);
   const auto take_settings = [&] {
     board->open();
-    ForceReading reading;
+    boards::ForceReading reading;
     wait_for([&] {
       board->cycle({{1, 0, 0}, true}, reading, 0);
       return port.gain != 0xFFFF && port.gain != 0 && port.autocentre == 0;

@@ -23,7 +23,7 @@ class ForceBoards : public testing::TestWithParam<std::string>, public ForceBenc
   ForceBoards() : ForceBench(GetParam()) {}
 
   /// Until every axis could be set; returns the worst status.
-  LinkFault exchange(ForceLink& device, const ForceOutput& output, int times = 2) {
+  LinkFault exchange(boards::ForceLink& device, const boards::ForceOutput& output, int times = 2) {
     LinkFault worst = LinkFault::kNone;
     for (int i = 0; i < times * cycles(); ++i) {
       const LinkFault status = device.exchange(output, reading);
@@ -32,7 +32,7 @@ class ForceBoards : public testing::TestWithParam<std::string>, public ForceBenc
     return worst;
   }
 
-  ForceReading reading;
+  boards::ForceReading reading;
 };
 INSTANTIATE_TEST_SUITE_P(, ForceBoards, testing::ValuesIn(boards_that_there_are(false)), name_of);
 
@@ -179,7 +179,7 @@ struct Driven {
   }
 
   ForceBench bench;
-  const std::unique_ptr<ForceGrip> grip = bench.grip();
+  const std::unique_ptr<boards::ForceGrip> grip = bench.grip();
   GripCommand command = told(1);
 };
 
@@ -196,7 +196,8 @@ TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
   EXPECT_TRUE(stick.grip->reading().knows_pose());
   stick.bench.wire->fault = LinkFault::kGone;
   // Single failed updates are no loss.
-  stick.exchange(static_cast<int>(UpdateWatch::kFailures) * ForceFeedbackBoard::kUpdate_ms +
+  stick.exchange(static_cast<int>(boards::UpdateWatch::kFailures) *
+                     boards::ForceFeedback::kUpdate_ms +
                  PoseTrust::kMaxMisses);
   EXPECT_FALSE(stick.grip->reading().knows_pose());
   EXPECT_EQ(stick.grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
@@ -224,7 +225,7 @@ TEST(ForceGrip, AStickMaySnapBack) {
   stick.command.wrench = {};
   stick.exchange(PoseTrust::kGoodPoses);
   stick.bench.motors.count[0] = ff::Position::kFull;
-  stick.exchange(ForceFeedbackBoard::kUpdate_ms);
+  stick.exchange(boards::ForceFeedback::kUpdate_ms);
   EXPECT_TRUE(stick.grip->reading().knows_pose());
   EXPECT_GT(stick.grip->reading().pose.position_m.x(), 0.01);
 }

@@ -27,7 +27,7 @@ Eigen::Quaterniond turned(double angle_rad, const Eigen::Vector3d& axis) {
 
 /// Kinetic energy, the hand's springs, and strings of constant tension.
 double energy_J(const StringGeometry& geometry, const GripModel& model,
-                const StringVector& target_N, const Pose& hand, const DynamicState& state) {
+                const StringVector& target_N, const Pose& hand, const GripDynamics::State& state) {
   const Eigen::Vector3d stretch_m = hand.position_m - state.pose.position_m;
   const Eigen::Vector3d twist_rad =
       rotation_vector(hand.orientation * state.pose.orientation.conjugate());
@@ -58,7 +58,7 @@ TEST(GripModel, TensionsFollowWithTheTimeConstant) {
   GripModel model;
   model.motor_time_constant_s = 0.004;
   const GripDynamics dynamics(profile.geometry, profile.max_tension_N(), model);
-  DynamicState state;
+  GripDynamics::State state;
   StringVector target_N = StringVector::Zero();
   target_N[3] = 2.0;
   for (int tick = 1; tick <= 20; ++tick) {
@@ -83,7 +83,7 @@ TEST(GripModel, SlackGripSwingsAsADampedOscillator) {
   };
   // Largest differences of x/x0 and angle/angle0.
   const auto largest_errors = [&](double step_s) {
-    DynamicState state;
+    GripDynamics::State state;
     state.pose.position_m.x() = 0.01;
     state.pose.orientation = turned(0.5, {0, 1, 0});
     double translation = 0;
@@ -117,7 +117,7 @@ TEST(GripModel, FreeGripKeepsItsVelocitiesInTheDeviceFrame) {
   model.hand_stiffness_N_m = model.hand_damping_N_s_m = 0;
   model.hand_stiffness_Nm_rad = model.hand_damping_Nm_s_rad = 0;
   const GripDynamics dynamics(profile.geometry, profile.max_tension_N(), model);
-  DynamicState state;
+  GripDynamics::State state;
   const Eigen::Quaterniond start = turned(1.0, {1, 0, 0});
   state.pose.orientation = start;
   state.velocity_m_s = {0.01, -0.02, 0.03};
@@ -133,7 +133,7 @@ TEST(GripModel, GripStopsAtTheFrame) {
   const Profile profile = load_profile(kDefaultProfile);
   const GripDynamics dynamics(profile.geometry, profile.max_tension_N(), {});
   EXPECT_TRUE(dynamics.limit_m().isApprox(Eigen::Vector3d(0.059, 0.064, 0.059), 1e-12));
-  DynamicState state;
+  GripDynamics::State state;
   Pose hand;
   hand.position_m = {1e6, -0.5, 0.03};
   for (int tick = 0; tick < 1000; ++tick) {
@@ -199,7 +199,7 @@ TEST_P(EveryProfile, EnergyDoesNotGrow) {
     GripModel model;
     model.hand_stiffness_N_m *= grasp.stiffness;
     model.hand_stiffness_Nm_rad *= grasp.stiffness;
-    DynamicState state;
+    GripDynamics::State state;
     state.tension_N = pull_N;
     const GripDynamics settling(profile.geometry, pull_N, model);
     for (int tick = 0; tick < 1000; ++tick) settling.advance(pull_N, {}, kTick_s, state);
@@ -231,7 +231,7 @@ TEST_P(EveryProfile, RestingGripIsDisplacedByWrenchOverStiffness) {
   Pose hand;
   hand.position_m = {0.001, -0.001, 0.0005};
   hand.orientation = turned(0.1, {1, 1, 0});
-  DynamicState state;
+  GripDynamics::State state;
   for (int tick = 0; tick < 5000; ++tick) dynamics.advance(pull_N, hand, kTick_s, state);
 
   ASSERT_TRUE((state.pose.position_m.cwiseAbs().array() < dynamics.limit_m().array()).all())

@@ -208,7 +208,7 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
   for (const bool threaded : {true, false}) {
     for (const int signal : {SIGKILL, SIGSTOP}) {
       UsbPort& port = plug(0, UsbKind::kSh4);
-      BoardSettings settings;
+      boards::Settings settings;
       settings.threaded = threaded;
       const auto device = make_device("usb", load_profile(kUsbProfile), settings);
       device->open();
@@ -306,7 +306,7 @@ TEST(Guardian, IsRequiredUnlessDisabled) {
                  "/nowhere/spidar-guardian: No such file or directory; install spidar-guardian, or "
                  "name it in SPIDAR_GUARDIAN");
   }
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = false;
   EXPECT_NO_THROW(make_device("usb", profile, settings)->open());
   setenv("SPIDAR_GUARDIAN", before.c_str(), 1);

@@ -158,7 +158,7 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "under a sanitizer, the guardian has ten times as long to answer";
 #else
-  static_assert(kBeat_ms + kAnswer_ms + StringLink::kTransfer_ns / 1'000'000 <= 100);
+  static_assert(kBeat_ms + kAnswer_ms + boards::StringLink::kTransfer_ns / 1'000'000 <= 100);
 #endif
   plug(0, UsbKind::kSh4);
   Victim victim("usb", kUsbProfile);

@@ -34,7 +34,7 @@ TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
 /// The board may never have got the zeros, and goes on pulling.
 TEST(Guardian, ZeroesABoardWhoseHostIsSilentAfterZerosThatFailed) {
   UsbPort& port = plug(0, UsbKind::kSh4);
-  BoardSettings settings;
+  boards::Settings settings;
   settings.threaded = false;  // so that nothing is exchanged after this
   const auto device = make_device("usb", load_profile(kUsbProfile), settings);
   device->open();

@@ -24,7 +24,7 @@ class SameDevice : public testing::Test {
   ~SameDevice() override { clear_bus(); }
 
   static std::unique_ptr<Grip> grip(const std::string& spec, const char* profile) {
-    BoardSettings settings;
+    boards::Settings settings;
     settings.guardian = false;
     settings.threaded = false;
     return make_grip(spec, load_profile(profile), settings);

@@ -84,13 +84,13 @@ TEST_F(Sound, ACardThatFailsEachTimeIsLostAndDoesNotKeepAProcessorBusy) {
 TEST(SoundBoard, SaysThatItRanDryMoreThanOnce) {
   auto emulated = std::make_unique<emulated::Sound>(std::make_shared<emulated::Motors>());
   sound::State& state = emulated->state;
-  SoundBoard board("sound:a", std::make_unique<emulated::Transport>(
-                                  std::move(emulated), std::make_shared<emulated::Wire>()));
+  boards::Sound board("sound:a", std::make_unique<emulated::Transport>(
+                                     std::move(emulated), std::make_shared<emulated::Wire>()));
   board.open();
   const auto warning_after = [&](int underruns) {
     state.underruns = underruns;
     state.period_ms = 85;
-    ForceReading reading;
+    boards::ForceReading reading;
     EXPECT_EQ(board.cycle({}, reading, monotonic_now_ns() + 100 * kMs), LinkFault::kNone);
     return board.warning();
   };

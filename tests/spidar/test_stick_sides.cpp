@@ -97,7 +97,7 @@ class MovingStick {
 
 selftest::StickTest tested(size_t number, const char* option, int right, int up) {
   const MovingStick stick(number, right, up);
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = false;
   settings.threaded = false;  // a thread may get no processor for 20 exchanges
   const auto grip = make_grip("ff:/dev/input/event" + std::to_string(number) + option,
@@ -174,8 +174,8 @@ class SteppedStick final : public emulated::Motors {
 std::pair<selftest::StickTest, double> stepped_test(double spring_s, double inertia_s) {
   ForceBench bench("ff");
   const auto stick = std::make_shared<SteppedStick>(spring_s, inertia_s);
-  ForceGrip grip(
-      std::get<std::unique_ptr<ForceBoard>>(bench.kind.attach(
+  boards::ForceGrip grip(
+      std::get<std::unique_ptr<boards::ForceBoard>>(bench.kind.attach(
           bench.kind.board, bench.profile, wire_to(bench.kind.emulate(stick), bench.wire))),
       ForceBench::settings(false));
   const auto pace = [&] {

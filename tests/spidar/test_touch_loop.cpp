@@ -63,7 +63,7 @@ struct Hand {
   }
 
   const Profile profile = load_profile(kDefaultProfile);
-  TouchMailbox mailbox;
+  touch::Mailbox mailbox;
   SimulatedDevice device;
   std::unique_ptr<HapticLoop> loop;
   TickWatch watch;
@@ -84,8 +84,8 @@ TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
   LoopDriver plain;
   LoopDriver empty;
   LoopDriver released;
-  TouchMailbox nothing(kWidth_m, kHeight_m, 3);
-  TouchMailbox taken_back(kWidth_m, kHeight_m, 3);
+  touch::Mailbox nothing(kWidth_m, kHeight_m, 3);
+  touch::Mailbox taken_back(kWidth_m, kHeight_m, 3);
   empty.loop->connect_touch(&nothing);
   released.loop->connect_touch(&taken_back);
   publish_plane(taken_back, 0, 0.02);
@@ -132,7 +132,7 @@ TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
 TEST(TouchLoop, APlaneIsStiffnessTimesDepthInTheHand) {
   for (const double stiffness_N_m : {300.0, 500.0, 800.0}) {
     Hand hand;
-    ContactSettings contact;
+    touch::ContactSettings contact;
     contact.stiffness_N_m = stiffness_N_m;
     publish_plane(hand.mailbox, 0, 0.001, After::kCut, contact);
     hand.play(0);

@@ -16,23 +16,23 @@ namespace {
 constexpr double kWidth_m = 0.06;
 constexpr double kHeight_m = 0.04;
 
-void fill(HeightField& field, float z_m) {
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) field.row(y)[x] = z_m;
+void fill(touch::HeightField& field, float z_m) {
+  for (int y = 0; y < touch::HeightField::kRows; ++y) {
+    for (int x = 0; x < touch::HeightField::kColumns; ++x) field.row(y)[x] = z_m;
   }
 }
 
-bool is_all(const HeightField& field, float z_m) {
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
+bool is_all(const touch::HeightField& field, float z_m) {
+  for (int y = 0; y < touch::HeightField::kRows; ++y) {
+    for (int x = 0; x < touch::HeightField::kColumns; ++x) {
       if (field.row(y)[x] != z_m) return false;
     }
   }
   return true;
 }
 
-bool publish(TouchMailbox& mailbox, int64_t number) {
-  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+bool publish(touch::Mailbox& mailbox, int64_t number) {
+  touch::Frame* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = number;
   fill(frame->relief, static_cast<float>(number));
@@ -42,7 +42,7 @@ bool publish(TouchMailbox& mailbox, int64_t number) {
 }
 
 TEST(TouchMailbox, KeepsOrderAndSize) {
-  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
   EXPECT_EQ(mailbox.front(), nullptr);
   int64_t read = 0;
   for (int64_t round = 0; round < 5; ++round) {
@@ -62,7 +62,7 @@ TEST(TouchMailbox, KeepsOrderAndSize) {
 }
 
 TEST(TouchMailbox, WhatIsBegunIsNotThereBeforeItIsPublished) {
-  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
   ASSERT_NE(mailbox.begin(mailbox.generation()), nullptr);
   EXPECT_EQ(mailbox.front(), nullptr);
   mailbox.publish();
@@ -70,7 +70,7 @@ TEST(TouchMailbox, WhatIsBegunIsNotThereBeforeItIsPublished) {
 }
 
 TEST(TouchMailbox, AFrameIsOfTheGenerationItWasBegunIn) {
-  TouchMailbox mailbox(kWidth_m, kHeight_m, 3);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
   const uint32_t before = mailbox.generation();
   mailbox.clear();
   ASSERT_NE(mailbox.begin(before), nullptr);
@@ -80,10 +80,10 @@ TEST(TouchMailbox, AFrameIsOfTheGenerationItWasBegunIn) {
 }
 
 TEST(TouchMailbox, RefusesWhatCannotWork) {
-  EXPECT_THROW(TouchMailbox(kWidth_m, kHeight_m, 2), std::invalid_argument);
-  EXPECT_THROW(TouchMailbox(0, kHeight_m, 3), std::invalid_argument);
-  EXPECT_THROW(TouchMailbox(kWidth_m, -1, 3), std::invalid_argument);
-  EXPECT_THROW(TouchMailbox(kWidth_m, std::numeric_limits<double>::quiet_NaN(), 3),
+  EXPECT_THROW(touch::Mailbox(kWidth_m, kHeight_m, 2), std::invalid_argument);
+  EXPECT_THROW(touch::Mailbox(0, kHeight_m, 3), std::invalid_argument);
+  EXPECT_THROW(touch::Mailbox(kWidth_m, -1, 3), std::invalid_argument);
+  EXPECT_THROW(touch::Mailbox(kWidth_m, std::numeric_limits<double>::quiet_NaN(), 3),
                std::invalid_argument);
 }
 
@@ -91,7 +91,7 @@ TEST(TouchMailbox, RefusesWhatCannotWork) {
 /// while the writer fills the third slot.
 TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
   constexpr int64_t kFrames = 1000;
-  TouchMailbox mailbox(kWidth_m, kHeight_m, TouchMailbox::kLeastSlots);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kLeastSlots);
   std::thread writer([&] {
     for (int64_t n = 1; n <= kFrames; ++n) {
       while (!publish(mailbox, n)) std::this_thread::yield();
@@ -100,10 +100,10 @@ TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
   int64_t torn = 0;
   int64_t out_of_order = 0;
   for (int64_t n = 1; n <= kFrames; ++n) {
-    const TouchFrame* oldest = nullptr;
+    const touch::Frame* oldest = nullptr;
     while ((oldest = mailbox.front()) == nullptr) std::this_thread::yield();
-    const TouchFrame* const next = mailbox.front(1);
-    for (const TouchFrame* frame : {oldest, next}) {
+    const touch::Frame* const next = mailbox.front(1);
+    for (const touch::Frame* frame : {oldest, next}) {
       if (frame == nullptr) continue;
       const auto z_m = static_cast<float>(frame->time_ns);
       if (!is_all(frame->relief, z_m) || !is_all(frame->texture, z_m)) ++torn;
@@ -120,7 +120,7 @@ TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
 /// A third thread forgets what there is, as a flush does. What is begun after that is seen.
 TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   constexpr uint32_t kTimes = 1000;
-  TouchMailbox mailbox(kWidth_m, kHeight_m, TouchMailbox::kLeastSlots);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kLeastSlots);
   std::atomic<bool> done{false};
   std::thread flusher([&] {
     for (uint32_t n = 0; n < kTimes; ++n) {
@@ -131,7 +131,7 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   });
   std::thread writer([&] {
     for (int64_t n = 1; !done; ++n) {
-      if (TouchFrame* const frame = mailbox.begin(mailbox.generation())) {
+      if (touch::Frame* const frame = mailbox.begin(mailbox.generation())) {
         frame->time_ns = n;
         mailbox.publish();
       } else {
@@ -142,7 +142,7 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   uint32_t last = 0;
   bool rising = true;
   while (!done) {
-    if (const TouchFrame* const frame = mailbox.front()) {
+    if (const touch::Frame* const frame = mailbox.front()) {
       rising = rising && frame->generation >= last && frame->generation <= kTimes;
       last = frame->generation;
       mailbox.drop();

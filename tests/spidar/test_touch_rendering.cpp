@@ -22,18 +22,18 @@ constexpr double kRounding_m = 1e-9;
 struct Touched {
   explicit Touched(size_t slots = 64) : mailbox(0.06, 0.04, slots) {}
 
-  Contact tick() {
+  touch::Contact tick() {
     now_ns += kMs;
     return rendering.tick(mailbox, now_ns, grip_m, kTick_s);
   }
-  Contact run(int64_t until_ns) {
-    Contact last;
+  touch::Contact run(int64_t until_ns) {
+    touch::Contact last;
     while (now_ns < until_ns) last = tick();
     return last;
   }
 
-  TouchMailbox mailbox;
-  TouchRendering rendering;
+  touch::Mailbox mailbox;
+  touch::Rendering rendering;
   Eigen::Vector3d grip_m{0, 0, -0.005};
   int64_t now_ns = -kMs;
 };
@@ -50,7 +50,7 @@ TEST(TouchRendering, GoesFromFrameToFrameInTime) {
   }
   touched.run(10 * kFrame);  // the surface rises from the grip to its position
   for (int tick = 0; tick < 1000; ++tick) {
-    const Contact contact = touched.tick();
+    const touch::Contact contact = touched.tick();
     const int64_t n = touched.now_ns / kFrame;
     const double fraction = static_cast<double>(touched.now_ns % kFrame) / kFrame;
     const double z_m = (1 - fraction) * saw_m(n) + fraction * saw_m(n + 1);
@@ -78,7 +78,7 @@ TEST(TouchRendering, AFrameThatIsKnownLateIsReachedFromThenOn) {
   publish_plane(touched.mailbox, touched.now_ns, 0, After::kFrame);
   touched.tick();
   double last_m = 0.0055;
-  for (int tick = 1; tick <= TouchRendering::kShortest_ns / kMs; ++tick) {
+  for (int tick = 1; tick <= touch::Rendering::kShortest_ns / kMs; ++tick) {
     const double depth_m = touched.tick().depth_m;
     EXPECT_NEAR(last_m - depth_m, 0.0005 / 15, kRounding_m);
     last_m = depth_m;
@@ -96,7 +96,7 @@ TEST(TouchRendering, AFlashIsNoMotion) {
   EXPECT_NEAR(last_m, 0.005, kRounding_m) << "nothing of it before it is due";
   for (int tick = 0; tick < 1000; ++tick) {
     const double depth_m = touched.tick().depth_m;
-    const double most_m_s = tick == 0 ? TouchProxy::kFastest_m_s : TouchProxy::kRise_m_s;
+    const double most_m_s = tick == 0 ? touch::Proxy::kFastest_m_s : touch::Proxy::kRise_m_s;
     ASSERT_LE(depth_m - last_m, most_m_s * kTick_s + 1e-12);
     last_m = depth_m;
   }
@@ -109,13 +109,13 @@ TEST(TouchRendering, WhatMovesMayRiseFaster) {
   Touched touched(16);
   for (int64_t n = 0; n < 16; ++n) {
     const double moved_m = kSpeed_m_s * 1e-9 * static_cast<double>(n * kFrame);
-    TouchFrame* const frame = touched.mailbox.begin(touched.mailbox.generation());
+    touch::Frame* const frame = touched.mailbox.begin(touched.mailbox.generation());
     frame->time_ns = n * kFrame;
     frame->has_surface = true;
     frame->follows = n > 0;
     frame->displacement_m = {-kSpeed_m_s * 1e-9 * static_cast<double>(kFrame), 0};
-    for (int y = 0; y < HeightField::kRows; ++y) {
-      for (int x = 0; x < HeightField::kColumns; ++x) {
+    for (int y = 0; y < touch::HeightField::kRows; ++y) {
+      for (int x = 0; x < touch::HeightField::kColumns; ++x) {
         frame->relief.row(y)[x] = static_cast<float>(frame->relief.x_m(x) + moved_m - 0.015);
       }
     }
@@ -155,10 +155,10 @@ TEST(TouchRendering, ACutIsThereWhenItIsDueAndRisesSlowly) {
   double last_m = touched.run(20 * kFrame - kMs).depth_m;
   EXPECT_NEAR(last_m, 0.001, kRounding_m) << "nothing of the next scene is felt before";
   // One tick at the speed of the fastest surface, which is what it may be; then it rises.
-  const double most_m = TouchProxy::kFastest_m_s * kTick_s;
+  const double most_m = touch::Proxy::kFastest_m_s * kTick_s;
   for (int tick = 0; tick < 1000; ++tick) {
     const double depth_m = touched.tick().depth_m;
-    ASSERT_LE(depth_m - last_m, (tick == 0 ? most_m : TouchProxy::kRise_m_s * kTick_s) + 1e-12);
+    ASSERT_LE(depth_m - last_m, (tick == 0 ? most_m : touch::Proxy::kRise_m_s * kTick_s) + 1e-12);
     last_m = depth_m;
   }
   EXPECT_NEAR(last_m, 0.011, kRounding_m);
@@ -175,7 +175,7 @@ void expect_fresh_start(Touched& touched, const std::function<void()>& end,
   double last_m = 0;
   for (int tick = 0; tick < 1000; ++tick) {
     const double depth_m = touched.tick().depth_m;
-    const double most_m = tick == 0 ? TouchProxy::kFastest_m_s : TouchProxy::kRise_m_s;
+    const double most_m = tick == 0 ? touch::Proxy::kFastest_m_s : touch::Proxy::kRise_m_s;
     ASSERT_LE(depth_m - last_m, most_m * kTick_s + 1e-12) << tick;
     last_m = depth_m;
   }
@@ -210,17 +210,17 @@ TEST(TouchRendering, AStallIsNoKnock) {
   touched.run(20 * kFrame);
   touched.grip_m.z() = -0.009;
   touched.now_ns += 200 * kMs;
-  const Contact contact = touched.rendering.tick(touched.mailbox, touched.now_ns,  //
-                                                 touched.grip_m, 0.2);
-  EXPECT_LE(contact.force_N.norm(), 500 * TouchProxy::kFastest_m_s * 0.2 + 1e-9);
+  const touch::Contact contact = touched.rendering.tick(touched.mailbox, touched.now_ns,  //
+                                                        touched.grip_m, 0.2);
+  EXPECT_LE(contact.force_N.norm(), 500 * touch::Proxy::kFastest_m_s * 0.2 + 1e-9);
   EXPECT_LE(contact.depth_m, 0.009);
 }
 
 TEST(TouchRendering, AnotherStiffnessIsReachedSlowly) {
   Touched touched;
-  ContactSettings stiff;
+  touch::ContactSettings stiff;
   stiff.stiffness_N_m = 800;
-  ContactSettings soft;
+  touch::ContactSettings soft;
   soft.stiffness_N_m = 200;
   publish_plane(touched.mailbox, 0, 0, After::kCut, soft);
   publish_plane(touched.mailbox, 10 * kFrame, 0, After::kCut, stiff);
@@ -228,7 +228,7 @@ TEST(TouchRendering, AnotherStiffnessIsReachedSlowly) {
   EXPECT_NEAR(last_N, 200 * 0.005, 1e-6);
   for (int tick = 0; tick < 1000; ++tick) {
     const double now_N = touched.tick().force_N.z();
-    ASSERT_LE(now_N - last_N, TouchRendering::kStiffening_N_m_s * kTick_s * 0.005 + 1e-9);
+    ASSERT_LE(now_N - last_N, touch::Rendering::kStiffening_N_m_s * kTick_s * 0.005 + 1e-9);
     last_N = now_N;
   }
   // A stiffer spring at the same depth holds more energy, which the hand has not put in: the force

@@ -37,7 +37,7 @@ class UartLines : public testing::Test {
  protected:
   /// Guarded by nobody, and exchanging on this thread.
   std::unique_ptr<StringDevice> device(const std::string& spec) const {
-    BoardSettings settings;
+    boards::Settings settings;
     settings.guardian = false;
     settings.threaded = false;
     return make_device(spec, profile, settings);
@@ -157,10 +157,10 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
       std::make_unique<emulated::Uart>(second_motors,
                                        std::vector<emulated::Uart::Station>{{0, kB3M}}),
       std::make_shared<emulated::Wire>()));
-  BoardSettings settings;
+  boards::Settings settings;
   settings.guardian = settings.threaded = false;
-  const auto board = std::make_unique<StringLink>(
-      std::make_unique<UartBoard>("uart", profile, std::move(lines)), settings);
+  const auto board = std::make_unique<boards::StringLink>(
+      std::make_unique<boards::Uart>("uart", profile, std::move(lines)), settings);
   open(*board);
   DeviceReading reading;
   exchange_until(*board, 1, LinkFault::kNone, reading);
@@ -174,7 +174,7 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   EXPECT_TRUE(second.all_zero());
   const std::vector<int>& put_out = second.history;
   for (size_t i = 1; i < put_out.size(); ++i)
-    EXPECT_LE(put_out[i - 1] - put_out[i], full / StringLink::kRamp_ms + 1) << i;
+    EXPECT_LE(put_out[i - 1] - put_out[i], full / boards::StringLink::kRamp_ms + 1) << i;
 }
 
 TEST_F(UartLines, OpenSaysWhatIsWrong) {

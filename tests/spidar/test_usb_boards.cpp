@@ -55,8 +55,8 @@ class UsbBoards : public testing::Test {
   UsbBoards() { clear_bus(); }
   ~UsbBoards() override { clear_bus(); }
 
-  static BoardSettings unguarded(bool threaded = true) {
-    BoardSettings settings;
+  static boards::Settings unguarded(bool threaded = true) {
+    boards::Settings settings;
     settings.guardian = false;
     settings.threaded = threaded;
     return settings;
@@ -86,20 +86,20 @@ TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
   EXPECT_EQ(boards[0].path, "1-1");
   EXPECT_EQ(boards[0].serial, "A1");
   EXPECT_EQ(boards[0].usb_id, "0cec:0205");
-  EXPECT_EQ(boards[0].verification, Verification::kEmulated);
+  EXPECT_EQ(boards[0].verification, boards::Verification::kEmulated);
   EXPECT_TRUE(boards[0].accessible);
   EXPECT_EQ(boards[1].device, "usb:1-3");
   EXPECT_FALSE(boards[1].accessible);
   EXPECT_NE(boards[1].note.find("70-spidar.rules"), std::string::npos);
   EXPECT_EQ(boards[2].device, "mouse:1-4");
-  EXPECT_EQ(boards[2].verification, Verification::kInferred);
+  EXPECT_EQ(boards[2].verification, boards::Verification::kInferred);
   EXPECT_EQ(boards[3].device, "sim");
   for (const UsbPort& port : bus().port) EXPECT_EQ(port.updates, 0u);
 }
 
 TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(board_info("usb").name, "CyVerse USB 2.0 SH4 or CyVerse USB 2.0 Simple");
-  EXPECT_EQ(board_info("mouse").verification, Verification::kInferred);
+  EXPECT_EQ(board_info("mouse").verification, boards::Verification::kInferred);
   EXPECT_FALSE(board_info("sim:mouse").has_strings);
   EXPECT_TRUE(board_info("foo").name.empty());
   plug(0, UsbKind::kSh4, "A1");

@@ -43,7 +43,7 @@ class UsbFalcon : public testing::Test {
     return plugged;
   }
   std::unique_ptr<Grip> grip(const std::string& spec = "falcon") const {
-    BoardSettings settings;
+    boards::Settings settings;
     settings.guardian = settings.threaded = false;
     return make_grip(spec, load_profile(kDefaultProfile), settings);
   }

@@ -87,7 +87,7 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   expect_contains(refusal_of([&] { make_device("usb:7", of_sh4)->open(); }),
                   "the board at 1-1 is a CyVerse USB 2.0 Simple, and profile \"spidar-g6x3-v2-r\" "
                   "is for boards of the kind usb-sh4");
-  BoardSettings unguarded;
+  boards::Settings unguarded;
   unguarded.guardian = false;
   EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded)->open());
   // A name that is no device's says how it would be named.

@@ -36,7 +36,7 @@ inline TimedWrench lasting(const Eigen::Vector3d& force_N, int64_t time_ns = 0) 
 /// A running loop with a film.
 struct FeltPlayer {
   explicit FeltPlayer(const std::string& spec = "ff", bool guardian = false) {
-    BoardSettings settings;
+    boards::Settings settings;
     settings.guardian = guardian;
     SessionSettings of_session;
     of_session.real_time = false;

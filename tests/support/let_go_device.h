@@ -47,7 +47,7 @@ class LetGoDevice final : public StringDevice {
   const GripDynamics held_, released_;
   const std::string name_ = "let go";
   bool is_held_ = true;
-  DynamicState state_;
+  GripDynamics::State state_;
   StringVector tension_N_ = StringVector::Zero();
 };
 

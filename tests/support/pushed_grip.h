@@ -17,7 +17,7 @@ inline GripCommand told(double right_N, double up_N = 0) {
 }
 
 /// The same below the grip.
-inline ForceOutput pushing(double right_N, double up_N = 0) {
+inline boards::ForceOutput pushing(double right_N, double up_N = 0) {
   return {{right_N, up_N, 0}, true};
 }
 

@@ -18,13 +18,13 @@ constexpr Hand kLooseHand{"loose", 30, 0.5};
 
 /// The hand goes from 20 mm above a plane to `depth_m` below it and out again, at the same speed.
 /// The largest energy that a contact gave out (below 0: absorbed), J; −∞ if the grip never touched.
-inline double tap_J(const ContactSettings& settings, const Hand& hand, double speed_m_s,
+inline double tap_J(const touch::ContactSettings& settings, const Hand& hand, double speed_m_s,
                     double depth_m) {
   constexpr double kAbove_m = 0.02;
   constexpr int kFaded = 20;  // ticks, ten times the drive's lag
-  static const HeightField plane = plane_field(0);
+  static const touch::HeightField plane = plane_field(0);
   TouchedGrip grip(hand, {0, 0, kAbove_m});
-  ContactForce force;
+  touch::ContactForce force;
   const int down = static_cast<int>((kAbove_m + depth_m) / speed_m_s / TouchedGrip::kTick_s);
   double most_J = -std::numeric_limits<double>::infinity();
   double begin_J = 0;
@@ -48,7 +48,7 @@ inline double tap_J(const ContactSettings& settings, const Hand& hand, double sp
 }
 
 /// The largest value over taps of all speeds up to 1 m/s and of several depths.
-inline double worst_tap_J(const ContactSettings& settings, const Hand& hand) {
+inline double worst_tap_J(const touch::ContactSettings& settings, const Hand& hand) {
   double most_J = -std::numeric_limits<double>::infinity();
   for (double speed_m_s = 0.02; speed_m_s < 1; speed_m_s += 0.02) {
     for (const double depth_m : {0.001, 0.002, 0.004, 0.006, 0.010}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames for a TouchMailbox, as the streaming thread publishes them.
+/// Frames for a touch::Mailbox, as the streaming thread publishes them.
 #pragma once
 
 #include <utility>
@@ -14,9 +14,9 @@ enum class After { kCut, kFrame };
 
 /// Publishes a frame with the heights z_m(x_m, y_m). Returns false when the mailbox is full.
 template <typename Surface>
-bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surface&& z_m,
-                     const ContactSettings& contact = {}) {
-  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+bool publish_surface(touch::Mailbox& mailbox, int64_t time_ns, After after, Surface&& z_m,
+                     const touch::ContactSettings& contact = {}) {
+  touch::Frame* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = time_ns;
   frame->has_surface = true;
@@ -24,8 +24,8 @@ bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surfac
   frame->follows = after == After::kFrame;
   frame->displacement_m.setZero();
   frame->contact = contact;
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
+  for (int y = 0; y < touch::HeightField::kRows; ++y) {
+    for (int x = 0; x < touch::HeightField::kColumns; ++x) {
       frame->relief.row(y)[x] = static_cast<float>(z_m(frame->relief.x_m(x), frame->relief.y_m(y)));
     }
   }
@@ -34,15 +34,15 @@ bool publish_surface(TouchMailbox& mailbox, int64_t time_ns, After after, Surfac
 }
 
 /// The same for a level surface.
-inline bool publish_plane(TouchMailbox& mailbox, int64_t time_ns, double z_m,
-                          After after = After::kCut, const ContactSettings& contact = {}) {
+inline bool publish_plane(touch::Mailbox& mailbox, int64_t time_ns, double z_m,
+                          After after = After::kCut, const touch::ContactSettings& contact = {}) {
   return publish_surface(
       mailbox, time_ns, after, [z_m](double, double) { return z_m; }, contact);
 }
 
 /// Publishes that there is nothing to touch from `time_ns` on.
-inline bool publish_nothing(TouchMailbox& mailbox, int64_t time_ns) {
-  TouchFrame* const frame = mailbox.begin(mailbox.generation());
+inline bool publish_nothing(touch::Mailbox& mailbox, int64_t time_ns) {
+  touch::Frame* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = time_ns;
   frame->has_surface = false;

@@ -20,22 +20,22 @@ constexpr double kPictureHeight_m = 0.03375;  // square cells
 
 /// `z_m(x_m, y_m)` at every sample.
 template <typename Surface>
-HeightField sampled_field(Surface&& z_m) {
-  HeightField field(kPictureWidth_m, kPictureHeight_m);
-  for (int y = 0; y < HeightField::kRows; ++y) {
-    for (int x = 0; x < HeightField::kColumns; ++x) {
+touch::HeightField sampled_field(Surface&& z_m) {
+  touch::HeightField field(kPictureWidth_m, kPictureHeight_m);
+  for (int y = 0; y < touch::HeightField::kRows; ++y) {
+    for (int x = 0; x < touch::HeightField::kColumns; ++x) {
       field.row(y)[x] = static_cast<float>(z_m(field.x_m(x), field.y_m(y)));
     }
   }
   return field;
 }
 
-inline HeightField plane_field(double z_m) {
+inline touch::HeightField plane_field(double z_m) {
   return sampled_field([&](double, double) { return z_m; });
 }
 
 /// The upper part of a sphere that rises from a plane, its highest point at `top_z_m`.
-inline HeightField sphere_field(double x_m, double y_m, double radius_m, double top_z_m) {
+inline touch::HeightField sphere_field(double x_m, double y_m, double radius_m, double top_z_m) {
   return sampled_field([&](double px_m, double py_m) {
     const double r2 = (px_m - x_m) * (px_m - x_m) + (py_m - y_m) * (py_m - y_m);
     const double most2 = 0.65 * radius_m * radius_m;  // slope 1.36
@@ -75,15 +75,15 @@ inline std::vector<uint8_t> busy_picture(unsigned seed, int width, int height, d
 
 struct TouchScene {
   std::string name;
-  HeightField relief;
-  HeightField texture;
+  touch::HeightField relief;
+  touch::HeightField texture;
 };
 
 /// What energy is looked for on. Those of pictures come with their fine detail; the others have a
 /// wave of 2 mm for a texture.
 inline std::vector<TouchScene> touch_scenes() {
   const double two_pi = 2 * M_PI;
-  const HeightField wave = sampled_field([&](double x_m, double y_m) {
+  const touch::HeightField wave = sampled_field([&](double x_m, double y_m) {
     return 5e-5 * std::sin(two_pi * x_m / 0.002) * std::sin(two_pi * y_m / 0.002);
   });
   std::vector<TouchScene> scenes;
@@ -94,11 +94,11 @@ inline std::vector<TouchScene> touch_scenes() {
                                           std::sin(two_pi * y_m / 0.006);
                     }),
                     wave});
-  ReliefBuilder builder;
+  touch::ReliefBuilder builder;
   const auto add_picture = [&](const char* name, const std::vector<uint8_t>& bytes) {
-    const ReliefSettings settings{-0.006, 0.008, 5e-4};
-    HeightField relief(kPictureWidth_m, kPictureHeight_m);
-    HeightField detail(kPictureWidth_m, kPictureHeight_m);
+    const touch::ReliefSettings settings{-0.006, 0.008, 5e-4};
+    touch::HeightField relief(kPictureWidth_m, kPictureHeight_m);
+    touch::HeightField detail(kPictureWidth_m, kPictureHeight_m);
     builder.from_brightness({bytes.data(), 427, 240, 427}, settings, relief);
     builder.fine_detail(settings, detail);
     scenes.push_back({name, relief, detail});

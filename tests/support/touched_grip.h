@@ -120,7 +120,7 @@ struct ContactEnergy {
   int contacts = 0;
   int generating = 0;             ///< contacts that gave out more than they absorbed
   double worst_J = 0;             ///< given out by one of them, ≥ 0
-  double stiffness_fraction = 1;  ///< that was left at the end, see ShakeWatch
+  double stiffness_fraction = 1;  ///< that was left at the end, see touch::ShakeWatch
 
   void add(double out_J) {
     ++contacts;
@@ -132,14 +132,14 @@ struct ContactEnergy {
 /// Lets the hand explore for this number of ticks. The grip first has half a second to reach the
 /// hand from above. A contact is over when the force has faded: 20 ticks, ten times the drive's
 /// lag, after the proxy has left.
-inline ContactEnergy explore(const MovingRelief& relief, const HeightField* texture,
-                             const ContactSettings& settings, const Hand& hand, long ticks,
+inline ContactEnergy explore(const touch::MovingRelief& relief, const touch::HeightField* texture,
+                             const touch::ContactSettings& settings, const Hand& hand, long ticks,
                              unsigned seed) {
   constexpr int kFaded = 20;
   constexpr long kArrived = 500;
   const RandomHand random(seed);
   TouchedGrip grip(hand, {0, 0, 0.02});
-  ContactForce force;
+  touch::ContactForce force;
   ContactEnergy result;
   bool in_contact = false;
   int ticks_away = 0;

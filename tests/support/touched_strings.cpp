@@ -109,8 +109,8 @@ Wrench film_wrench(double amplitude_N, double time_s) {
       Eigen::Vector3d::Zero()};
 }
 
-void publish(TouchMailbox& mailbox, const TouchScene& scene, const StringTouch& touch) {
-  TouchFrame& frame = *mailbox.begin(mailbox.generation());
+void publish(touch::Mailbox& mailbox, const TouchScene& scene, const StringTouch& touch) {
+  touch::Frame& frame = *mailbox.begin(mailbox.generation());
   frame.has_surface = true;
   frame.has_texture = touch.texture;
   frame.contact = touch.contact;
@@ -133,7 +133,7 @@ class Pair {
   Pair(const TouchScene& scene, const StringTouch& touch, const Hand& hand)
       : model_(model_of(hand, touch)),
         film_N_(touch.film_N),
-        mailbox_(kPictureWidth_m, kPictureHeight_m, TouchMailbox::kLeastSlots) {
+        mailbox_(kPictureWidth_m, kPictureHeight_m, touch::Mailbox::kLeastSlots) {
     if (touch.wall_N_m > 0) {
       loop_->callback().set(wall_of(touch), {touch.passive, profile_.drive_lag_s});
     } else {
@@ -190,7 +190,7 @@ class Pair {
   const GripModel model_;
   const double film_N_;
   const Profile profile_ = load_profile(kDefaultProfile);
-  TouchMailbox mailbox_;
+  touch::Mailbox mailbox_;
   SimulatedDevice device_{profile_, SimulatedDevice::Time::kFixedStep, model_};
   ReadDevice read_{device_};
   ShadowDevice shadow_{profile_, read_, model_.motor_time_constant_s};

@@ -16,7 +16,7 @@ namespace spidar::test {
 
 /// Contact settings and the simultaneous force of the film.
 struct StringTouch {
-  ContactSettings contact;
+  touch::ContactSettings contact;
   bool texture = false;
   /// Amplitude of the film's force, which varies as in a film with a moving object.
   double film_N = 0;

@@ -68,10 +68,11 @@ TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
     window::Window window(std::make_shared<FakeSource>(state));
     FrameReport report = touched_facts(state.device->geometry);
     report.turn = Orientation(quarters, true);
-    report.touch.shading.assign(HeightField::kCells, '\x80');
-    for (int y = 0; y < HeightField::kRows / 2; ++y) {
-      report.touch.shading.replace(static_cast<size_t>(y) * HeightField::kColumns,
-                                   HeightField::kColumns / 2, HeightField::kColumns / 2, '\0');
+    report.touch.shading.assign(touch::HeightField::kCells, '\x80');
+    for (int y = 0; y < touch::HeightField::kRows / 2; ++y) {
+      report.touch.shading.replace(static_cast<size_t>(y) * touch::HeightField::kColumns,
+                                   touch::HeightField::kColumns / 2,
+                                   touch::HeightField::kColumns / 2, '\0');
     }
     give(window, report, 128);
     const Screenshot shot = look(window);

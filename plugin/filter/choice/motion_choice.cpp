@@ -85,7 +85,7 @@ void MotionChoice::complete(const GstVideoFrame& frame, const Orientation& turn,
   AnalyzerSettings& analyzer = settings.analyzer;
   analyzer.pointer = turn.stored_position(analyzer.pointer);
   // The sink's mouse is at such a position already.
-  if (settings.pointer == PointerKind::kMouse) {
+  if (settings.pointer == Pointer::Kind::kMouse) {
     analyzer.pointer = mouse_.position().value_or(analyzer.pointer);
   }
   analyzer.kept = mouse_.kept();
@@ -101,12 +101,12 @@ std::string MotionChoice::seen_text() const {
   return time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND));
 }
 
-void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
+void MotionChoice::tell_of_rule(const FeelRule& rule, Chosen::State state) {
   if (!told_.emplace(rule.line, state).second) return;
   const std::string position = position_text(rule.position), end = until(rule);
   const char* const name = named_.name.c_str();
   switch (state) {
-    case ChoiceState::kNotThere:
+    case Chosen::State::kNotThere:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
           ("%s, line %d: no object was at %s at %s.", name, rule.line, position.c_str(),
@@ -114,7 +114,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("An object moves by itself. The first one that begins to move there is felt, %s.",
            end.c_str()));
       break;
-    case ChoiceState::kNotSeen:
+    case Chosen::State::kNotSeen:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
           ("%s, line %d: playback began after %s, so that the object that is at %s then is not "
@@ -123,7 +123,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
           ("Nothing is felt %s. In a haptic track, which spidartrack record makes, it is known.",
            end.c_str()));
       break;
-    case ChoiceState::kLost:
+    case Chosen::State::kLost:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
           ("%s, line %d: the object is lost at %s.", name, rule.line, seen_text().c_str()),
@@ -131,7 +131,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
            "another rule begins where it is seen again.",
            end.c_str()));
       break;
-    case ChoiceState::kNoBox:
+    case Chosen::State::kNoBox:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
           ("%s, line %d: no frame comes with a box%s%s.", name, rule.line,
@@ -141,25 +141,25 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, ChoiceState state) {
            "%s.",
            end.c_str()));
       break;
-    case ChoiceState::kBoxAtRest:
+    case Chosen::State::kBoxAtRest:
       GST_ELEMENT_WARNING(
           element_, STREAM, FAILED,
           ("%s, line %d: nothing moves in the boxes that come with the frames.", name, rule.line),
           ("A box chooses the object that moves in it. Nothing is felt until one does, or %s.",
            end.c_str()));
       break;
-    case ChoiceState::kGood:
+    case Chosen::State::kGood:
       break;
   }
 }
 
-void MotionChoice::tell_of_click(const KeptObject& kept, ChoiceState state) {
-  if (state == ChoiceState::kGood) return;
+void MotionChoice::tell_of_click(const KeptObject& kept, Chosen::State state) {
+  if (state == Chosen::State::kGood) return;
   mouse_.let_go(kept.click);
   const auto inform = [this](const std::string& text, const char* advice) {
     post_information(element_, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED, text, advice);
   };
-  if (state == ChoiceState::kLost) {
+  if (state == Chosen::State::kLost) {
     inform("The object that was clicked is lost at " + seen_text() + ".",
            "What 'motion' and 'feel' say is felt again.");
   } else {

@@ -55,10 +55,10 @@ class MotionChoice {
  private:
   void warn_of_times(GstPad* sink);
   void warn_of_mean(MotionKind motion);
-  void tell_of_rule(const FeelRule& rule, ChoiceState state);
+  void tell_of_rule(const FeelRule& rule, Chosen::State state);
   /// The time in the film of the frame before.
   std::string seen_text() const;
-  void tell_of_click(const KeptObject& kept, ChoiceState state);
+  void tell_of_click(const KeptObject& kept, Chosen::State state);
 
   GstElement* const element_;
   MousePointer mouse_;
@@ -67,8 +67,8 @@ class MotionChoice {
   mutable std::mutex mutex_;  ///< where another thread reads `named_`, or it changes
   NamedRules named_;
   bool warned_of_mean_ = false;
-  std::set<std::pair<int, ChoiceState>> told_;  ///< line and state
-  GstClockTime seen_ = 0;                       ///< stream time of the frame before
+  std::set<std::pair<int, Chosen::State>> told_;  ///< line and state
+  GstClockTime seen_ = 0;                         ///< stream time of the frame before
 };
 
 }  // namespace spidar::filter

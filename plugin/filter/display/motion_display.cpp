@@ -20,13 +20,13 @@ void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, Gst
   const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
   hand_.see(report, width, height);
   const std::shared_ptr<window::Window> shown_in = window();
-  const bool draws = properties.overlay != OverlayKind::kNone;
+  const bool draws = properties.overlay != DisplayProperties::Overlay::kNone;
   if (!report.has_wrench() || !(draws || properties.attach_meta || shown_in)) {
     owners_.reset();
     return;
   }
   owners_.find(report);
-  const bool draws_curve = properties.overlay == OverlayKind::kCurve;
+  const bool draws_curve = properties.overlay == DisplayProperties::Overlay::kCurve;
   if (draws_curve) curve_.add(report.frame.stamp.running_ns, report.frame.wrench.force_N.norm());
   if (shown_in) {
     follow_film(report);
@@ -44,8 +44,8 @@ void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, Gst
   }
   const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
-    draw_overlay(report, properties.overlay == OverlayKind::kPoints, properties.arrow_scale, frame,
-                 draws_curve ? &curve_ : nullptr);
+    draw_overlay(report, properties.overlay == DisplayProperties::Overlay::kPoints,
+                 properties.arrow_scale, frame, draws_curve ? &curve_ : nullptr);
   }
 }
 

@@ -23,7 +23,7 @@ void touch_frame(const PassingFrame& passing, const ImageView& luma, int64_t sho
                  const HapticOutput& output, ReliefStream& reliefs, FrameReport& report) {
   const TouchProperties& touch = passing.settings.touch;
   const HapticSession* const session = output.session();
-  const bool on = touch.kind != TouchKind::kOff;
+  const bool on = touch.kind != TouchProperties::Kind::kOff;
   if (on && session && !session->grip().abilities().can_touch()) return;
   const Eigen::Vector2d middle(0.5, 0.5);
   reliefs.set_turn(report.turn);
@@ -122,10 +122,10 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
   end_gap(frame.stamp.running_ns);
   const FramePacer::Order order = pacer_.order(frame.stamp.running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
-    report.fault = FrameFault::kSameTimestamp;
+    report.fault = FrameReport::Fault::kSameTimestamp;
     return false;
   }
-  if (order == FramePacer::Order::kFalling) report.fault = FrameFault::kFallingTimestamp;
+  if (order == FramePacer::Order::kFalling) report.fault = FrameReport::Fault::kFallingTimestamp;
   if (order != FramePacer::Order::kNext) reset();
   return true;
 }
@@ -133,11 +133,11 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
 /// Finds the picture of a frame and analyses it. False when it has none.
 bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                          FrameReport& report) {
-  const std::optional<DepthLayout> packed = frame.settings.touch.packed();
-  const ImageView picture = packed ? picture_half(luma, *packed) : luma;
+  const std::optional<touch::DepthLayout> packed = frame.settings.touch.packed();
+  const ImageView picture = packed ? touch::picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
     reset();
-    report.fault = luma.data ? FrameFault::kSmallHalf : FrameFault::kNotShown;
+    report.fault = luma.data ? FrameReport::Fault::kSmallHalf : FrameReport::Fault::kNotShown;
     return false;
   }
   const int64_t begin_ns = monotonic_now_ns();
@@ -159,7 +159,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
     reset();
-    report.fault = has_size ? FrameFault::kTooSmall : FrameFault::kWrongSize;
+    report.fault = has_size ? FrameReport::Fault::kTooSmall : FrameReport::Fault::kWrongSize;
     return;
   }
   const int64_t shown_ns = schedule_.at_sink_ns(frame.stamp.running_ns);
@@ -167,7 +167,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   const ImageView luma = luma_.view(frame.video);
   const TouchProperties& touch = frame.settings.touch;
   // This fraction of the film's motion is rendered, reported and shown in addition to touch.
-  motion_fraction_ = touch.kind == TouchKind::kOff ? 1 : touch.motion_fraction;
+  motion_fraction_ = touch.kind == TouchProperties::Kind::kOff ? 1 : touch.motion_fraction;
   report.analyzed = analyze(frame, luma, time.paced_ns, report);
   if (!report.analyzed) return;
   report.click = frame.settings.analyzer.kept.click;
@@ -176,7 +176,7 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   pacer_.take(time, moved);
   report.frame.wrench = report.turn.to_displayed(report.frame.wrench);
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
-  no_force_.set_touching(touch.kind != TouchKind::kOff);
+  no_force_.set_touching(touch.kind != TouchProperties::Kind::kOff);
   if (!time.in_place) {
     touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
     schedule(report.frame, time, moved, report.frame.wrench);

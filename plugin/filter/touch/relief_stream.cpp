@@ -46,11 +46,11 @@ Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2
   return passed_s * frame.motion.velocity_px_s;
 }
 
-ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
-  ContactSettings contact;
+touch::ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile) {
+  touch::ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
   contact.delay_s = surface_delay_s(assumed_lag_s(profile));
-  contact.friction = friction_of(properties.friction);
+  contact.friction = touch::friction_of(properties.friction);
   contact.texture = properties.texture;
   validate(contact);
   return contact;
@@ -88,7 +88,8 @@ void ReliefStream::start() {
         "touch: the profile's string exits span no width or no height, so "
         "that the picture has no size; another profile, or touch=off");
   }
-  auto mailbox = std::make_unique<TouchMailbox>(2 * half_size_m_.x(), 2 * half_size_m_.y(), kSlots);
+  auto mailbox =
+      std::make_unique<touch::Mailbox>(2 * half_size_m_.x(), 2 * half_size_m_.y(), kSlots);
   loop_->connect_touch(mailbox.get());
   const std::lock_guard<std::mutex> lock(mutex_);
   mailbox_ = std::move(mailbox);
@@ -98,8 +99,8 @@ void ReliefStream::start() {
 ImageView ReliefStream::thinned(const ImageView& luma) {
   const int columns = turn_.is_sideways() ? luma.height : luma.width;
   const int rows = turn_.is_sideways() ? luma.width : luma.height;
-  const int down = step_of(rows, HeightField::kRows);
-  const int across = step_of(columns, HeightField::kColumns);
+  const int down = step_of(rows, touch::HeightField::kRows);
+  const int across = step_of(columns, touch::HeightField::kColumns);
   ImageView thin = luma;
   thin.height = (rows + down - 1) / down;
   thin.stride_bytes = down * luma.stride_bytes;
@@ -131,8 +132,8 @@ ImageView ReliefStream::thinned(const ImageView& luma) {
 /// `levels` of a depth image as the picture is shown.
 const float* ReliefStream::turned(const float* levels) {
   if (turn_.is_none()) return levels;
-  constexpr int kColumns = HeightField::kColumns, kRows = HeightField::kRows;
-  turned_levels_.resize(HeightField::kCells);
+  constexpr int kColumns = touch::HeightField::kColumns, kRows = touch::HeightField::kRows;
+  turned_levels_.resize(touch::HeightField::kCells);
   float* to = turned_levels_.data();
   for (int y = 0; y < kRows; ++y) {
     for (int x = 0; x < kColumns; ++x) {
@@ -147,19 +148,19 @@ const float* ReliefStream::turned(const float* levels) {
 
 /// Fills in the surface of a frame. Returns false when the frame has no pixels.
 bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
-                         TouchFrame& frame) {
-  ReliefSettings settings;
+                         touch::Frame& frame) {
+  touch::ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
   settings.black_grey = levels_.black;
   settings.white_grey = levels_.white;
   validate(settings);
-  if (const std::optional<DepthLayout> layout = properties.packed()) {
+  if (const std::optional<touch::DepthLayout> layout = properties.packed()) {
     // At the beginning and after a seek, the depth range is estimated from this frame alone.
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
-    if (!depth_.read(depth_half(luma, *layout), {true}, dt_s) ||
+    if (!depth_.read(touch::depth_half(luma, *layout), {true}, dt_s) ||
         !builder_.from_levels(turned(depth_.levels()), settings, frame.relief)) {
       return false;
     }
@@ -176,7 +177,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
                        const TouchProperties& properties, const Eigen::Vector2d& finger,
                        std::string* shading) {
   if (!loop_) return;
-  if (properties.kind == TouchKind::kOff) {
+  if (properties.kind == TouchProperties::Kind::kOff) {
     end(shown_ns);
     return;
   }
@@ -185,7 +186,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
   const uint32_t generation = mailbox_->generation();
   if (muted_) return;
   const int64_t begin_ns = monotonic_now_ns();
-  TouchFrame* const frame = mailbox_->begin(generation);
+  touch::Frame* const frame = mailbox_->begin(generation);
   if (!frame) {
     ++reliefs_left_out_;
     left_out_ = true;
@@ -218,7 +219,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
 void ReliefStream::end(int64_t shown_ns) {
   if (!mailbox_ || !touched_) return;
   touched_ = false;
-  TouchFrame* const frame = mailbox_->begin(mailbox_->generation());
+  touch::Frame* const frame = mailbox_->begin(mailbox_->generation());
   if (!frame) {
     mailbox_->clear();
     return;

@@ -36,7 +36,7 @@ namespace spidar::filter {
 Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position);
 
 /// The contact settings that the properties yield on this device.
-ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
+touch::ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
 
 /// Builds the relief of every frame and passes it to the haptic loop. Until touch is first enabled,
 /// it allocates nothing and is not connected to the loop. Methods are grouped by the thread that
@@ -68,7 +68,8 @@ class ReliefStream {
   /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analyzed` the part
   /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
   /// the device has no workspace for a picture. Allocates only when the frame size changes. Where
-  /// `shading` is not null, it becomes HeightField::shading(), or stays where there is no surface.
+  /// `shading` is not null, it becomes touch::HeightField::shading(), or stays where there is no
+  /// surface.
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger,
            std::string* shading = nullptr);
@@ -82,7 +83,7 @@ class ReliefStream {
  private:
   void start();
   bool build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
-             TouchFrame& frame);
+             touch::Frame& frame);
   ImageView thinned(const ImageView& luma);
   const float* turned(const float* levels);
 
@@ -90,11 +91,11 @@ class ReliefStream {
   Profile profile_;
   Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
   std::mutex mutex_;  ///< guards mailbox_ against clear()
-  std::unique_ptr<TouchMailbox> mailbox_;
+  std::unique_ptr<touch::Mailbox> mailbox_;
   std::atomic<bool> muted_{false};
   // Streaming thread.
-  ReliefBuilder builder_;
-  DepthPicture depth_;
+  touch::ReliefBuilder builder_;
+  touch::DepthPicture depth_;
   int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
   Orientation turn_;
   LumaLevels levels_;

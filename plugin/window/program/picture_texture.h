@@ -78,7 +78,7 @@ class PictureTexture {
       const int opacity = std::min(255, 2 * std::abs(above)) * (kPictureStays - 1) / kPictureStays;
       rgba.insert(rgba.end(), {grey, grey, grey, static_cast<uint8_t>(opacity)});
     }
-    upload(rgba.data(), HeightField::kColumns, HeightField::kRows);
+    upload(rgba.data(), touch::HeightField::kColumns, touch::HeightField::kRows);
   }
 
   /// RGBA, rows from the top, without padding.

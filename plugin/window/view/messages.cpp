@@ -192,7 +192,8 @@ void pass(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
   wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction,
        touch.shading);
-  if (!touch.shading.empty() && touch.shading.size() != HeightField::kCells) return wire.fail();
+  if (!touch.shading.empty() && touch.shading.size() != touch::HeightField::kCells)
+    return wire.fail();
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
@@ -220,7 +221,7 @@ void pass(Wire& wire, Pose& pose) {
 }
 
 template <typename Wire>
-void pass(Wire& wire, Contact& contact) {
+void pass(Wire& wire, touch::Contact& contact) {
   wire(contact.has_surface, contact.touching, contact.depth_m, contact.proxy_m, contact.force_N);
 }
 
