@@ -144,6 +144,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   }
   const std::vector<std::string> of_analysis = names_of_analysis(element.get());
   std::map<std::string, std::string> settings;  // the last one of a name counts
+  std::string alpha;
   try {
     for (const std::string& word : without_presets(element.get(), of_analysis, words)) {
       const TypedProperty property(G_OBJECT(element.get()), word);
@@ -151,6 +152,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
       if (!refused.empty()) throw UsageError(word + ": " + refused);
       properties.values.emplace_back(property.name(), word.substr(word.find('=') + 1));
       settings.erase(property.name());
+      if (property.name() == "alpha") alpha = property.canonical_value();
       if (property.is_default() || property.name() == "trace") continue;
       settings[property.name()] = property.canonical_value();
       if (property.name() == "feel" && properties.values.back().second != "auto") {
@@ -162,6 +164,11 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
     }
   } catch (const std::runtime_error& error) {
     throw UsageError(error.what());
+  }
+  // The default of mean velocities is another one.
+  const auto motion = settings.find("motion");
+  if (!alpha.empty() && motion != settings.end() && motion->second == "mean") {
+    settings["alpha"] = alpha;
   }
   properties.settings = one_line(settings);
   return properties;

@@ -324,6 +324,10 @@ class Batch(track_case.TrackCase):
         self.assertIn("is there", self.spidartrack("record", "x.avi", "--", "motion=mean", "motion=camera",
                                                    "max_force=2.0", "alpha=0.0025"))
         self.assert_said("and not with alpha=0.02", "record", "x.avi", "--", "alpha=0.02")
+        # Mean velocities have another default.
+        self.spidartrack("record", "--force", "x.avi", "--", "motion=mean", "alpha=0.0025")
+        self.assert_said("was recorded with alpha=0.0025 motion=mean, and not with motion=mean", "record", "x.avi", "--",
+                         "motion=mean")
         self.spidartrack("record", "--force", "x.avi")
         self.assertIn("is there", self.spidartrack("record", "x.avi"))
         self.make_film("x.avi", 50, "snow")

@@ -15,7 +15,7 @@ namespace spidar {
 ///
 /// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
 /// prominence of the rival, f that of the followed object, and c = kClearly. The rate is 1 when the
-/// followed object rests or is out of sight, 0 when the rival is three times as prominent, and −1
+/// followed object rests or is out of sight, 0 when the rival is c times as prominent, and −1
 /// when the rival rests. A rival whose reason reaches kReason_s is followed instead. An eye decides
 /// in a similar way where to look next: a signal rises to a threshold (Carpenter and Williams
 /// 1995).
