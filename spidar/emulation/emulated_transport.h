@@ -63,6 +63,8 @@ class Transport final : public spidar::Transport {
 
   void open() override {
     if (wire_->fault == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
+    // As the interface of a real one is claimed until it is closed.
+    if (open_) throw DeviceError("emulated board: in use");
     open_ = true;
   }
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
