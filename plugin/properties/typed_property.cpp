@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/number_text.h"
 #include "spidar/text.h"
 
 namespace spidar {
@@ -97,6 +98,9 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
 }
 
 std::string TypedProperty::canonical_value() const {
+  if (G_VALUE_HOLDS_DOUBLE(&value_)) {
+    return std::string(NumberText(g_value_get_double(&value_)));
+  }
   gchar* const text = gst_value_serialize(&value_);
   const std::string result = text ? text : "";
   g_free(text);

@@ -51,8 +51,9 @@ struct BackgroundVotes {
 /// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Keeps the model of the frame before while it explains the votes; otherwise chooses, of those of
-/// the hierarchy, the one with the smallest GRIC.
+/// Keeps the kind of model of the frame before while it explains the votes, unless a simpler one
+/// has a smaller GRIC; otherwise climbs the hierarchy, to what has a smaller one, until it explains
+/// them.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When so few votes are cast that two objects may have them all, a translation
