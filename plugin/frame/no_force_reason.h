@@ -13,7 +13,7 @@ namespace spidar {
 /// up to kEnded and those from kCannotTouch on are of the device, the playback or, while
 /// touching, the contact, and hold for any film; the others are the film's.
 enum class NoForceReason {
-  kNone,  ///< the force is not limited
+  kNone,  ///< there is a force
   kDeviceLost,
   kDeviceStarting,
   kGripUnknown,

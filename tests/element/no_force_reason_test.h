@@ -30,7 +30,7 @@ inline int64_t read_time(void* time) {
 /// Grey levels of a frame: by column, row and number of the frame.
 using GreyLevels = std::function<int(int, int, int)>;
 
-class ForceLimitTest : public testing::Test {
+class NoForceReasonTest : public testing::Test {
  protected:
   void open(const std::string& properties) {
     h = std::make_unique<ElementHarness>(properties, read_time, &time_ns);

@@ -20,7 +20,7 @@ GstBuffer* level_frame(const GstVideoInfo& info, int grey) {
 }
 
 // The store is empty from the beginning.
-TEST_F(ForceLimitTest, TheFilmShakesTheHand) {
+TEST_F(NoForceReasonTest, TheFilmShakesTheHand) {
   const auto drain = [&] { loop().vibration().restore(time_ns + 24 * 3600 * 1'000'000'000LL); };
   // A strobe: the whole picture jumps to and fro.
   open("device=sim motion=camera filter-min-cutoff=0");
@@ -48,7 +48,7 @@ TEST_F(ForceLimitTest, TheFilmShakesTheHand) {
   EXPECT_LT(std::sqrt(mean_m2_s4), VibrationBudget::kActionValue_m_s2);
 }
 
-TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
+TEST_F(NoForceReasonTest, TouchingTheReasonsAreThoseOfTheContact) {
   open("device=sim touch=luma");
   play();
   show(kFrames, [&](int) { return level_frame(h->info(), 20); });
@@ -71,7 +71,7 @@ TEST_F(ForceLimitTest, TouchingTheReasonsAreThoseOfTheContact) {
   EXPECT_EQ(stats_field("device-no-force-reason"), "ended");
 }
 
-TEST_F(ForceLimitTest, ADeviceThatCannotTouchIsNamed) {
+TEST_F(NoForceReasonTest, ADeviceThatCannotTouchIsNamed) {
   for (const std::string device : {"sim:mouse", "sim:ff"}) {
     SCOPED_TRACE(device);
     frames = 0;
@@ -85,7 +85,7 @@ TEST_F(ForceLimitTest, ADeviceThatCannotTouchIsNamed) {
   }
 }
 
-TEST_F(ForceLimitTest, AGripWithoutAPositionCannotPoint) {
+TEST_F(NoForceReasonTest, AGripWithoutAPositionCannotPoint) {
   open("device=sim:mouse motion=objects pointer=grip");
   play();
   show_moved(3, 2);

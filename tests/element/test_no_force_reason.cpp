@@ -11,7 +11,7 @@
 namespace spidar::test::no_force_reason_test {
 namespace {
 
-TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
+TEST_F(NoForceReasonTest, IsNoneWhileTheForceIsFelt) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -21,7 +21,7 @@ TEST_F(ForceLimitTest, IsNoneWhileTheForceIsFelt) {
   EXPECT_EQ(h->motions().back().no_force_text, "");
 }
 
-TEST_F(ForceLimitTest, EachOfTheFilm) {
+TEST_F(NoForceReasonTest, EachOfTheFilm) {
   const auto moves = [&] { show_moved(kFrames, 2); };
   const auto stays = [&] { show_moved(kFrames, 0); };
   const auto object_moves = [&] {
@@ -61,7 +61,7 @@ TEST_F(ForceLimitTest, EachOfTheFilm) {
   }
 }
 
-TEST_F(ForceLimitTest, WhileTouchingItIsThatOfThePartOfTheMotionThatIsRendered) {
+TEST_F(NoForceReasonTest, WhileTouchingItIsThatOfThePartOfTheMotionThatIsRendered) {
   open("device=sim motion=camera touch=luma motion-fraction=0");
   play();
   show_moved(kFrames, 2);
@@ -73,7 +73,7 @@ TEST_F(ForceLimitTest, WhileTouchingItIsThatOfThePartOfTheMotionThatIsRendered) 
   EXPECT_EQ(stats_field("no-force-reason"), "none");
 }
 
-TEST_F(ForceLimitTest, FramesWithoutAPictureRepeatTheOneBefore) {
+TEST_F(NoForceReasonTest, FramesWithoutAPictureRepeatTheOneBefore) {
   open("device=sim motion=object");
   play();
   show_moved(1, 0);
@@ -85,7 +85,7 @@ TEST_F(ForceLimitTest, FramesWithoutAPictureRepeatTheOneBefore) {
   EXPECT_EQ(stats_field("no-force-reason"), "repeated-frames");
 }
 
-TEST_F(ForceLimitTest, Muted) {
+TEST_F(NoForceReasonTest, Muted) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -98,14 +98,14 @@ TEST_F(ForceLimitTest, Muted) {
   EXPECT_EQ(stats_field("no-force-reason"), "none");
 }
 
-TEST_F(ForceLimitTest, NotPlaying) {
+TEST_F(NoForceReasonTest, NotPlaying) {
   open("device=sim");
   tick(kOpened_ms);
   show_moved(3, 2);
   expect_of_device("not-playing");
 }
 
-TEST_F(ForceLimitTest, InAPauseTheReasonOfTheFilmStays) {
+TEST_F(NoForceReasonTest, InAPauseTheReasonOfTheFilmStays) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -115,7 +115,7 @@ TEST_F(ForceLimitTest, InAPauseTheReasonOfTheFilmStays) {
   EXPECT_EQ(stats_field("device-no-force-reason"), "not-playing");
 }
 
-TEST_F(ForceLimitTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
+TEST_F(NoForceReasonTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -130,14 +130,14 @@ TEST_F(ForceLimitTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
       << "and not late";
 }
 
-TEST_F(ForceLimitTest, TheDeviceIsNotRunningYet) {
+TEST_F(NoForceReasonTest, TheDeviceIsNotRunningYet) {
   open("device=sim");
   tick(kOpened_ms / 3);
   show_moved(2, 2);
   expect_of_device("device-starting");
 }
 
-TEST_F(ForceLimitTest, TheDeviceDoesNotAnswer) {
+TEST_F(NoForceReasonTest, TheDeviceDoesNotAnswer) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -146,7 +146,7 @@ TEST_F(ForceLimitTest, TheDeviceDoesNotAnswer) {
   expect_of_device("device-lost");
 }
 
-TEST_F(ForceLimitTest, ThePlaceOfTheGripIsNotKnown) {
+TEST_F(NoForceReasonTest, ThePlaceOfTheGripIsNotKnown) {
   open("device=sim");
   play();
   show_moved(kFrames, 2);
@@ -158,7 +158,7 @@ TEST_F(ForceLimitTest, ThePlaceOfTheGripIsNotKnown) {
   expect_of_device("grip-unknown");
 }
 
-TEST_F(ForceLimitTest, TheVideoHasEnded) {
+TEST_F(NoForceReasonTest, TheVideoHasEnded) {
   open("device=sim motion=object");
   play();
   show_moved(kFrames, 2);
@@ -167,14 +167,14 @@ TEST_F(ForceLimitTest, TheVideoHasEnded) {
   EXPECT_EQ(stats_field("no-force-reason"), "no-frames");
 }
 
-TEST_F(ForceLimitTest, TheFirstFrameHasNothingToBeComparedWith) {
+TEST_F(NoForceReasonTest, TheFirstFrameHasNothingToBeComparedWith) {
   open("device=sim");
   play();
   show_moved(1, 2);
   expect_everywhere("nothing-to-compare");
 }
 
-TEST_F(ForceLimitTest, FramesThatComeTooLate) {
+TEST_F(NoForceReasonTest, FramesThatComeTooLate) {
   open("device=sim");
   play();
   tick(2000);
@@ -186,7 +186,7 @@ TEST_F(ForceLimitTest, FramesThatComeTooLate) {
   expect_of_device("late");
 }
 
-TEST_F(ForceLimitTest, WithoutADeviceTheFilmHasItsOwnReasons) {
+TEST_F(NoForceReasonTest, WithoutADeviceTheFilmHasItsOwnReasons) {
   open("device=none");
   show_moved(kFrames, 2);
   expect_of_device("no-device");
@@ -198,7 +198,7 @@ TEST_F(ForceLimitTest, WithoutADeviceTheFilmHasItsOwnReasons) {
   EXPECT_EQ(h->motions().back().device_no_force, "no-device");
 }
 
-TEST_F(ForceLimitTest, OfAFrameItIsItsOwnAndNotThatOfASecond) {
+TEST_F(NoForceReasonTest, OfAFrameItIsItsOwnAndNotThatOfASecond) {
   open("device=sim motion=camera filter-min-cutoff=0");
   play();
   show_moved(5, 0);
