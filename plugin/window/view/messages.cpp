@@ -192,8 +192,9 @@ void pass(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
   wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction,
        touch.shading);
-  if (!touch.shading.empty() && touch.shading.size() != touch::HeightField::kCells)
+  if (!touch.shading.empty() && touch.shading.size() != touch::HeightField::kCells) {
     return wire.fail();
+  }
   if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
 }
 
