@@ -123,7 +123,7 @@ class WrenchLimits {
 class VibrationBudget {
  public:
   struct State {
-    /// Fraction of the wanted wrench that may be exerted, 0 … 1.
+    /// Fraction of the wanted wrench, within its limits, that may be exerted, 0 … 1.
     double fraction = 1;
     /// What is left in the store, 0 … 1.
     double left = 1;

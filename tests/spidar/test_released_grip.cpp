@@ -208,7 +208,7 @@ TEST(ReleasedGrip, AWeakForceGivesNoEnergyToAHandThatGoesToAndFro) {
 }
 
 // A hand is faster than the brake allows, and the film wants far more than the limit against it.
-// The brake then took all of that at once, and gave it back at the slew limit: 30 N for 4 N.
+// The brake took all of that at once, and the slew limit went on from there: 1,005 N for 4 N.
 TEST(ReleasedGrip, NoForceAgainstTheMotionExceedsTheLimit) {
   constexpr double kWay_m = 0.03, kTurn_rad_s = 2 * M_PI * 5;
   SafetyLimits limits;

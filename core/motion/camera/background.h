@@ -52,8 +52,7 @@ struct BackgroundVotes {
 Background in_pixels_of(const Background& background, double scale);
 
 /// Keeps the kind of model of the frame before while it explains the votes, unless a simpler one
-/// has a smaller GRIC; otherwise climbs the hierarchy, to what has a smaller one, until it explains
-/// them.
+/// has a smaller GRIC; otherwise takes each more general kind that has one, until it explains them.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When so few votes are cast that two objects may have them all, a translation
