@@ -70,15 +70,12 @@ struct DeviceKind : boards::BoardKind {
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };
 
-// Each is in the file of its name; devices() lists them.
+// What each file adds to devices().
 
-DeviceKind sh4_kind();
-DeviceKind simple_kind();
-DeviceKind uart_kind();
-DeviceKind mouse_kind();
-DeviceKind force_feedback_kind();
-DeviceKind inverse3_kind();
-DeviceKind falcon_kind();
-DeviceKind sound_kind();
+std::vector<DeviceKind> force_feedback_kinds();
+std::vector<DeviceKind> inverse3_kinds();
+std::vector<DeviceKind> sound_kinds();
+std::vector<DeviceKind> uart_kinds();
+std::vector<DeviceKind> usb_kinds();
 
 }  // namespace spidar

@@ -2,18 +2,31 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/devices/device_registry.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "spidar/emulation/emulated_transport.h"
 
 namespace spidar {
 
+namespace {
+
+std::vector<DeviceKind> all_kinds() {
+  std::vector<DeviceKind> kinds;
+  for (const auto& of_file :
+       {force_feedback_kinds, inverse3_kinds, usb_kinds, uart_kinds, sound_kinds}) {
+    for (DeviceKind& kind : of_file()) kinds.push_back(kind);
+  }
+  std::stable_partition(kinds.begin(), kinds.end(),
+                        [](const DeviceKind& kind) { return kind.has_strings(); });
+  return kinds;
+}
+
+}  // namespace
+
 const std::vector<DeviceKind>& devices() {
   // Never destroyed: when a player exits, another thread may still be reopening its board.
-  static const auto& kinds = *new std::vector<DeviceKind>{
-      sh4_kind(),      simple_kind(), uart_kind(),  mouse_kind(), force_feedback_kind(),
-      inverse3_kind(), falcon_kind(), sound_kind(),
-  };
+  static const auto& kinds = *new std::vector<DeviceKind>(all_kinds());
   return kinds;
 }
 

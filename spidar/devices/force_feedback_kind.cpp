@@ -77,7 +77,7 @@ std::vector<BoardInfo> list_force_feedback_boards() {
 
 }  // namespace
 
-DeviceKind force_feedback_kind() {
+std::vector<DeviceKind> force_feedback_kinds() {
   DeviceKind kind;
   kind.device = "ff";
   kind.title = "force-feedback device";
@@ -88,7 +88,7 @@ DeviceKind force_feedback_kind() {
   kind.simulated_motors = unconnected_motors;
   kind.make = make_force_feedback;
   kind.list = list_force_feedback_boards;
-  return kind;
+  return {kind};
 }
 
 }  // namespace spidar

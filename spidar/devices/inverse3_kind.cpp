@@ -47,7 +47,7 @@ std::vector<BoardInfo> list_inverse3() {
 
 }  // namespace
 
-DeviceKind inverse3_kind() {
+std::vector<DeviceKind> inverse3_kinds() {
   DeviceKind kind;
   kind.device = "inverse3";
   kind.title = "Haply Inverse3";
@@ -59,7 +59,7 @@ DeviceKind inverse3_kind() {
   kind.simulated_motors = simulated_hand<0>;
   kind.make = make_inverse3;
   kind.list = list_inverse3;
-  return kind;
+  return {kind};
 }
 
 }  // namespace spidar

@@ -34,7 +34,7 @@ std::vector<BoardInfo> list_sound() {
 
 }  // namespace
 
-DeviceKind sound_kind() {
+std::vector<DeviceKind> sound_kinds() {
   DeviceKind kind;
   kind.device = "sound";
   kind.title = "sound card";
@@ -45,7 +45,7 @@ DeviceKind sound_kind() {
   kind.simulated_motors = unconnected_motors;
   kind.make = make_sound;
   kind.list = list_sound;
-  return kind;
+  return {kind};
 }
 
 }  // namespace spidar

@@ -66,7 +66,7 @@ std::vector<BoardInfo> list_uart() {
 
 }  // namespace
 
-DeviceKind uart_kind() {
+std::vector<DeviceKind> uart_kinds() {
   DeviceKind kind;
   kind.device = "uart";
   kind.title = "UART motor boards";
@@ -80,7 +80,7 @@ DeviceKind uart_kind() {
   kind.simulated_motors = simulated_strings<boards::uart_dac>;
   kind.make = make_uart;
   kind.list = list_uart;
-  return kind;
+  return {kind};
 }
 
 }  // namespace spidar

@@ -31,8 +31,6 @@ DeviceKind cyverse_kind() {
   return kind;
 }
 
-}  // namespace
-
 DeviceKind sh4_kind() {
   DeviceKind kind = cyverse_kind();
   kind.title = "CyVerse USB 2.0 SH4";
@@ -85,6 +83,12 @@ DeviceKind mouse_kind() {
   kind.emulate = emulate<emulated::Mouse>;
   kind.simulated_motors = unconnected_motors;
   return kind;
+}
+
+}  // namespace
+
+std::vector<DeviceKind> usb_kinds() {
+  return {sh4_kind(), simple_kind(), falcon_kind(), mouse_kind()};
 }
 
 }  // namespace spidar

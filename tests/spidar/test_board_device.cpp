@@ -143,18 +143,48 @@ TEST(StringLink, DoesNotWaitLongerThanItMayAndTakesLateReplies) {
   EXPECT_GE(device.health().late_replies, 1u);
 }
 
+/// How one may be named without options.
+std::vector<std::string> real_names(const DeviceKind& kind) {
+  const std::string one = std::string(kind.device) + (kind.needs_rest() ? ":/dev/a" : ":1-2.3");
+  if (kind.needs_rest()) return {one};
+  return {kind.device, one};
+}
+
+/// Every name of a device with strings.
+std::vector<std::pair<std::string, const DeviceKind*>> names_with_strings() {
+  std::vector<std::pair<std::string, const DeviceKind*>> names;
+  for (const std::string& board : boards_that_there_are(true)) {
+    const DeviceKind& kind = kind_of(board);
+    names.emplace_back("sim:" + board, &kind);
+    for (const std::string& real : real_names(kind)) names.emplace_back(real, &kind);
+  }
+  return names;
+}
+
+/// The message of make_device(); empty on success.
+std::string error_of(const std::string& spec, const Profile& profile) {
+  try {
+    make_device(spec, profile);
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   const Profile profile = load_profile("spidar-g6x");
-  for (const std::string spec : {"foo", "", "usb:", "sim:", "mouse:", "ff:", "falcon:"}) {
+  std::vector<std::string> unknown{"foo", "", "sim:"};
+  for (const DeviceKind& kind : devices())
+    if (!kind.needs_rest()) unknown.push_back(std::string(kind.device) + ":");
+  for (const std::string& spec : unknown) {
     try {
       make_grip(spec, profile);
       FAIL() << spec;
     } catch (const DeviceError& error) {
       const std::string what = error.what();
-      EXPECT_EQ(
-          what.find("unknown device \"" + spec +
-                    "\"; known are: sim, sim:BOARD, none, auto, usb, usb:ID, uart:PATH, mouse, "),
-          0u)
+      EXPECT_EQ(what.find("unknown device \"" + spec +
+                          "\"; known are: sim, sim:BOARD, none, auto, " + devices()[0].names),
+                0u)
           << what;
       for (const DeviceKind& kind : devices())
         EXPECT_NE(what.find(std::string(", ") + kind.names), std::string::npos) << what;
@@ -164,17 +194,17 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     const std::string spec = std::string("sim:") + kind.board;
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
     EXPECT_EQ(make_grip(spec, profile)->traits().has_strings, kind.has_strings()) << spec;
+    for (const std::string& real : real_names(kind)) {
+      EXPECT_EQ(make_grip(real, profile)->name(), real);
+      EXPECT_EQ(make_grip(real, profile)->traits().has_strings, kind.has_strings()) << real;
+      if (!kind.has_strings()) EXPECT_THROW(make_device(real, profile), DeviceError) << real;
+    }
+    if (!kind.has_strings()) EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
   }
   for (const std::string spec :
-       {"usb", "usb:3", "usb:1-2.3", "uart:/dev/ttyUSB0,/dev/ttyUSB1", "mouse", "ff",
-        "ff:/dev/input/event3", "inverse3", "inverse3:049D", "inverse3:049D,port=8500", "falcon",
-        "falcon:1-2", "sound:A", "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
+       {"uart:/dev/ttyUSB0,/dev/ttyUSB1", "inverse3:049D,port=8500",
+        "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
-  }
-  for (const std::string spec : {"mouse", "sim:mouse", "sim:ff", "sim:inverse3", "ff",
-                                 "ff:/dev/input/event3", "inverse3", "falcon", "sim:falcon"}) {
-    EXPECT_FALSE(make_grip(spec, profile)->traits().has_strings) << spec;
-    EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
   }
   EXPECT_THROW(make_grip("sim:x", profile), DeviceError);
   for (const char* spec : {"inverse3:,port=1", "inverse3:A,port=0", "inverse3:A,port=65536",
@@ -185,33 +215,19 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
 
 TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
   const Profile profile = load_profile("spidar-g6x4");
-  EXPECT_NO_THROW(make_device("sim:uart", profile));
-  for (const char* spec : {"usb", "sim:sh4", "sim:simple"}) {
-    try {
-      make_device(spec, profile);
-      FAIL() << spec;
-    } catch (const DeviceError& error) {
-      EXPECT_NE(std::string(error.what()).find("negative volts for string 2"), std::string::npos)
-          << error.what();
-    }
+  for (const auto& [spec, kind] : names_with_strings()) {
+    const std::string error = error_of(spec, profile);
+    EXPECT_EQ(error.find("negative volts for string 2") == std::string::npos, kind->traits.negative)
+        << spec << ": " << error;
   }
 }
 
 /// A driver gets what it is to drive from the profile, but what the board is from its protocol.
 TEST(DeviceFactory, RefusesProfilesOfBoardsThatThereAreNot) {
-  const auto error_of = [](const char* spec, const Profile& profile) -> std::string {
-    try {
-      make_device(spec, profile);
-    } catch (const DeviceError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const std::vector<const char*> specs{"usb", "sim:sh4", "sim:simple", "uart:/dev/a", "sim:uart"};
   const Profile fits = load_profile("spidar-g645");  // positive motors
-  for (const char* spec : specs) {
-    const bool is_uart = std::string(spec).find("uart") != std::string::npos;
+  for (const auto& [spec, kind] : names_with_strings()) {
     Profile weak = fits;
+    weak.dac_bits = kind->traits.dac_bits;
     for (StringDrive& drive : weak.drives) drive.max_tension_N = 3.3 * drive.newtons_per_volt;
     EXPECT_EQ(error_of(spec, weak), "");
     for (const int bits : {8, 11, 13, 16, 24}) {
@@ -230,14 +246,16 @@ TEST(DeviceFactory, RefusesProfilesOfBoardsThatThereAreNot) {
     strong.drives[4].max_tension_N = 3.4 * strong.drives[4].newtons_per_volt;
     EXPECT_EQ(error_of(spec, strong).find("wants 3.4 V for string 4 (max_tension_N)") !=
                   std::string::npos,
-              is_uart)
+              kind->traits.max_V > 0 && kind->traits.max_V < 3.4)
         << spec << ": " << error_of(spec, strong);
   }
 }
 
 /// The simulated grip moves equally whether volts are passed directly or through packets.
 TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
-  for (const char* spec : {"sim", "sim:sh4", "sim:simple", "sim:uart"}) {
+  std::vector<std::string> specs{"sim"};
+  for (const std::string& board : boards_that_there_are(true)) specs.push_back("sim:" + board);
+  for (const std::string& spec : specs) {
     const Profile profile = load_profile("spidar-g6x");
     SessionSettings by_hand;
     by_hand.threaded = false;
