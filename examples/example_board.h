@@ -24,10 +24,7 @@ class ExampleBoard final : public boards::Board {
     Raw raw{};
     const LinkFault fault =
         boards::open_exchange([&](int64_t until) { return exchange({}, raw, until); }, *transport_);
-    if (fault != LinkFault::kNone) {
-      transport_->close();
-      throw boards::no_answer(name_, fault);
-    }
+    if (fault != LinkFault::kNone) throw boards::no_answer(name_, fault);
     counts_.open(raw, kMaxStrings);
   }
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,

@@ -65,7 +65,7 @@ class BoardOf {
   virtual ~BoardOf() = default;
 
   /// Claims, identifies and resets the board and reads it once with the motors at zero. Throws
-  /// DeviceError.
+  /// DeviceError; the caller then calls close().
   virtual void open() = 0;
 
   /// One exchange; gives up at the deadline (CLOCK_MONOTONIC). `reading` is written only if the

@@ -28,10 +28,7 @@ void Cyverse::open() {
         return not_reset != LinkFault::kNone ? not_reset : exchange({}, readout, deadline_ns);
       },
       *transport_);
-  if (fault != LinkFault::kNone) {
-    transport_->close();
-    throw no_answer(name_, fault);
-  }
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
   counts_.open(readout.counter, kMaxStrings);
   rotary_ = readout.rotary;
 }

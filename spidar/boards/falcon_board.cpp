@@ -136,7 +136,8 @@ LinkFault Falcon::load(const std::vector<uint8_t>& firmware) noexcept {
   return fault;
 }
 
-void Falcon::begin() {
+void Falcon::open() {
+  transport_->open();
   LinkFault fault = start();
   if (fault == LinkFault::kTimeout || fault == LinkFault::kWrongReply) {
     fault = load(read_firmware(name_, fault));
@@ -144,16 +145,6 @@ void Falcon::begin() {
   }
   if (fault != LinkFault::kNone) throw no_answer(name_, fault);
   see();
-}
-
-void Falcon::open() {
-  transport_->open();
-  try {
-    begin();
-  } catch (...) {
-    transport_->close();
-    throw;
-  }
 }
 
 /// From the counts, if they are counted from the marks.

@@ -55,7 +55,6 @@ class Falcon final : public ForceBoard {
   LinkFault start() noexcept;
   LinkFault greet_loader() noexcept;
   LinkFault load(const std::vector<uint8_t>& firmware) noexcept;
-  void begin();
   void see() noexcept;
   std::array<int, 3> digits_for(const Eigen::Vector3d& force_N) const noexcept;
 

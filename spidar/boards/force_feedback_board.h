@@ -34,8 +34,8 @@ class ForceFeedback final : public ForceBoard {
   ~ForceFeedback() override { effects_->close(false); }
 
   void open() override {
-    reopening_ = false;
     effects_->open();
+    reopening_ = false;
     const ff::Description& found = effects_->description();
     force_axes_ = effects_->effects() > 1 ? 2 : found.constant;
     position_axes_ = found.axes;

@@ -131,8 +131,7 @@ class Inverse3 final : public ForceBoard {
   /// After it was lost, the same device is looked for: another hand may hold another one.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
   [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
-                           SourceLocation location = SourceLocation::here()) {
-    close();
+                           SourceLocation location = SourceLocation::here()) const {
     throw DeviceError(name_ + ": " + why, code, location);
   }
 

@@ -49,8 +49,8 @@ LinkThread<Output, Reading>::~LinkThread() {
 template <typename Output, typename Reading>
 void LinkThread<Output, Reading>::open() {
   close();
-  board_->open();
   try {
+    board_->open();
     if (settings_.guardian) {
       for (const LastWill& will : board_->last_wills()) {
         guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));

@@ -33,7 +33,6 @@ class Mouse final : public ForceBoard {
         },
         *transport_);
     if (fault != LinkFault::kNone) {
-      transport_->close();
       throw DeviceError(name_ +
                             ": the device with the id 04d8:003f is no SPIDAR-mouse: asked for its "
                             "state, the answer is " +

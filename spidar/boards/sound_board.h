@@ -40,9 +40,7 @@ class Sound final : public ForceBoard {
     transport_->open();
     const LinkFault fault =
         open_exchange([&](int64_t deadline_ns) { return play({}, deadline_ns); }, *transport_);
-    if (fault == LinkFault::kNone) return;
-    transport_->close();
-    throw no_answer(name_, fault);
+    if (fault != LinkFault::kNone) throw no_answer(name_, fault);
   }
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
                   int64_t deadline_ns) noexcept override {

@@ -69,34 +69,29 @@ void Uart::require_same_stations() {
 }
 
 void Uart::open() {
-  try {
-    for (const auto& line : lines_) line->open();
-    // On a busy computer an answer may be missed.
-    for (const int64_t patience_ns : {kEnquiry_ns, 5 * kEnquiry_ns}) {
-      find_all(patience_ns);
-      if (motors_ >= strings_) break;
-    }
-    if (motors_ < strings_ || motors_ > kMaxStrings) {
-      throw DeviceError(
-          name_ + ": " + std::to_string(stations_.size()) + " motor boards answer, with " +
-              std::to_string(motors_) + " motors; the profile has " + std::to_string(strings_) +
-              " strings: name the lines of all boards (uart:PATH,PATH), and check their "
-              "supply",
-          stations_.empty() ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed);
-    }
-    require_same_stations();
-    std::array<uint32_t, kMaxStrings> raw{};
-    LinkFault fault = LinkFault::kTimeout;
-    for (int attempt = 0; attempt < 3 && fault != LinkFault::kNone; ++attempt) {
-      if (attempt > 0) recover();
-      fault = exchange_all({}, raw, monotonic_now_ns() + 10 * kEnquiry_ns);
-    }
-    if (fault != LinkFault::kNone) throw no_answer(name_, fault);
-    counts_.open(raw, motors_);
-  } catch (...) {
-    close();
-    throw;
+  for (const auto& line : lines_) line->open();
+  // On a busy computer an answer may be missed.
+  for (const int64_t patience_ns : {kEnquiry_ns, 5 * kEnquiry_ns}) {
+    find_all(patience_ns);
+    if (motors_ >= strings_) break;
   }
+  if (motors_ < strings_ || motors_ > kMaxStrings) {
+    throw DeviceError(
+        name_ + ": " + std::to_string(stations_.size()) + " motor boards answer, with " +
+            std::to_string(motors_) + " motors; the profile has " + std::to_string(strings_) +
+            " strings: name the lines of all boards (uart:PATH,PATH), and check their "
+            "supply",
+        stations_.empty() ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed);
+  }
+  require_same_stations();
+  std::array<uint32_t, kMaxStrings> raw{};
+  LinkFault fault = LinkFault::kTimeout;
+  for (int attempt = 0; attempt < 3 && fault != LinkFault::kNone; ++attempt) {
+    if (attempt > 0) recover();
+    fault = exchange_all({}, raw, monotonic_now_ns() + 10 * kEnquiry_ns);
+  }
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
+  counts_.open(raw, motors_);
 }
 
 LinkFault Uart::exchange(const Station& station, const MotorVolts& volts,

@@ -77,7 +77,7 @@ void UsbSearch::require_one() const {
 }
 
 void UsbSearch::open(const Open& open, const std::function<void()>& close) {
-  if (first_.known()) return open_again(open, close);
+  if (first_.known()) return open_again(open);
   const std::vector<Candidate> found = candidates();
   Candidate opened = found.front();
   if (is_clear(found)) {
@@ -90,7 +90,7 @@ void UsbSearch::open(const Open& open, const std::function<void()>& close) {
 }
 
 /// Boards without a serial number are told from each other by their switches, too.
-void UsbSearch::open_again(const Open& open, const std::function<void()>& close) const {
+void UsbSearch::open_again(const Open& open) const {
   const std::vector<Candidate> found = plugged_in();
   const auto same = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
     return first_.is(candidate.identity());
@@ -103,7 +103,6 @@ void UsbSearch::open_again(const Open& open, const std::function<void()>& close)
   }
   const int rotary = open(*same);
   if (rotary == first_rotary_) return;
-  close();
   DeviceIdentity changed = same->identity();
   changed.model += ", rotary switch " + std::to_string(rotary);
   throw first_.other(name_, changed);
@@ -122,10 +121,10 @@ UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& foun
       const int rotary = open(candidate);
       if (rotary == wanted) return candidate;
       listed += " (rotary switch " + std::to_string(rotary) + ")";
-      close();
     } catch (const DeviceError& error) {
       errors += std::string("; ") + error.what();
     }
+    close();
   }
   const std::string what =
       id_.empty()
@@ -165,9 +164,9 @@ void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
                         DeviceErrorCode::kSettings);
     }
     kind.transport->select(candidate.device);
-    kind.board->open();
     used_ = &kind;
     used_path_ = candidate.device.path;
+    kind.board->open();
   }
 }
 

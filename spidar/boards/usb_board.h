@@ -54,7 +54,7 @@ class UsbSearch {
   /// be only one device.
   UsbSearch(BoardKinds kinds, std::string name, std::string id);
 
-  /// Opens the device that is meant. `close` closes one that was opened and is another. Throws
+  /// Opens the device that is meant. `close` closes one that is another, or did not open. Throws
   /// DeviceError, which lists what there is.
   void open(const Open& open, const std::function<void()>& close);
   /// Throws as open() would before it opens anything.
@@ -68,7 +68,7 @@ class UsbSearch {
   bool is_named(const Candidate& candidate) const;
   Candidate open_matching(const std::vector<Candidate>& found, const Open& open,
                           const std::function<void()>& close) const;
-  void open_again(const Open& open, const std::function<void()>& close) const;
+  void open_again(const Open& open) const;
 
   const BoardKinds kinds_;
   const std::string name_;

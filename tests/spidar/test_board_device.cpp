@@ -201,9 +201,8 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     }
     if (!kind.has_strings()) EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
   }
-  for (const std::string spec :
-       {"uart:/dev/ttyUSB0,/dev/ttyUSB1", "inverse3:049D,port=8500",
-        "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
+  for (const std::string spec : {"uart:/dev/ttyUSB0,/dev/ttyUSB1", "inverse3:049D,port=8500",
+                                 "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
     EXPECT_EQ(make_grip(spec, profile)->name(), spec);
   }
   EXPECT_THROW(make_grip("sim:x", profile), DeviceError);

@@ -346,6 +346,8 @@ TEST_F(ForceFeedbackFaults, SettingsReturnWhenAReopeningFails) {
   EXPECT_EQ(port.autocentre, 0);
   port.upload_error = ENOSPC;
   EXPECT_THROW(board->open(), DeviceError);
+  board->close();
+  EXPECT_EQ(port.autocentre, 0);
   port.upload_error = 0;
   board.reset();
   EXPECT_EQ(port.autocentre, 0xFFFF);

@@ -170,6 +170,19 @@ TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
             "(rotary switch 3) usb:1-3 (rotary switch 9) usb:1-2 (rotary switch 7)");
 }
 
+/// Of boards that are asked for their switch, one does not answer.
+TEST_F(UsbBoards, ABoardThatDidNotOpenIsFree) {
+  UsbPort& silent = plug(0, UsbKind::kSh4);
+  plug(1, UsbKind::kSh4).inputs = 0x70;
+  silent.fault = LinkFault::kTimeout;
+  const auto seventh = device("usb:7", false);
+  ASSERT_EQ(opening(*seventh), "");
+  const auto first = device("usb:1-1", false), again = device("usb:1-1", false);
+  EXPECT_NE(opening(*first).find("does not answer"), std::string::npos);
+  silent.fault = LinkFault::kNone;
+  EXPECT_EQ(opening(*again), "");
+}
+
 TEST_F(UsbBoards, OpenSaysWhatToDo) {
   const std::string absent = opening(*device());
   EXPECT_EQ(absent.find("usb: no CyVerse USB 2.0 SH4 (0cec:0205) or "), 0u) << absent;
