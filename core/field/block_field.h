@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include "core/field/block_grid.h"
 #include "core/field/block_kernels.h"
 #include "core/field/block_search.h"
 #include "core/picture/padded_image.h"

@@ -29,7 +29,7 @@ extern "C" {
 #include <opencv2/video/tracking.hpp>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/motion/camera/robust_fit.h"
+#include "core/motion/camera/motion_models.h"
 #include "tests/bench/benchmarks.h"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
-#include "core/motion/layers/margins.h"
+#include "core/motion/layers/burned_in.h"
 #include "tests/support/scene_film.h"
 #include "tests/support/texture.h"
 

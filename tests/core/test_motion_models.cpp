@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/motion/camera/motion_models.h"
-#include "core/motion/camera/robust_fit.h"
 #include "point_samples.h"
 
 namespace spidar::test::motion_models_test {

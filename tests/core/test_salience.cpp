@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/layers/salience.h"
+#include "core/motion/layers/regions.h"
 
 namespace spidar::test::salience_test {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/motion/camera/motion_models.h"
-#include "core/motion/camera/robust_fit.h"
 
 namespace spidar {
 

@@ -12,6 +12,11 @@
 
 namespace spidar {
 
+/// Whether the blocks along the border, with texture or without, fit the picture before better if
+/// they have moved like the model than if they rest. Known objects are left out; where they have
+/// most of the border, it says nothing.
+bool border_has_moved(const BlockField& field, const Past& past, const MotionModel& model);
+
 /// The blocks without corners. Each is compared with that of the last four pictures from which the
 /// camera has moved it furthest: noise that an encoder has moved along with an object in one
 /// picture is new some pictures later, whereas shading and stains are still there. The sums of

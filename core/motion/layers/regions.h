@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds connected blocks that move by themselves.
+/// Finds connected blocks that move by themselves, and tells objects from layers of the scene by
+/// how they move over several frames.
 #pragma once
 
 #include <cstdint>
@@ -61,5 +62,48 @@ class RegionFinder {
   std::vector<Eigen::Vector2f> moved_px_;  ///< of the blocks of a region
   std::vector<Region> regions_;
 };
+
+/// The motion of one region over its last frames.
+///
+/// A part of the scene that is nearer than the background also moves against it when the camera
+/// travels. But it moves with the background, and the more, the faster the camera is, so that its
+/// motion on the screen is larger than its motion relative to the background. An object that a
+/// camera follows is nearer to rest on the screen than to the background.
+class LayerEvidence {
+ public:
+  /// Adds a frame, in px of the field's picture: the motion relative to the background, that of the
+  /// background at this position, and how far the blocks around move in the direction of the first,
+  /// as a standard deviation; 0 while the camera rests.
+  void add(const Eigen::Vector2d& relative_px, const Eigen::Vector2d& background_px,
+           double noise_px, double interval_s);
+
+  /// Motion over the noise around it, both as root mean squares: in a scene with depth, parts of it
+  /// that are further away than the background move against it like something that the camera
+  /// follows, and stand out now and then. Infinite without noise.
+  double contrast() const;
+
+  /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for
+  /// what the camera follows, 1 while the camera rests or shakes in place. The first is that of the
+  /// mean motion, from which the swings of a hand-held camera are gone; the second is a root mean
+  /// square, which an object has even while it turns round. Infinite without any motion.
+  double ratio() const;
+
+  /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz.
+  static constexpr double kMean_s = 0.6;
+
+ private:
+  Eigen::Vector2d on_screen_px_ = Eigen::Vector2d::Zero();  ///< mean of the last frames
+  double moved_px2_ = 0;                                    ///< mean square, against the background
+  double noise_px2_ = 0;                                    ///< mean square
+  bool is_empty_ = true;
+};
+
+/// √area × speed, px² of the field's picture. While the camera moves, 0 for what looks like an
+/// effect of its translation in a scene with depth: a layer extends over the border of the picture,
+/// moves along with the background, or hardly differs from the blocks around it. 0 also for the
+/// edge of graphics, and for a single edge. `was_followed`: it was an object before and may look a
+/// little more like a layer, and stand out a little less from the noise.
+double salience(const Region& region, const LayerEvidence& evidence, bool camera_moves,
+                bool was_followed);
 
 }  // namespace spidar

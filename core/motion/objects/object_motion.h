@@ -13,7 +13,6 @@
 #include "core/field/fine_windows.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/camera/motion_models.h"
-#include "core/motion/camera/robust_fit.h"
 #include "core/motion/layers/moving_blocks.h"
 #include "core/motion/layers/regions.h"
 #include "core/motion/objects/moving_object.h"

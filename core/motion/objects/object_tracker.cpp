@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/motion/layers/margins.h"
-#include "core/motion/layers/salience.h"
+#include "core/motion/layers/burned_in.h"
+#include "core/motion/layers/regions.h"
 
 namespace spidar {
 namespace {
