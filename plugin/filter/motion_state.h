@@ -20,11 +20,11 @@
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
+#include "plugin/timing/loop_queue.h"
 #include "plugin/timing/step_watch.h"
-#include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/track_loader.h"
 
 namespace spidar::filter {

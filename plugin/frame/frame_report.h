@@ -15,7 +15,7 @@
 #include "core/motion/image_motion.h"
 #include "core/orientation.h"
 #include "plugin/frame/frame_luma.h"
-#include "plugin/frame/no_force_reason.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/frame/touch_view.h"
 
 namespace spidar {

@@ -13,7 +13,7 @@
 #include "core/track/track_format.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tools/track_summary.h"
+#include "plugin/tracks/track_summary.h"
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
@@ -54,13 +54,13 @@ std::string rounded(double value) {
 }
 
 /// All channels but `axis` that contain something.
-std::vector<std::string> other_channels(const TrackSummary& summary, size_t axis) {
+std::vector<std::string> other_channels(const tracks::Summary& summary, size_t axis) {
   std::vector<std::string> others;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double peak = summary.channels[i].peak;
     if (i == axis || peak == 0) continue;
     others.push_back(std::string(tracks::channel_name(i)) + " up to " +
-                     rounded(peak * tracks::full_scale(i)) + channel_unit(i));
+                     rounded(peak * tracks::full_scale(i)) + tracks::channel_unit(i));
   }
   return others;
 }
@@ -73,7 +73,7 @@ std::string line_of(const std::vector<std::string>& lost) {
 
 constexpr const char* kClipped = "what is beyond the full scale";
 
-std::string lost_in_ahap(const TrackSummary& summary, double gain) {
+std::string lost_in_ahap(const tracks::Summary& summary, double gain) {
   std::vector<std::string> lost = {"the direction of the force"};
   if (summary.largest_torque_Nm > 0) {
     lost.push_back("torque up to " + rounded(summary.largest_torque_Nm) + " N m");
@@ -82,19 +82,20 @@ std::string lost_in_ahap(const TrackSummary& summary, double gain) {
   return line_of(lost);
 }
 
-std::string lost_in_funscript(const TrackSummary& summary, const SaveOptions& options) {
+std::string lost_in_funscript(const tracks::Summary& summary, const SaveOptions& options) {
   const size_t axis = options.axis;
   constexpr int kSteps = 50;  // on each side of the middle
   std::vector<std::string> lost = other_channels(summary, axis);
   lost.push_back("steps of " + std::string(tracks::channel_name(axis)) + " below " +
-                 rounded(tracks::full_scale(axis) / kSteps / options.gain) + channel_unit(axis));
+                 rounded(tracks::full_scale(axis) / kSteps / options.gain) +
+                 tracks::channel_unit(axis));
   if (options.gain * summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
   return line_of(lost);
 }
 
 /// What save_track() with the same options has lost of a track, in whole lines: "lost: fx up to 1.2
 /// N, steps of fy below 0.2 N". Empty for formats that hold all six channels.
-std::string lost_in(const std::string& path, const TrackSummary& summary,
+std::string lost_in(const std::string& path, const tracks::Summary& summary,
                     const SaveOptions& options) {
   if (ends_with(path, ".ahap")) return lost_in_ahap(summary, options.gain);
   if (ends_with(path, ".funscript")) return lost_in_funscript(summary, options);
@@ -102,7 +103,7 @@ std::string lost_in(const std::string& path, const TrackSummary& summary,
 }
 
 /// The channel in which most happens, as a fraction of its full scale.
-size_t liveliest_channel(const TrackSummary& summary) {
+size_t liveliest_channel(const tracks::Summary& summary) {
   size_t most = kUsualAxis;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     if (summary.channels[i].rms > summary.channels[most].rms) most = i;
@@ -118,7 +119,7 @@ size_t channel_of(const std::string& axis) {
 }
 
 /// What is to be known of the channel of a funscript, as a line; empty: nothing.
-std::string about_axis(const TrackSummary& summary, size_t axis, bool is_chosen) {
+std::string about_axis(const tracks::Summary& summary, size_t axis, bool is_chosen) {
   const size_t liveliest = liveliest_channel(summary);
   const std::string name = tracks::channel_name(axis);
   if (summary.channels[liveliest].peak == 0) return "the whole track is at rest\n";
@@ -135,7 +136,7 @@ bool has_own_range(const std::string& to) {
 }
 
 /// The gain with which the largest value fills the range of TO; 1 when there is none.
-double filling_gain(const std::string& to, const TrackSummary& summary, size_t axis) {
+double filling_gain(const std::string& to, const tracks::Summary& summary, size_t axis) {
   const double peak = ends_with(to, ".ahap") ? summary.largest_force_N / kTrackForceScale_N
                                              : summary.channels[axis].peak;
   return peak > 0 ? 1 / peak : 1;
@@ -160,7 +161,7 @@ void check_use(const ConvertOptions& options) {
 /// Six funscripts of a track. The forces have one gain and the torques another, so that their
 /// directions stay.
 void write_axes(const ConvertOptions& options, const SampleFile& samples,
-                const TrackSummary& summary) {
+                const tracks::Summary& summary) {
   const size_t main = liveliest_channel(summary);
   constexpr size_t kForces = kTrackChannels / 2;
   std::array<double, 2> gains{1, 1};
@@ -234,7 +235,7 @@ int convert_track(const ConvertOptions& options) {
     part = std::make_unique<PartFile>(to, PartFile::Replaces{options.force, "spidartrack convert"});
   }
   SampleFile samples(to);
-  Summariser summariser;
+  tracks::Summariser summariser;
   const SampleSource::Take take = [&](const TrackSample& sample) {
     samples.add(sample);
     summariser.add(sample);
@@ -245,7 +246,7 @@ int convert_track(const ConvertOptions& options) {
   samples.flush();
   expect_own_track(condition);
   save.notes = condition.notes;
-  const TrackSummary summary = summariser.summary();
+  const tracks::Summary summary = summariser.summary();
   if (!part) {
     write_axes(options, samples, summary);
     return kDone;

@@ -29,13 +29,13 @@
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tools/track_summary.h"
 #include "plugin/tracks/file_end.h"
 #include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
+#include "plugin/tracks/track_summary.h"
 #include "plugin/tracks/track_tags.h"
 #include "spidar/tools/command_line.h"
 
@@ -303,10 +303,10 @@ class Answering {
 /// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
 /// be felt), largest_force_N, fingerprint and settings.
 Json summary_of(const std::string& track) {
-  Summariser summariser;
+  tracks::Summariser summariser;
   const TrackCondition condition =
       read_track(track, [&summariser](const TrackSample& sample) { summariser.add(sample); });
-  const TrackSummary summary = summariser.summary();
+  const tracks::Summary summary = summariser.summary();
   return {{"duration_s", static_cast<double>(summary.samples) / kTrackRate_Hz},
           {"felt", summary.felt},
           {"largest_force_N", summary.largest_force_N},

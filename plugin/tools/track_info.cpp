@@ -10,15 +10,15 @@
 #include "core/json_text.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tools/track_summary.h"
+#include "plugin/tracks/track_summary.h"
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {
 namespace {
 
-std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
-  Summariser summariser;
+std::pair<TrackCondition, tracks::Summary> summarise(const std::string& path) {
+  tracks::Summariser summariser;
   TrackCondition found =
       read_track(path, [&summariser](const TrackSample& sample) { summariser.add(sample); });
   return {std::move(found), summariser.summary()};
@@ -26,7 +26,7 @@ std::pair<TrackCondition, TrackSummary> summarise(const std::string& path) {
 
 constexpr double kMaxSlew_N_s = 300;
 
-void print_json(const TrackCondition& found, const TrackSummary& summary) {
+void print_json(const TrackCondition& found, const tracks::Summary& summary) {
   Json info;
   if (!found.film.empty()) info = {{"film", found.film}, {"belongs", found.other.empty()}};
   info["track"] = found.track;
@@ -39,7 +39,7 @@ void print_json(const TrackCondition& found, const TrackSummary& summary) {
   info["not_finite"] = found.faults.not_finite;
   info["beyond_full_scale"] = found.faults.beyond_full;
   for (size_t i = 0; i < kTrackChannels; ++i) {
-    const ChannelSummary& channel = summary.channels[i];
+    const tracks::ChannelSummary& channel = summary.channels[i];
     info["channels"][tracks::channel_name(i)] = {
         {"peak", channel.peak}, {"rms", channel.rms}, {"above_30_Hz", channel.above_30_Hz}};
   }
@@ -67,11 +67,12 @@ int print_info(const InfoOptions& options) {
             << " N m, steepest " << summary.steepest_N_s << " N/s\n"
             << "channel        peak         rms       above 30 Hz\n";
   for (size_t i = 0; i < kTrackChannels; ++i) {
-    const ChannelSummary& channel = summary.channels[i];
+    const tracks::ChannelSummary& channel = summary.channels[i];
     std::cout << tracks::channel_name(i) << std::fixed << std::setprecision(4) << std::setw(17)
               << tracks::full_scale(i) * channel.peak << std::setw(12)
-              << tracks::full_scale(i) * channel.rms << std::left << std::setw(4) << channel_unit(i)
-              << std::right << std::setw(12) << 100 * channel.above_30_Hz << " %\n";
+              << tracks::full_scale(i) * channel.rms << std::left << std::setw(4)
+              << tracks::channel_unit(i) << std::right << std::setw(12) << 100 * channel.above_30_Hz
+              << " %\n";
   }
   return kDone;
 }

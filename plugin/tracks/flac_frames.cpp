@@ -17,7 +17,7 @@ struct StreamInfo {
   uint64_t samples = 0;
 };
 
-struct Frame {
+struct FlacFrame {
   uint64_t begin = 0, samples = 0;
 };
 
@@ -68,7 +68,7 @@ std::optional<uint64_t> coded_number(const std::string& bytes, size_t& at) {
 }
 
 /// Section 9.1: a frame whose head is at `from`.
-std::optional<Frame> frame_at(const std::string& bytes, size_t from, const StreamInfo& info) {
+std::optional<FlacFrame> frame_at(const std::string& bytes, size_t from, const StreamInfo& info) {
   if (bytes.size() - from < 6) return std::nullopt;
   const auto byte = [&](size_t i) {
     return static_cast<unsigned>(static_cast<uint8_t>(bytes[from + i]));
@@ -85,7 +85,7 @@ std::optional<Frame> frame_at(const std::string& bytes, size_t from, const Strea
   const size_t more_bytes = size_code == 6 ? 1 : size_code == 7 ? 2 : 0;
   const size_t rate_bytes = rate_code == 12 ? 1 : rate_code > 12 ? 2 : 0;
   if (!number || at + more_bytes + rate_bytes >= bytes.size()) return std::nullopt;
-  Frame frame;
+  FlacFrame frame;
   frame.samples = more_bytes > 0   ? big_endian(bytes, at, more_bytes) + 1
                   : size_code == 1 ? 192
                   : size_code < 6  ? uint64_t{576} << (size_code - 2)
@@ -132,7 +132,7 @@ FlacLength flac_length(FileBytes& file) {
     length.begin = frame->begin;
   }
   for (size_t at = end.size(); at-- > 0;) {
-    const std::optional<Frame> frame = frame_at(end, at, *info);
+    const std::optional<FlacFrame> frame = frame_at(end, at, *info);
     const std::optional<size_t> after = frame ? end_of_frame(end, at) : std::nullopt;
     if (!after) continue;
     length.end = frame->begin + frame->samples;

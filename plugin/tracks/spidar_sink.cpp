@@ -38,7 +38,7 @@
 #include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
 #include "plugin/frame/motion_message.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/output/device_warnings.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/device_rows.h"

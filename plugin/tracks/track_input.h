@@ -13,7 +13,7 @@
 
 #include "core/track/track_format.h"
 #include "core/track/track_reader.h"
-#include "plugin/tracks/track_band.h"
+#include "plugin/tracks/track_summary.h"
 
 namespace spidar::tracks {
 

@@ -3,7 +3,7 @@
 // Wrenches that wait until the haptic loop has room for them.
 #include <gtest/gtest.h>
 
-#include "plugin/timing/wrench_backlog.h"
+#include "plugin/timing/loop_queue.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tick_watch.h"
 

@@ -9,7 +9,7 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/choice/motion_choice.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/window/window.h"
 

@@ -12,7 +12,7 @@
 
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/frame/point_owners.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/overlay/video_overlay.h"

@@ -14,10 +14,10 @@
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/timing/wrench_backlog.h"
+#include "plugin/timing/loop_queue.h"
 
 namespace spidar::filter {
 

@@ -18,10 +18,9 @@
 #include "plugin/filter/engine/passing_frame.h"
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force_watch.h"
+#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/timing/loop_queue.h"
-#include "plugin/timing/wrench_backlog.h"
 #include "plugin/tracks/read_ahead.h"
 
 namespace spidar::filter {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How fast a track changes: no motion in a film is faster than 30 Hz, and most sound is.
+/// A track in numbers, and how fast it changes: no motion in a film is faster than 30 Hz, and most
+/// sound is.
 #pragma once
 
 #include <array>
@@ -49,5 +50,38 @@ class Band {
 const char* channel_name(size_t channel);
 /// What a sample of 1.0 is, in N or N m.
 double full_scale(size_t channel);
+/// " N" or " N m".
+const char* channel_unit(size_t channel);
+
+/// Statistics of one channel, in fractions of the full scale.
+struct ChannelSummary {
+  double peak = 0;
+  double rms = 0;
+  double above_30_Hz = 0;  ///< fraction of the energy; no motion in a film is this fast
+};
+
+struct Summary {
+  size_t samples = 0;
+  std::array<ChannelSummary, kTrackChannels> channels;
+  double largest_force_N = 0;
+  double largest_torque_Nm = 0;
+  double steepest_N_s = 0;  ///< largest rate of change of the force
+  /// Fraction of the time with at least kFeltForce_N, where torque counts as the force at the
+  /// radius of the grip (size_N()).
+  double felt = 0;
+};
+
+/// Summarises samples, 1000 a second, that come one after the other.
+class Summariser {
+ public:
+  void add(const TrackSample& sample);
+  Summary summary() const;
+
+ private:
+  Summary so_far_;
+  Band band_;
+  Wrench before_;
+  size_t felt_ = 0;
+};
 
 }  // namespace spidar::tracks

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tracks/track_band.h"
+#include "plugin/tracks/track_summary.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/force/motion_rendering.h"
@@ -27,6 +28,10 @@ const char* channel_name(size_t channel) {
 
 double full_scale(size_t channel) {
   return channel < kTrackChannels / 2 ? kTrackForceScale_N : kTrackTorqueScale_Nm;
+}
+
+const char* channel_unit(size_t channel) {
+  return channel < kTrackChannels / 2 ? " N" : " N m";
 }
 
 Band::Band(double rate_Hz)
@@ -71,6 +76,37 @@ int Band::sound_channel() const {
     }
   }
   return -1;
+}
+
+void Summariser::add(const TrackSample& sample) {
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    const double value = sample[channel];
+    double& peak = so_far_.channels[channel].peak;
+    peak = std::max(peak, std::fabs(value));
+  }
+  band_.add(sample);
+  const Wrench wrench = to_wrench(sample);
+  so_far_.largest_force_N = std::max(so_far_.largest_force_N, wrench.force_N.norm());
+  so_far_.largest_torque_Nm = std::max(so_far_.largest_torque_Nm, wrench.torque_Nm.norm());
+  if (so_far_.samples > 0) {
+    const double change_N_s = (wrench.force_N - before_.force_N).norm() * kTrackRate_Hz;
+    so_far_.steepest_N_s = std::max(so_far_.steepest_N_s, change_N_s);
+  }
+  felt_ += size_N(wrench) >= kFeltForce_N ? 1 : 0;
+  before_ = wrench;
+  ++so_far_.samples;
+}
+
+Summary Summariser::summary() const {
+  Summary summary = so_far_;
+  if (summary.samples == 0) return summary;
+  const auto samples = static_cast<double>(summary.samples);
+  summary.felt = static_cast<double>(felt_) / samples;
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
+    summary.channels[channel].rms = std::sqrt(band_.energy(channel) / samples);
+    summary.channels[channel].above_30_Hz = band_.above_30_Hz(channel);
+  }
+  return summary;
 }
 
 }  // namespace spidar::tracks
