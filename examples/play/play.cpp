@@ -24,9 +24,9 @@
 #include "examples/play/playback.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
+#include "plugin/films/part_file.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/tools/gnuplot.h"
-#include "plugin/tracks/part_file.h"
 #include "spidar/tools/command_line.h"
 
 namespace fs = std::filesystem;

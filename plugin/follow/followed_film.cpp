@@ -9,10 +9,10 @@
 
 #include <gst/pbutils/pbutils.h>
 
+#include "plugin/films/file_pipeline.h"
+#include "plugin/films/film_reader.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/file_pipeline.h"
-#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/monotonic.h"
@@ -58,7 +58,7 @@ GstElement* parse(const char* line) {
 /// The first stream that is a haptic track is felt.
 void link_track(GstElement*, GstPad* pad, gpointer decode) {
   const Ref<GstPad> sink(gst_element_get_static_pad(GST_ELEMENT(decode), "sink"));
-  if (!gst_pad_is_linked(sink.get()) && kind_of(pad) == StreamKind::kHapticTrack) {
+  if (!gst_pad_is_linked(sink.get()) && content_of(pad) == StreamContent::kHapticTrack) {
     gst_pad_link(pad, sink.get());
   }
 }

@@ -11,12 +11,12 @@
 
 #include <glib.h>
 
+#include "plugin/films/file_bytes.h"
+#include "plugin/films/film_reader.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tracks/file_bytes.h"
-#include "plugin/tracks/film_reader.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {

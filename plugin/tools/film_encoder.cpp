@@ -10,12 +10,12 @@
 
 #include <gst/gst.h>
 
+#include "plugin/films/file_bytes.h"
+#include "plugin/films/file_end.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tracks/file_bytes.h"
-#include "plugin/tracks/file_end.h"
-#include "plugin/tracks/file_pipeline.h"
 
 namespace spidar::tools {
 namespace {
@@ -130,7 +130,7 @@ void KeptSound::begin(GstElement* pipeline) {
 
 void KeptSound::hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
   auto& self = *static_cast<KeptSound*>(user);
-  if (kind_of(caps) != StreamKind::kSound) return;
+  if (content_of(caps) != StreamContent::kSound) return;
   self.missing_ = "a sound of it is left out: GStreamer has no decoder of " +
                   std::string(gst_structure_get_name(gst_caps_get_structure(caps, 0)));
 }
@@ -140,7 +140,7 @@ void KeptSound::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<KeptSound*>(user);
   for (GList* i = decoder->srcpads; i; i = i->next) {
     auto* const pad = static_cast<GstPad*>(i->data);
-    if (kind_of(pad) == StreamKind::kSound) self.keep(pad);
+    if (content_of(pad) == StreamContent::kSound) self.keep(pad);
   }
 }
 
@@ -186,13 +186,13 @@ bool has_played_container(const std::string& film) {
 
 /// Why browsers do not play one stream of a film; empty if they do.
 std::string why_not_played(GstPad* pad) {
-  const StreamKind kind = kind_of(pad);
+  const StreamContent content = content_of(pad);
   const Ref<GstCaps> caps(caps_of(pad)), played(gst_caps_from_string(kPlayed));
-  if (kind != StreamKind::kVideo && kind != StreamKind::kSound) return {};
+  if (content != StreamContent::kVideo && content != StreamContent::kSound) return {};
   if (is_picture(caps.get()) || gst_caps_can_intersect(caps.get(), played.get())) return {};
   const GstStructure* const format = gst_caps_get_structure(caps.get(), 0);
   const char* const profile = gst_structure_get_string(format, "profile");
-  return std::string(kind == StreamKind::kVideo ? "its picture is " : "its sound is ") +
+  return std::string(content == StreamContent::kVideo ? "its picture is " : "its sound is ") +
          gst_structure_get_name(format) + (profile ? std::string(" ") + profile : "");
 }
 

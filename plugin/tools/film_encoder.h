@@ -7,7 +7,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/tracks/part_file.h"
+#include "plugin/films/part_file.h"
 
 namespace spidar::tools {
 

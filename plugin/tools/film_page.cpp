@@ -13,12 +13,12 @@
 #include "core/force/motion_rendering.h"
 #include "core/json_text.h"
 #include "core/track/keyframes.h"
+#include "plugin/films/file_end.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_page_html.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/record_options.h"
-#include "plugin/tracks/file_end.h"
-#include "plugin/tracks/file_pipeline.h"
 
 namespace spidar::tools {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/file_pipeline.h"
 
 namespace spidar::tools {
 namespace {
@@ -23,7 +23,7 @@ std::string missing_decoder(const GstStructure* message) {
   const GValue* const detail = gst_structure_get_value(message, "detail");
   if (detail && GST_VALUE_HOLDS_CAPS(detail)) caps = gst_value_get_caps(detail);
   const char* const name = gst_structure_get_string(message, "name");
-  return caps && name && kind_of(caps) == StreamKind::kVideo ? name : "";
+  return caps && name && content_of(caps) == StreamContent::kVideo ? name : "";
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void FilmWatch::choose(GstElement* decoder, gpointer user) {
   for (GList* i = decoder->srcpads; i && (!chosen || is_cover); i = i->next) {
     auto* const pad = static_cast<GstPad*>(i->data);
     const Ref<GstCaps> caps(caps_of(pad));
-    if (kind_of(caps.get()) != StreamKind::kVideo) continue;
+    if (content_of(caps.get()) != StreamContent::kVideo) continue;
     gchar* const id = gst_pad_get_stream_id(pad);
     const std::lock_guard<std::mutex> lock(self.lock_);
     const bool is_file = id && self.pictures_.count(id) > 0;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "plugin/tracks/part_file.h"
+#include "plugin/films/part_file.h"
 
 namespace spidar::tools {
 

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "core/json_text.h"
+#include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/tracks/part_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "plugin/films/file_end.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
-#include "plugin/tracks/file_end.h"
-#include "plugin/tracks/file_pipeline.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {

@@ -12,9 +12,9 @@
 
 #include <gst/gst.h>
 
+#include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
-#include "plugin/tracks/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"
 

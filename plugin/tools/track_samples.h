@@ -14,7 +14,7 @@
 
 #include "core/track/exchange_formats.h"
 #include "core/track/track_format.h"
-#include "plugin/tracks/part_file.h"
+#include "plugin/films/part_file.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_tags.h"
 

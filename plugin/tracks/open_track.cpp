@@ -11,9 +11,9 @@
 
 #include <gst/gst.h>
 
+#include "plugin/films/file_end.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/file_end.h"
-#include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/track_tags.h"
 
 namespace spidar::tracks {
@@ -160,17 +160,17 @@ class TrackOfFile : public OpenTrack {
     give_up(element);
   }
 
-  bool is_wanted(StreamKind kind) const {
+  bool is_wanted(StreamContent content) const {
     if (is_chosen_) return false;
-    return kind == StreamKind::kHapticTrack ||
-           (wanted_ == Wanted::kFirstSound && kind == StreamKind::kSound);
+    return content == StreamContent::kHapticTrack ||
+           (wanted_ == Wanted::kFirstSound && content == StreamContent::kSound);
   }
 
   /// The first stream that is wanted is decoded, and all others are ignored.
   GstElement* take_stream(GstPad* pad) {
-    const StreamKind kind = kind_of(pad);
-    if (kind == StreamKind::kSound) has_sound_ = true;
-    if (!is_wanted(kind)) return nullptr;
+    const StreamContent content = content_of(pad);
+    if (content == StreamContent::kSound) has_sound_ = true;
+    if (!is_wanted(content)) return nullptr;
     is_chosen_ = true;
     const std::string unparsed = unparsed_type(pad);
     if (unparsed.empty()) return file_.find("decode");

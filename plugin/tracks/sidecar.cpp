@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "plugin/tracks/file_pipeline.h"
+#include "plugin/films/file_pipeline.h"
 
 namespace spidar {
 namespace {

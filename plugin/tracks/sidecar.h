@@ -8,7 +8,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/tracks/film_reader.h"
+#include "plugin/films/film_reader.h"
 #include "plugin/tracks/track_tags.h"
 
 namespace spidar {

@@ -37,6 +37,7 @@
 
 #include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/frame/motion_message.h"
 #include "plugin/frame/no_force.h"
 #include "plugin/output/device_warnings.h"
@@ -48,7 +49,6 @@
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_input.h"
-#include "plugin/tracks/track_tags.h"
 #include "plugin/tracks/track_warnings.h"
 
 namespace spidar {
@@ -194,7 +194,7 @@ struct SinkState {
   HapticOutput output;
   // Streaming thread.
   spidar::tracks::Input input;
-  spidar::tracks::Mark mark;  // as a haptic track
+  spidar::TrackMark mark;  // as a haptic track
   spidar::DeviceWarnings warnings;
   spidar::tracks::Warnings track_warnings;
   spidar::BlockMessages messages;

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "plugin/films/film_reader.h"
 #include "plugin/gobject/category.h"
-#include "plugin/tracks/film_reader.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_input.h"
 #include "spidar/realtime/thread_setup.h"

@@ -4,8 +4,8 @@
 
 #include <utility>
 
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/category.h"
-#include "plugin/tracks/track_tags.h"
 
 // GST_ELEMENT_WARNING logs there.
 #undef GST_CAT_DEFAULT
@@ -20,7 +20,7 @@ void Warnings::tell_of_mark() {
       ("This sound is not felt: nothing says that it is a haptic track. Tracks that spidarextract "
        "and spidartrack make have the tag %s. If this is one, set accept-unmarked=true, or mark "
        "the file: %s",
-       kMark, how_to_mark().c_str()),
+       kTrackMark, how_to_mark().c_str()),
       ("Sound for ears would push and pull the hand."));
 }
 

@@ -8,7 +8,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include "plugin/tracks/file_pipeline.h"
+#include "plugin/films/file_pipeline.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
 

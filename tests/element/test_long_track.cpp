@@ -13,9 +13,9 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
+#include "plugin/films/file_end.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/filter/engine/track_source.h"
-#include "plugin/tracks/file_end.h"
-#include "plugin/tracks/file_pipeline.h"
 #include "plugin/tracks/track_loader.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"

@@ -16,8 +16,8 @@
 #include "examples/play/picture.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
+#include "plugin/films/part_file.h"
 #include "plugin/tools/gnuplot.h"
-#include "plugin/tracks/part_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/force/motion_rendering.h"
+#include "plugin/films/file_pipeline.h"
 #include "plugin/tracks/track_tags.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
@@ -113,7 +114,7 @@ TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
 }
 
 TEST(TrackPlayback, AMarkBeforeTheStartOfItsStreamCounts) {
-  tracks::Mark mark;
+  TrackMark mark;
   const auto follow = [&mark](GstEvent* event) {
     mark.follow(event);
     gst_event_unref(event);

@@ -59,7 +59,7 @@ def read_wav(path):
 
 
 def part_name(name):
-    """What the file `name` is called while it is being written (plugin/tracks/part_file.h)."""
+    """What the file `name` is called while it is being written (plugin/films/part_file.h)."""
     number = hashlib.sha1(os.fsencode(name)).hexdigest()[:16]
     return f".part-{number}{pathlib.PurePath(name).suffix}"
 

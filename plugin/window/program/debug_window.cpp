@@ -18,7 +18,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "plugin/tracks/part_file.h"
+#include "plugin/films/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar::window {

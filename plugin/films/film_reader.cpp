@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tracks/film_reader.h"
+#include "plugin/films/film_reader.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,8 +12,8 @@
 
 #include <gst/gst.h>
 
+#include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/file_pipeline.h"
 
 namespace spidar {
 namespace {
@@ -205,19 +205,19 @@ class FilmReader {
   }
 
   static void look(GstElement*, GstPad* pad, gpointer user) {
-    static_cast<FilmReader*>(user)->kind_of_stream(pad);
+    static_cast<FilmReader*>(user)->content_of_stream(pad);
   }
 
   /// Whether it is a track is known before it flows, or not earlier.
-  StreamKind kind_of_stream(GstPad* pad) {
-    const StreamKind kind = kind_of(pad);
+  StreamContent content_of_stream(GstPad* pad) {
+    const StreamContent content = content_of(pad);
     const std::lock_guard<std::mutex> lock(mutex_);
-    film_.has_track = film_.has_track || kind == StreamKind::kHapticTrack;
-    return kind;
+    film_.has_track = film_.has_track || content == StreamContent::kHapticTrack;
+    return content;
   }
 
   GstElement* take_stream(GstPad* pad) {
-    if (kind_of_stream(pad) != StreamKind::kVideo) return nullptr;
+    if (content_of_stream(pad) != StreamContent::kVideo) return nullptr;
     const Ref<GstCaps> caps(caps_of(pad));
     const std::lock_guard<std::mutex> lock(mutex_);
     // A cover may come before the film.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tracks/file_end.h"
+#include "plugin/films/file_end.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "plugin/tracks/file_bytes.h"
-#include "plugin/tracks/flac_frames.h"
+#include "plugin/films/file_bytes.h"
+#include "plugin/films/flac_frames.h"
 
 namespace spidar {
 namespace {

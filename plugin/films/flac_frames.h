@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "plugin/tracks/file_bytes.h"
+#include "plugin/films/file_bytes.h"
 
 namespace spidar {
 

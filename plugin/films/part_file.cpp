@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tracks/part_file.h"
+#include "plugin/films/part_file.h"
 
 #include <cerrno>
 #include <csignal>
