@@ -7,13 +7,23 @@
 #include <utility>
 #include <vector>
 
-#include "core/choice/chosen.h"
-#include "core/frame_stamp.h"
+#include "core/choice/object_choice.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/measured_frame.h"
 #include "core/wrench.h"
 
 namespace spidar {
+
+/// When a frame is shown, and in which run of its film.
+struct FrameStamp {
+  /// Counts the runs of playback: a frame of another run does not follow the one before. A seek of
+  /// any length, another film and another rate begin one; a gap in the film does not.
+  uint32_t epoch = 0;
+  int64_t stream_ns = -1;   ///< position in the film of what is to be seen of it; −1: not known
+  int64_t running_ns = -1;  ///< at which that is shown, its end if backwards; −1: not known
+  int64_t length_ns = 0;    ///< of stream time, for which it is shown; 0: not known
+  double rate = 1;          ///< of stream time against running time; negative: backwards
+};
 
 /// The steps of the analysis fill it in, one after the other, and everybody else reads it.
 struct Frame : MeasuredFrame {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/analysis/analyzer_settings.h"
 #include "core/analysis/force_renderer.h"
 #include "core/analysis/frame.h"
 #include "core/motion/cadence.h"

@@ -13,7 +13,6 @@
 #include "core/field/block_kernels.h"
 #include "core/picture/image_view.h"
 #include "core/picture/opencv.h"
-#include "core/picture/vectors.h"
 #include "core/quantile.h"
 
 namespace spidar {

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
-#include "core/picture/vectors.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 

@@ -6,8 +6,8 @@
 
 #include "core/field/block_kernels.h"
 #include "core/picture/luma.h"
+#include "core/picture/opencv.h"
 #include "core/picture/padded_image.h"
-#include "core/picture/vectors.h"
 
 namespace spidar {
 namespace {

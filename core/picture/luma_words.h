@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/picture/image_view.h"
-#include "core/picture/vectors.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 

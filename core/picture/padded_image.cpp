@@ -8,7 +8,7 @@
 #include "core/picture/image_view.h"
 #include "core/picture/luma.h"
 #include "core/picture/luma_words.h"
-#include "core/picture/vectors.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "core/picture/vectors.h"
+#include "core/picture/opencv.h"
 
 namespace spidar {
 namespace {

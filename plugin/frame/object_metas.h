@@ -11,7 +11,7 @@
 
 #include <gst/video/video.h>
 
-#include "core/choice/chosen.h"
+#include "core/choice/object_choice.h"
 #include "core/orientation.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/frame/frame_report.h"

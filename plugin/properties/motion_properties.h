@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <gst/gst.h>
 
-#include "core/analysis/analyzer_settings.h"
+#include "core/analysis/force_renderer.h"
 #include "core/touch/depth_picture.h"
 #include "plugin/output/device_warnings.h"
 

@@ -8,7 +8,7 @@
 
 #include <gst/video/video.h>
 
-#include "core/frame_stamp.h"
+#include "core/analysis/frame.h"
 
 namespace spidar {
 

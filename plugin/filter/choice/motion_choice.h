@@ -12,7 +12,7 @@
 
 #include <gst/video/video.h>
 
-#include "core/choice/chosen.h"
+#include "core/choice/object_choice.h"
 #include "core/orientation.h"
 #include "plugin/filter/choice/feel_file.h"
 #include "plugin/filter/choice/sink_mouse.h"

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <gst/gst.h>
 
-#include "core/choice/chosen.h"
+#include "core/choice/object_choice.h"
 
 namespace spidar::filter {
 

@@ -5,7 +5,7 @@
 
 #include <gst/video/video.h>
 
-#include "core/frame_stamp.h"
+#include "core/analysis/frame.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar::filter {

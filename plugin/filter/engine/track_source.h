@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "core/frame_stamp.h"
+#include "core/analysis/frame.h"
 #include "core/wrench.h"
 #include "plugin/filter/engine/passing_frame.h"
 #include "plugin/filter/touch/relief_stream.h"
