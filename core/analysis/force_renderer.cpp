@@ -59,7 +59,7 @@ AnalyzerSettings paper_settings() {
   AnalyzerSettings settings;
   settings.motion = MotionKind::kMean;
   settings.filter.min_cutoff_Hz = 0;
-  settings.controller.kind = ControllerKind::kNonlinear;
+  settings.controller.law = ControlLaw::kNonlinear;
   return settings;
 }
 
@@ -86,7 +86,7 @@ ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
 
 void ForceRenderer::configure(const AnalyzerSettings& settings) {
   validate(settings);
-  if (settings.controller.kind == settings_.controller.kind) {
+  if (settings.controller.law == settings_.controller.law) {
     controller_->configure(settings.controller);
   } else {
     controller_ = make_controller(settings.controller);
@@ -99,7 +99,7 @@ void ForceRenderer::configure(const AnalyzerSettings& settings) {
 ChoiceInput ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
   return {frame.objects,         frame.background ? &*frame.background : nullptr,
           frame.width,           frame.height,
-          frame.interval_s(),    frame.picture == PictureKind::kFirst,
+          frame.interval_s(),    frame.picture == Likeness::kFirst,
           frame.stamp.stream_ns, turn,
           settings_.boxes.get()};
 }
@@ -151,7 +151,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   }
   frame.choice = choice;
   frame.choice.object = nullptr;
-  if (frame.picture == PictureKind::kFirst) {
+  if (frame.picture == Likeness::kFirst) {
     lost_frames_.reset();
     filter_.reset();
     washout_.reset();
@@ -163,7 +163,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   }
   frame.felt_object = felt_object(frame, settings_.motion, choice);
   ImageMotion felt = motion_of_choice(frame, turn, choice);
-  if (frame.picture == PictureKind::kSame) {
+  if (frame.picture == Likeness::kSame) {
     filter_.stop();
     washout_.reset();
     fade_.reset();

@@ -17,7 +17,7 @@ void MotionAnalyzer::take(const Cadence::Step& step) {
 /// The paper's motion: the mean over all points. False when there is nothing to compare with.
 bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
   frame_.features = tracked.features;
-  if (tracked.picture == PictureKind::kFirst) return false;
+  if (tracked.picture == Likeness::kFirst) return false;
   frame_.points = tracked.points;
   frame_.mean = mean_motion(tracked.points, frame_.interval_ns);
   return true;
@@ -28,14 +28,14 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
   const bool may_wait = cadence_.would_wait(running_ns);
   const OpenCvTracker::Result* const tracked =
       by_points() ? &tracker_.track(image, may_wait) : nullptr;
-  const PictureKind picture = tracked ? tracked->picture : reduced_.read(image, may_wait);
-  const bool is_comparable = picture != PictureKind::kFirst && last_running_ns_;
+  const Likeness picture = tracked ? tracked->picture : reduced_.read(image, may_wait);
+  const bool is_comparable = picture != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (is_comparable) {
     step = cadence_.see(picture, running_ns, !tracked && reduced_.is_coded());
     if (step.waits) {
-      frame_.picture = PictureKind::kWaiting;
+      frame_.picture = Likeness::kWaiting;
       return false;
     }
   } else {
@@ -92,8 +92,8 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
   }
   last_running_ns_ = running_ns;
   frame_.stamp.running_ns = running_ns;
-  const Cadence::Step step = cadence_.see(PictureKind::kSame, running_ns);
-  frame_.picture = step.waits ? PictureKind::kWaiting : PictureKind::kSame;
+  const Cadence::Step step = cadence_.see(Likeness::kSame, running_ns);
+  frame_.picture = step.waits ? Likeness::kWaiting : Likeness::kSame;
   if (!step.waits) {
     take(step);
     renderer_.render(frame_, turn_);

@@ -21,7 +21,7 @@ namespace spidar {
 /// at a time.
 ///
 /// A frame that shows the previous picture again does not show whether anything moves. It waits
-/// (PictureKind::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
+/// (Likeness::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 class MotionAnalyzer {
  public:

@@ -30,16 +30,16 @@ void validate(const ControllerSettings& settings) {
 
 std::unique_ptr<GainController> make_controller(const ControllerSettings& settings) {
   validate(settings);
-  switch (settings.kind) {
-    case ControllerKind::kLinear:
+  switch (settings.law) {
+    case ControlLaw::kLinear:
       return std::make_unique<LinearController>(settings.max_force_N);
-    case ControllerKind::kNonlinear:
+    case ControlLaw::kNonlinear:
       return std::make_unique<NonlinearController>(settings.max_force_N, settings.alpha_s_px);
-    case ControllerKind::kAdaptive:
+    case ControlLaw::kAdaptive:
       return std::make_unique<AdaptiveController>(settings.max_force_N, settings.alpha_s_px);
   }
   throw std::invalid_argument("there is no controller kind " +
-                              std::to_string(static_cast<int>(settings.kind)));
+                              std::to_string(static_cast<int>(settings.law)));
 }
 
 namespace {

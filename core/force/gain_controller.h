@@ -7,10 +7,11 @@
 
 namespace spidar {
 
-enum class ControllerKind { kLinear, kNonlinear, kAdaptive };
+/// How a force follows from a speed.
+enum class ControlLaw { kLinear, kNonlinear, kAdaptive };
 
 struct ControllerSettings {
-  ControllerKind kind = ControllerKind::kNonlinear;
+  ControlLaw law = ControlLaw::kNonlinear;
   double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
   /// α of eq. 15, per px/s of the reference frame, finite and ≥ 0. The default was chosen on 50
   /// clips (docs/feeling.md, What can be told apart).
@@ -38,7 +39,7 @@ class GainController {
   /// the order of the frames.
   virtual double force_N(const MeasuredSpeed& speed) = 0;
 
-  /// Other limits from now on; what was learnt stays. `settings.kind` does not matter here.
+  /// Other limits from now on; what was learnt stays. `settings.law` does not matter here.
   virtual void configure(const ControllerSettings& settings) = 0;
 
   /// Forgets what was learnt: after a flush or a discontinuity of the stream.
@@ -80,7 +81,7 @@ class NonlinearController final : public GainController {
 /// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
 void validate(const ControllerSettings& settings);
 
-/// The controller of `settings.kind`. Throws as validate() does.
+/// The controller of `settings.law`. Throws as validate() does.
 std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
 
 /// F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the speeds seen,

@@ -104,8 +104,8 @@ bool Cadence::would_wait(int64_t time_ns) const {
   return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
 }
 
-Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns, bool is_coded) {
-  const bool repeated = picture == PictureKind::kSame;
+Cadence::Step Cadence::see(Likeness picture, int64_t time_ns, bool is_coded) {
+  const bool repeated = picture == Likeness::kSame;
   const bool waits = repeated && would_wait(time_ns);
   const int64_t frame_ns = begun_ ? std::max<int64_t>(time_ns - frame_ns_, 1) : 0;
   frame_ns_ = time_ns;
@@ -129,7 +129,7 @@ Cadence::Step Cadence::see(PictureKind picture, int64_t time_ns, bool is_coded) 
   begun_ = has_changed_ = true;
   rests_ = false;
   if (between_ns <= kLongest_ns) {
-    if (picture == PictureKind::kOther) remember(shown);
+    if (picture == Likeness::kOther) remember(shown);
     step.interval_ns = step.shown_for_ns = between_ns;
   }
   size_t unlike = 0;

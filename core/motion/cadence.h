@@ -48,7 +48,7 @@ class Cadence {
   /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
   /// that waited for long enough to be analysed; or kOther. `is_coded`: it is kSame but for the
   /// noise of coding, which is told from motion only after RepeatedPicture::kLeastDips repetitions.
-  Step see(PictureKind picture, int64_t time_ns, bool is_coded = false);
+  Step see(Likeness picture, int64_t time_ns, bool is_coded = false);
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }

@@ -18,7 +18,7 @@ namespace spidar {
 
 /// Of a frame that waits, all but `picture` is that of the picture before.
 struct MeasuredFrame {
-  PictureKind picture = PictureKind::kFirst;
+  Likeness picture = Likeness::kFirst;
   int width = 0;  ///< px
   int height = 0;
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
@@ -38,7 +38,7 @@ struct MeasuredFrame {
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
   /// Nothing is known to move. The memory stays.
   void clear_motion() {
-    picture = PictureKind::kFirst;
+    picture = Likeness::kFirst;
     interval_ns = shown_for_ns = 0;
     points.clear();
     mean = {};

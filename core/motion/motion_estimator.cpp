@@ -47,7 +47,7 @@ void MotionEstimator::report_points(const FieldPosition& position,
 
 bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
                                MeasuredFrame& frame) {
-  if (reduced.picture() == PictureKind::kSame && field_.has_picture()) {
+  if (reduced.picture() == Likeness::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
     camera_.reset();

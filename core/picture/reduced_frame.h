@@ -17,7 +17,7 @@ class ReducedFrame {
   /// Returns picture(). A frame that repeats the picture before is skipped: the next one is
   /// compared with that picture. With `may_wait`, one that is equal within the noise of coding is,
   /// too. Throws as require_usable() does.
-  PictureKind read(const ImageView& frame, bool may_wait = false) {
+  Likeness read(const ImageView& frame, bool may_wait = false) {
     require_usable(frame);
     const bool is_comparable = frame.width == width_ && frame.height == height_;
     width_ = frame.width;
@@ -28,12 +28,12 @@ class ReducedFrame {
     base_.repeat_border();
     if (!is_comparable) {
       repeated_picture_.reset();
-      return picture_ = PictureKind::kFirst;
+      return picture_ = Likeness::kFirst;
     }
     picture_ = repeated_picture_.look(before_.view(), base_.view());
-    is_coded_ = picture_ == PictureKind::kAlike;
-    if (is_coded_ && may_wait) picture_ = PictureKind::kSame;
-    if (picture_ == PictureKind::kSame) std::swap(before_, base_);
+    is_coded_ = picture_ == Likeness::kAlike;
+    if (is_coded_ && may_wait) picture_ = Likeness::kSame;
+    if (picture_ == Likeness::kSame) std::swap(before_, base_);
     return picture_;
   }
 
@@ -46,7 +46,7 @@ class ReducedFrame {
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
   /// kFirst where the frame before had another size; kSame where it was skipped. Never kWaiting.
-  PictureKind picture() const { return picture_; }
+  Likeness picture() const { return picture_; }
   /// It is the same but for the noise of coding.
   bool is_coded() const { return is_coded_; }
 
@@ -59,7 +59,7 @@ class ReducedFrame {
   int factor_ = 1;
   int width_ = 0;
   int height_ = 0;
-  PictureKind picture_ = PictureKind::kFirst;
+  Likeness picture_ = Likeness::kFirst;
   bool is_coded_ = false;
   RepeatedPicture repeated_picture_;
 };

@@ -114,12 +114,12 @@ bool RepeatedPicture::is_small(float change) const {
   return change < kFractionWhenDue * periodic.large && is_due(periodic);
 }
 
-PictureKind RepeatedPicture::look(const ImageView& before, const ImageView& now) {
+Likeness RepeatedPicture::look(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
   changes_.add(change);
-  if (change == 0) return PictureKind::kSame;
-  return alike ? PictureKind::kAlike : PictureKind::kOther;
+  if (change == 0) return Likeness::kSame;
+  return alike ? Likeness::kAlike : Likeness::kOther;
 }
 
 }  // namespace spidar

@@ -13,7 +13,7 @@
 namespace spidar {
 
 /// What a frame shows, compared with the picture before.
-enum class PictureKind : uint8_t {
+enum class Likeness : uint8_t {
   kFirst,    ///< there is nothing to compare with: the first one, another size, or a cut
   kWaiting,  ///< the same picture, and the motion may go on
   kSame,     ///< the same picture, which is at rest
@@ -22,8 +22,8 @@ enum class PictureKind : uint8_t {
 };
 
 /// Whether the picture before is shown again, be it waiting or at rest.
-constexpr bool is_again(PictureKind kind) {
-  return kind != PictureKind::kFirst && kind != PictureKind::kOther;
+constexpr bool is_again(Likeness picture) {
+  return picture != Likeness::kFirst && picture != Likeness::kOther;
 }
 
 /// Compares pictures of the same size. Identical pixels are always a repetition, but a lossy
@@ -41,7 +41,7 @@ class RepeatedPicture {
  public:
   /// Compares `now` with `before`; both have 8 bits. Call for every frame, in order. kSame: the
   /// same pixels, kAlike or kOther.
-  PictureKind look(const ImageView& before, const ImageView& now);
+  Likeness look(const ImageView& before, const ImageView& now);
 
   /// Call when the next pictures are unrelated to the previous ones.
   void reset() { changes_.clear(); }

@@ -174,7 +174,7 @@ struct OpenCvTracker::Impl {
 
 void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   result.picture = reduced.read(frame, may_wait);
-  if (result.picture == PictureKind::kSame) {
+  if (result.picture == Likeness::kSame) {
     if (!may_wait) stand_still();
     return;
   }
@@ -185,13 +185,13 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
                               cv::Size(kWindow_px, kWindow_px), kMaxLevel, kWithDerivatives,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
   result.points.clear();
-  if (result.picture == PictureKind::kFirst) {
+  if (result.picture == Likeness::kFirst) {
     features.clear();
   } else if (!follow()) {
-    result.picture = PictureKind::kFirst;
+    result.picture = Likeness::kFirst;
   }
   ++frames_since_selection;
-  const bool begins = result.picture == PictureKind::kFirst;
+  const bool begins = result.picture == Likeness::kFirst;
   if (begins || settings_changed || selection_is_due()) select();
   result.features = static_cast<int>(features.size());
 }

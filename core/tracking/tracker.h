@@ -52,7 +52,7 @@ class OpenCvTracker {
     int features = 0;                   ///< points to search in the next frame
     /// With kSame the next frame will be compared with the same picture as this one. Never
     /// kWaiting.
-    PictureKind picture = PictureKind::kFirst;
+    Likeness picture = Likeness::kFirst;
   };
 
   /// Throws as validate() does.

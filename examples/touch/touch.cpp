@@ -69,7 +69,7 @@ constexpr double kStroke = 0.8;  ///< of the picture's width
 
 /// The picture's relief, as touch=luma makes it, or that of its depth, as touch=depth does.
 void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
-  touch::Frame& frame = *mailbox.begin(mailbox.generation());
+  touch::Surface& frame = *mailbox.begin(mailbox.generation());
   touch::ReliefSettings settings;
   settings.floor_z_m = -0.5 * settings.relief_m;
   touch::ReliefBuilder builder;

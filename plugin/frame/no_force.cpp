@@ -134,7 +134,7 @@ std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept {
 }
 
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
-  if (frame.picture == PictureKind::kFirst) return NoForceReason::kNothingToCompare;
+  if (frame.picture == Likeness::kFirst) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
@@ -200,7 +200,7 @@ NoForceReason NoForceHistory::reason(int64_t now_ns) const noexcept {
   std::array<size_t, kNoForceReasons> pictures{};
   bool repeats = false;
   for (size_t i = 0; i < count_; ++i) {
-    const Frame& frame = latest(i);
+    const Shown& frame = latest(i);
     if (frame.shown_ns > now_ns) continue;
     if (frame.shown_ns <= now_ns - kWindow_ns) break;
     if (frame.force_N >= kFeltForce_N) return NoForceReason::kNone;

@@ -94,16 +94,16 @@ class NoForceHistory {
   void reset() noexcept { count_ = 0; }
 
  private:
-  struct Frame {
+  struct Shown {
     int64_t shown_ns = 0;
     double force_N = 0;
     NoForceReason reason = NoForceReason::kNone;
   };
-  const Frame& latest(size_t i) const noexcept {
+  const Shown& latest(size_t i) const noexcept {
     return frames_[(next_ + 2 * kFrames - 1 - i) % kFrames];
   }
 
-  std::array<Frame, kFrames> frames_{};
+  std::array<Shown, kFrames> frames_{};
   size_t count_ = 0;
   size_t next_ = 0;
 };

@@ -100,7 +100,7 @@ void PointOwners::find(FrameReport& report) {
   report.felt = felt_objects(report);
   report.points.clear();
   report.lost.clear();
-  if (report.frame.picture == PictureKind::kFirst) return reset();
+  if (report.frame.picture == Likeness::kFirst) return reset();
   const auto left_px = static_cast<float>(report.visible.x);
   const auto top_px = static_cast<float>(report.visible.y);
   for (const FollowedPoint& given : report.frame.points) {

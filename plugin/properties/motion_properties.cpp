@@ -80,17 +80,16 @@ std::vector<MotionRow> marked(std::vector<MotionRow> rows) {
 /// Which motion is felt, and how: from `controller` to `washout`.
 std::vector<MotionRow> analysis_rows() {
   return {
-      MotionRow::choice<ControllerKind>(
+      MotionRow::choice<ControlLaw>(
           {"controller", "Controller", "How speed is converted to force"}, "GstSpidarController",
-          {{ControllerKind::kLinear, "Linear: full force at the largest speed so far (eq. 11-13)",
+          {{ControlLaw::kLinear, "Linear: full force at the largest speed so far (eq. 11-13)",
             "linear"},
-           {ControllerKind::kNonlinear, "Nonlinear: arctangent of the speed (eq. 14-15)",
-            "nonlinear"},
-           {ControllerKind::kAdaptive,
+           {ControlLaw::kNonlinear, "Nonlinear: arctangent of the speed (eq. 14-15)", "nonlinear"},
+           {ControlLaw::kAdaptive,
             "Adaptive: nonlinear, with an alpha that follows the speeds of the scene (a tenth to "
             "ten times the one that is set) and a dead zone for slow motions",
             "adaptive"}},
-          kControllable, KEPT_IN(analyzer.controller.kind)),
+          kControllable, KEPT_IN(analyzer.controller.law)),
       with(MotionRow::choice<MotionKind>(
                {"motion", "Motion", "Which motion in the picture is rendered as force"},
                "GstSpidarFeltMotion",

@@ -13,19 +13,19 @@ namespace gst_spidar {
 inline namespace v0 {
 namespace {
 
-spidar::ControllerKind kind_of(Controller controller) {
+spidar::ControlLaw law_of(Controller controller) {
   switch (controller) {
     case Controller::kLinear:
-      return spidar::ControllerKind::kLinear;
+      return spidar::ControlLaw::kLinear;
     case Controller::kNonlinear:
-      return spidar::ControllerKind::kNonlinear;
+      return spidar::ControlLaw::kNonlinear;
     case Controller::kAdaptive:
-      return spidar::ControllerKind::kAdaptive;
+      return spidar::ControlLaw::kAdaptive;
   }
   throw std::invalid_argument("there is no such controller");
 }
 
-spidar::MotionKind kind_of(FeltMotion motion) {
+spidar::MotionKind law_of(FeltMotion motion) {
   switch (motion) {
     case FeltMotion::kMean:
       return spidar::MotionKind::kMean;
@@ -41,8 +41,8 @@ spidar::MotionKind kind_of(FeltMotion motion) {
 
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   spidar::AnalyzerSettings result;
-  result.controller.kind = kind_of(settings.controller);
-  result.motion = kind_of(settings.motion);
+  result.controller.law = law_of(settings.controller);
+  result.motion = law_of(settings.motion);
   result.controller.max_force_N = settings.max_force_N;
   result.controller.alpha_s_px = settings.alpha_s_px;
   result.pointer = {settings.pointer_x, settings.pointer_y};

@@ -71,7 +71,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
     connected_ = mailbox_.get();
   }
   if (loop.snapshot().last.device == spidar::DeviceState::kLost) return false;
-  spidar::touch::Frame* const frame = free_slot();
+  spidar::touch::Surface* const frame = free_slot();
   if (frame == nullptr) return false;
   builder_.from_brightness(picture, relief, frame->relief);
   frame->has_texture = surface.texture > 0;
@@ -89,10 +89,10 @@ void TouchedSurface::clear() noexcept {
 }
 
 /// The loop frees those of former surfaces in its next tick, unless the device is lost meanwhile.
-spidar::touch::Frame* TouchedSurface::free_slot() noexcept {
+spidar::touch::Surface* TouchedSurface::free_slot() noexcept {
   constexpr int kTicks = 20;
   for (int i = 0; i < kTicks; ++i) {
-    if (spidar::touch::Frame* const frame = mailbox_->begin(mailbox_->generation())) return frame;
+    if (spidar::touch::Surface* const frame = mailbox_->begin(mailbox_->generation())) return frame;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return nullptr;

@@ -32,7 +32,7 @@ class TouchedSurface {
   void clear() noexcept;
 
  private:
-  spidar::touch::Frame* free_slot() noexcept;
+  spidar::touch::Surface* free_slot() noexcept;
 
   spidar::touch::ReliefBuilder builder_;
   std::unique_ptr<spidar::touch::Mailbox> mailbox_;          ///< null before the first surface

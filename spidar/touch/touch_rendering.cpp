@@ -17,10 +17,10 @@ Mailbox::Mailbox(double width_m, double height_m, size_t slots) {
   for (size_t i = 0; i < slots; ++i) frames_.emplace_back(width_m, height_m);
 }
 
-Frame* Mailbox::begin(uint32_t generation) noexcept {
+Surface* Mailbox::begin(uint32_t generation) noexcept {
   const size_t tail = tail_.load(std::memory_order_relaxed);
   if (tail - head_.load(std::memory_order_acquire) == frames_.size()) return nullptr;
-  Frame& frame = frames_[tail % frames_.size()];
+  Surface& frame = frames_[tail % frames_.size()];
   frame.generation = generation;
   return &frame;
 }
@@ -29,7 +29,7 @@ void Mailbox::publish() noexcept {
   tail_.store(tail_.load(std::memory_order_relaxed) + 1, kRelease);
 }
 
-const Frame* Mailbox::front(size_t nth) const noexcept {
+const Surface* Mailbox::front(size_t nth) const noexcept {
   const size_t head = head_.load(std::memory_order_relaxed);
   if (tail_.load(std::memory_order_acquire) - head <= nth) return nullptr;
   return &frames_[(head + nth) % frames_.size()];
@@ -38,7 +38,7 @@ const Frame* Mailbox::front(size_t nth) const noexcept {
 namespace {
 
 /// Whether the surface can change continuously from one frame to the other.
-bool leads_to(const Frame& before, const Frame& after) noexcept {
+bool leads_to(const Surface& before, const Surface& after) noexcept {
   return after.follows && before.has_surface && after.has_surface &&
          after.time_ns > before.time_ns && after.displacement_m.allFinite();
 }
@@ -55,7 +55,7 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
   drop_cleared(mailbox);
   advance(mailbox, running_ns);
   Contact result;
-  const Frame* const now = frame(mailbox, 0);
+  const Surface* const now = frame(mailbox, 0);
   if (!reached_ || now == nullptr || !now->has_surface) {
     contact_.reset();
     stiffness_N_m_ = 0;
@@ -63,9 +63,9 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
   }
   if (!(dt_s <= kLongestTick_s)) contact_.reset();
 
-  const Frame* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
+  const Surface* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
   MovingRelief surface{&now->relief};
-  const Frame* nearest = now;
+  const Surface* nearest = now;
   if (next != nullptr && leads_to(*now, *next)) {
     surface.after = &next->relief;
     surface.displacement_m = next->displacement_m;
@@ -113,20 +113,20 @@ void Rendering::drop_cleared(Mailbox& mailbox) noexcept {
     reached_ = leads_on_ = false;
     contact_.reset();
   }
-  for (const Frame* oldest = mailbox.front();
+  for (const Surface* oldest = mailbox.front();
        oldest != nullptr && is_older(oldest->generation, generation_); oldest = mailbox.front()) {
     mailbox.drop();
   }
 }
 
 /// Also null if the frame belongs to a generation that began after this tick.
-const Frame* Rendering::frame(const Mailbox& mailbox, size_t nth) const noexcept {
-  const Frame* const found = mailbox.front(nth);
+const Surface* Rendering::frame(const Mailbox& mailbox, size_t nth) const noexcept {
+  const Surface* const found = mailbox.front(nth);
   return found != nullptr && found->generation == generation_ ? found : nullptr;
 }
 
 void Rendering::advance(Mailbox& mailbox, int64_t running_ns) noexcept {
-  const Frame* now = frame(mailbox, 0);
+  const Surface* now = frame(mailbox, 0);
   if (now == nullptr) {
     reached_ = leads_on_ = false;
     return;
@@ -138,7 +138,7 @@ void Rendering::advance(Mailbox& mailbox, int64_t running_ns) noexcept {
     leads_on_ = false;
     reached_ns_ = now->time_ns;
   }
-  for (const Frame* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
+  for (const Surface* next = frame(mailbox, 1); next != nullptr; next = frame(mailbox, 1)) {
     if (!leads_on_) {
       leads_on_ = true;
       jumped_ = false;
@@ -150,7 +150,7 @@ void Rendering::advance(Mailbox& mailbox, int64_t running_ns) noexcept {
                    ? std::max(next->time_ns, from_ns_ + std::min(kShortest_ns, interval_ns))
                    : next->time_ns;
     }
-    const Frame* const after_next = frame(mailbox, 2);
+    const Surface* const after_next = frame(mailbox, 2);
     const bool late = after_next != nullptr && after_next->time_ns <= running_ns;
     if (running_ns < to_ns_ && !late) return;
     mailbox.drop();

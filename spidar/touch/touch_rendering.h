@@ -18,8 +18,9 @@
 namespace spidar::touch {
 
 /// The touchable surface of one frame.
-struct Frame {
-  Frame(double width_m, double height_m) : relief(width_m, height_m), texture(width_m, height_m) {}
+struct Surface {
+  Surface(double width_m, double height_m)
+      : relief(width_m, height_m), texture(width_m, height_m) {}
 
   int64_t time_ns = 0;       ///< running time at which the frame is shown
   bool has_surface = false;  ///< false: nothing can be touched from that time on
@@ -61,21 +62,21 @@ class Mailbox {
 
   /// Returns the slot to fill, with its old content, or null when none is free. Pass the generation
   /// that was current when processing of the frame began.
-  Frame* begin(uint32_t generation) noexcept;
+  Surface* begin(uint32_t generation) noexcept;
   /// Publishes the slot that begin() returned.
   void publish() noexcept;
 
   // --- reader
 
   /// Returns the oldest frame or the `nth` after it, null if there is none. Valid until dropped.
-  const Frame* front(size_t nth = 0) const noexcept;
+  const Surface* front(size_t nth = 0) const noexcept;
   /// Releases the slot of front(), which must not be null.
   void drop() noexcept { head_.store(head_.load(std::memory_order_relaxed) + 1, kRelease); }
 
  private:
   static constexpr std::memory_order kRelease = std::memory_order_release;
 
-  std::vector<Frame> frames_;
+  std::vector<Surface> frames_;
   // On separate cache lines, to avoid false sharing between writer and reader.
   alignas(64) std::atomic<size_t> head_{0};  ///< number of frames dropped
   alignas(64) std::atomic<size_t> tail_{0};  ///< number of frames published
@@ -184,7 +185,7 @@ class Rendering {
 
  private:
   void drop_cleared(Mailbox& mailbox) noexcept;
-  const Frame* frame(const Mailbox& mailbox, size_t nth) const noexcept;
+  const Surface* frame(const Mailbox& mailbox, size_t nth) const noexcept;
   void advance(Mailbox& mailbox, int64_t running_ns) noexcept;
   double fraction_of_next(int64_t running_ns) const noexcept;
   bool jumps(const MovingRelief& surface, const Eigen::Vector2d& position_m) const noexcept;

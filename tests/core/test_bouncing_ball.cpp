@@ -125,7 +125,7 @@ TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
 TEST(BouncingBall, LinearForceIsEquations11To13OfTheAnalyticVelocity) {
   const BallScene scene(ball());
   AnalyzerSettings settings = paper_settings();
-  settings.controller.kind = ControllerKind::kLinear;
+  settings.controller.law = ControlLaw::kLinear;
   const std::vector<Frame> frames = analyze(scene, settings);
   double largest_px_s = 0;
   for (int n = 1; n < kFrames; ++n) {

@@ -13,7 +13,7 @@
 namespace spidar::test::cadence_test {
 namespace {
 
-using Shows = PictureKind;
+using Shows = Likeness;
 
 constexpr double kSpeed_px_s = 100;
 

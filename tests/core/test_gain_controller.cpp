@@ -40,7 +40,7 @@ TEST(LinearController, ResetForgetsTheLargestSpeed) {
 TEST(LinearController, ANewLimitKeepsTheLargestSpeed) {
   LinearController controller(3.0);
   controller.force_N(200);
-  controller.configure({ControllerKind::kLinear, 1.0, 0.01});
+  controller.configure({ControlLaw::kLinear, 1.0, 0.01});
   EXPECT_NEAR(controller.force_N(100), 0.5, kRounding);
 }
 
@@ -64,20 +64,19 @@ TEST(NonlinearController, FollowsEquation15) {
 
 TEST(MakeController, MakesTheKindAskedFor) {
   EXPECT_TRUE(
-      dynamic_cast<LinearController*>(make_controller({ControllerKind::kLinear, 3, 0.01}).get()));
-  const auto nonlinear = make_controller({ControllerKind::kNonlinear, 2, 0.02});
+      dynamic_cast<LinearController*>(make_controller({ControlLaw::kLinear, 3, 0.01}).get()));
+  const auto nonlinear = make_controller({ControlLaw::kNonlinear, 2, 0.02});
   EXPECT_NEAR(nonlinear->force_N(50), 1.0, kRounding);
-  EXPECT_TRUE(
-      dynamic_cast<AdaptiveController*>(make_controller({ControllerKind::kAdaptive}).get()));
+  EXPECT_TRUE(dynamic_cast<AdaptiveController*>(make_controller({ControlLaw::kAdaptive}).get()));
 }
 
 TEST(MakeController, RefusesWhatIsNotAForceOrAFactor) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, nan, infinity}) {
-    EXPECT_THROW(make_controller({ControllerKind::kLinear, bad, 0.01}), std::invalid_argument);
-    EXPECT_THROW(make_controller({ControllerKind::kNonlinear, 3, bad}), std::invalid_argument);
-    EXPECT_THROW(make_controller({ControllerKind::kAdaptive, 3, bad}), std::invalid_argument);
+    EXPECT_THROW(make_controller({ControlLaw::kLinear, bad, 0.01}), std::invalid_argument);
+    EXPECT_THROW(make_controller({ControlLaw::kNonlinear, 3, bad}), std::invalid_argument);
+    EXPECT_THROW(make_controller({ControlLaw::kAdaptive, 3, bad}), std::invalid_argument);
   }
 }
 
@@ -198,19 +197,19 @@ TEST(AdaptiveController, NewLimitsKeepTheScaleAndResetForgetsIt) {
   Adaptive controller(kMax_N, kAlpha_s_px);
   play(controller, 300, 60);
   const double scale_px_s = controller.scale_px_s();
-  controller.configure({ControllerKind::kAdaptive, 1.0, kAlpha_s_px});
+  controller.configure({ControlLaw::kAdaptive, 1.0, kAlpha_s_px});
   EXPECT_EQ(controller.scale_px_s(), scale_px_s);
   EXPECT_NEAR(controller.force_N(300), force_N(300 - DeadZone::kLeast_px_s, scale_px_s) / kMax_N,
               kAdaptiveRounding);
   // Outside a decade of the new α: clamped to its edge.
-  controller.configure({ControllerKind::kAdaptive, kMax_N, 1.0});
+  controller.configure({ControlLaw::kAdaptive, kMax_N, 1.0});
   EXPECT_NEAR(controller.scale_px_s(), 10, kAdaptiveRounding);
   controller.reset();
   EXPECT_NEAR(controller.scale_px_s(), 1, kAdaptiveRounding);
-  controller.configure({ControllerKind::kAdaptive, kMax_N, 0});
+  controller.configure({ControlLaw::kAdaptive, kMax_N, 0});
   EXPECT_EQ(controller.force_N(1e6), 0);
   controller.reset();
-  controller.configure({ControllerKind::kAdaptive, kMax_N, kAlpha_s_px});
+  controller.configure({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
   EXPECT_NEAR(controller.scale_px_s(), 100, 100 * kAdaptiveRounding);
 }
 

@@ -16,7 +16,7 @@ constexpr double kFrame_s = 0.04;
 
 AnalyzerSettings linear() {
   AnalyzerSettings settings = paper_settings();
-  settings.controller.kind = ControllerKind::kLinear;
+  settings.controller.law = ControlLaw::kLinear;
   return settings;
 }
 
@@ -128,7 +128,7 @@ TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
 
 TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesNot) {
   AnalyzerSettings settings = paper_settings();
-  settings.controller.kind = ControllerKind::kAdaptive;
+  settings.controller.law = ControlLaw::kAdaptive;
   MotionAnalyzer analyzer(settings);
   const auto controller = make_controller(settings.controller);
   int64_t time_ns = 0;
@@ -199,7 +199,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   EXPECT_NEAR(half.wrench.force_N.norm(), 0.5, 0.5 * relative);
 
   // Another kind starts anew.
-  settings.controller.kind = ControllerKind::kNonlinear;
+  settings.controller.law = ControlLaw::kNonlinear;
   analyzer.configure(settings);
   const Frame nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
   NonlinearController controller(1.0, 0.0025);

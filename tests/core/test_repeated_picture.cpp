@@ -20,7 +20,7 @@ namespace spidar::test::repeated_picture_test {
 namespace {
 
 using test::Picture;
-using Kind = PictureKind;
+using Kind = Likeness;
 
 /// Noise of `grey` levels up and down, each as likely.
 Picture moved(double dx, uint32_t noise_seed = 0, uint32_t grey = 2) {

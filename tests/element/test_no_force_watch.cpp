@@ -40,7 +40,7 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
 /// A frame in which nothing is felt, with points enough.
 Frame unfelt() {
   Frame frame;
-  frame.picture = PictureKind::kOther;
+  frame.picture = Likeness::kOther;
   frame.height = 480;
   frame.interval_ns = kFrame_ns;
   frame.features = 100;

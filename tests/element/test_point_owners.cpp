@@ -12,7 +12,7 @@ namespace {
 
 FrameReport report_of(const std::vector<FollowedPoint>& points, const VisiblePart& visible) {
   FrameReport report;
-  report.frame.picture = PictureKind::kOther;
+  report.frame.picture = Likeness::kOther;
   report.frame.points = points;
   report.frame.interval_ns = 40'000'000;
   report.visible = visible;

@@ -32,7 +32,7 @@ bool is_all(const touch::HeightField& field, float z_m) {
 }
 
 bool publish(touch::Mailbox& mailbox, int64_t number) {
-  touch::Frame* const frame = mailbox.begin(mailbox.generation());
+  touch::Surface* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = number;
   fill(frame->relief, static_cast<float>(number));
@@ -100,10 +100,10 @@ TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
   int64_t torn = 0;
   int64_t out_of_order = 0;
   for (int64_t n = 1; n <= kFrames; ++n) {
-    const touch::Frame* oldest = nullptr;
+    const touch::Surface* oldest = nullptr;
     while ((oldest = mailbox.front()) == nullptr) std::this_thread::yield();
-    const touch::Frame* const next = mailbox.front(1);
-    for (const touch::Frame* frame : {oldest, next}) {
+    const touch::Surface* const next = mailbox.front(1);
+    for (const touch::Surface* frame : {oldest, next}) {
       if (frame == nullptr) continue;
       const auto z_m = static_cast<float>(frame->time_ns);
       if (!is_all(frame->relief, z_m) || !is_all(frame->texture, z_m)) ++torn;
@@ -131,7 +131,7 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   });
   std::thread writer([&] {
     for (int64_t n = 1; !done; ++n) {
-      if (touch::Frame* const frame = mailbox.begin(mailbox.generation())) {
+      if (touch::Surface* const frame = mailbox.begin(mailbox.generation())) {
         frame->time_ns = n;
         mailbox.publish();
       } else {
@@ -142,7 +142,7 @@ TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   uint32_t last = 0;
   bool rising = true;
   while (!done) {
-    if (const touch::Frame* const frame = mailbox.front()) {
+    if (const touch::Surface* const frame = mailbox.front()) {
       rising = rising && frame->generation >= last && frame->generation <= kTimes;
       last = frame->generation;
       mailbox.drop();

@@ -109,7 +109,7 @@ TEST(TouchRendering, WhatMovesMayRiseFaster) {
   Touched touched(16);
   for (int64_t n = 0; n < 16; ++n) {
     const double moved_m = kSpeed_m_s * 1e-9 * static_cast<double>(n * kFrame);
-    touch::Frame* const frame = touched.mailbox.begin(touched.mailbox.generation());
+    touch::Surface* const frame = touched.mailbox.begin(touched.mailbox.generation());
     frame->time_ns = n * kFrame;
     frame->has_surface = true;
     frame->follows = n > 0;

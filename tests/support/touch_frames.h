@@ -16,7 +16,7 @@ enum class After { kCut, kFrame };
 template <typename Surface>
 bool publish_surface(touch::Mailbox& mailbox, int64_t time_ns, After after, Surface&& z_m,
                      const touch::ContactSettings& contact = {}) {
-  touch::Frame* const frame = mailbox.begin(mailbox.generation());
+  touch::Surface* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = time_ns;
   frame->has_surface = true;
@@ -42,7 +42,7 @@ inline bool publish_plane(touch::Mailbox& mailbox, int64_t time_ns, double z_m,
 
 /// Publishes that there is nothing to touch from `time_ns` on.
 inline bool publish_nothing(touch::Mailbox& mailbox, int64_t time_ns) {
-  touch::Frame* const frame = mailbox.begin(mailbox.generation());
+  touch::Surface* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;
   frame->time_ns = time_ns;
   frame->has_surface = false;

@@ -110,7 +110,7 @@ Wrench film_wrench(double amplitude_N, double time_s) {
 }
 
 void publish(touch::Mailbox& mailbox, const TouchScene& scene, const StringTouch& touch) {
-  touch::Frame& frame = *mailbox.begin(mailbox.generation());
+  touch::Surface& frame = *mailbox.begin(mailbox.generation());
   frame.has_surface = true;
   frame.has_texture = touch.texture;
   frame.contact = touch.contact;

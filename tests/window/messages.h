@@ -33,7 +33,7 @@ inline window::FrameShown some_frame() {
   report.felt = {4};
   report.turn = Orientation(3, true);
   report.motion = MotionKind::kObjects;
-  report.controller = {ControllerKind::kAdaptive, 2.5, 0.02};
+  report.controller = {ControlLaw::kAdaptive, 2.5, 0.02};
   report.speed_px_s = 321;
   report.click = 2;
   report.track = std::make_shared<const std::string>("/film.haptic.flac");

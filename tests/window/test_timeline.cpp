@@ -56,7 +56,7 @@ TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {
   record(timeline, 1, 1000);
   timeline.add(ForceTick{1'000'000'000, {1, 0, 0}});
   ControllerSettings linear;
-  linear.kind = ControllerKind::kLinear;
+  linear.law = ControlLaw::kLinear;
   const auto at_250_px_s = [&] { return timeline.gain_curve(linear, 250, 2)[1]; };
   // Eq. 12 and 13: in proportion to the largest speed, which is not shown any more.
   EXPECT_NEAR(at_250_px_s(), linear.max_force_N / 2, kRounding);

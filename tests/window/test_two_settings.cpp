@@ -83,9 +83,9 @@ TEST(TwoSettings, AResetGivesBackWhatWasSeenFirst) {
 
 TEST(TwoSettings, ControllerIsThatOfTheValues) {
   const ControllerSettings controller = window::with_values(
-      {ControllerKind::kLinear, 3, 0.01},
-      {{"controller", static_cast<double>(ControllerKind::kAdaptive)}, {"max-force", 2}});
-  EXPECT_EQ(controller.kind, ControllerKind::kAdaptive);
+      {ControlLaw::kLinear, 3, 0.01},
+      {{"controller", static_cast<double>(ControlLaw::kAdaptive)}, {"max-force", 2}});
+  EXPECT_EQ(controller.law, ControlLaw::kAdaptive);
   EXPECT_EQ(controller.max_force_N, 2);
   EXPECT_EQ(controller.alpha_s_px, 0.01);
 }

@@ -219,11 +219,11 @@ TEST(GainCurve, IsThatOfTheController) {
   EXPECT_EQ(nonlinear[0], 0);
   EXPECT_NEAR(nonlinear[1], 1.5, kRounding);
   EXPECT_NEAR(nonlinear[2], 6 / M_PI * std::atan(2.0), kRounding);
-  settings.kind = ControllerKind::kLinear;  // eq. 12: k = 3 / 400
+  settings.law = ControlLaw::kLinear;  // eq. 12: k = 3 / 400
   const std::vector<double> linear = timeline.gain_curve(settings, 200, 3);
   EXPECT_NEAR(linear[2], 1.5, kRounding);
   // The same as one that was given the frame, once.
-  settings.kind = ControllerKind::kAdaptive;
+  settings.law = ControlLaw::kAdaptive;
   const auto adaptive = make_controller(settings);
   adaptive->force_N({400, 0.04});
   EXPECT_NEAR(timeline.gain_curve(settings, 200, 3)[1], adaptive->force_N(100), kRounding);

@@ -67,7 +67,7 @@ std::string json_line(const Frame& frame) {
                      {"interval_ns", frame.interval_ns},
                      {"width_px", frame.width},
                      {"height_px", frame.height},
-                     {"restarted", frame.picture == PictureKind::kFirst},
+                     {"restarted", frame.picture == Likeness::kFirst},
                      {"repeated", is_again(frame.picture)},
                      {"features", frame.features},
                      {"object", frame.felt_object},

@@ -30,7 +30,7 @@ class MotionStats {
   void add(const Frame& frame, int64_t took_ns) {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++frames_;
-    if (frame.picture == PictureKind::kFirst) ++restarts_;
+    if (frame.picture == Likeness::kFirst) ++restarts_;
     features_ = frame.features;
     tracked_ = frame.motion.tracked;
     model_.reset();

@@ -34,7 +34,7 @@ int step_of(int samples, int cells) {
 }  // namespace
 
 Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position) {
-  if (frame.picture == PictureKind::kFirst || is_again(frame.picture) || frame.interval_ns <= 0) {
+  if (frame.picture == Likeness::kFirst || is_again(frame.picture) || frame.interval_ns <= 0) {
     return Eigen::Vector2d::Zero();
   }
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
@@ -148,7 +148,7 @@ const float* ReliefStream::turned(const float* levels) {
 
 /// Fills in the surface of a frame. Returns false when the frame has no pixels.
 bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
-                         touch::Frame& frame) {
+                         touch::Surface& frame) {
   touch::ReliefSettings settings;
   settings.relief_m = 1e-3 * properties.relief_mm;
   settings.floor_z_m = -0.5 * settings.relief_m;
@@ -186,7 +186,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
   const uint32_t generation = mailbox_->generation();
   if (muted_) return;
   const int64_t begin_ns = monotonic_now_ns();
-  touch::Frame* const frame = mailbox_->begin(generation);
+  touch::Surface* const frame = mailbox_->begin(generation);
   if (!frame) {
     ++reliefs_left_out_;
     left_out_ = true;
@@ -219,7 +219,7 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
 void ReliefStream::end(int64_t shown_ns) {
   if (!mailbox_ || !touched_) return;
   touched_ = false;
-  touch::Frame* const frame = mailbox_->begin(mailbox_->generation());
+  touch::Surface* const frame = mailbox_->begin(mailbox_->generation());
   if (!frame) {
     mailbox_->clear();
     return;

@@ -83,7 +83,7 @@ class ReliefStream {
  private:
   void start();
   bool build(const ImageView& luma, int64_t shown_ns, const TouchProperties& properties,
-             touch::Frame& frame);
+             touch::Surface& frame);
   ImageView thinned(const ImageView& luma);
   const float* turned(const float* levels);
 

@@ -183,7 +183,7 @@ void pass(Wire& wire, MovingObject& object) {
 
 template <typename Wire>
 void pass(Wire& wire, ControllerSettings& controller) {
-  wire.choice(controller.kind, ControllerKind::kAdaptive);
+  wire.choice(controller.law, ControlLaw::kAdaptive);
   wire(controller.max_force_N, controller.alpha_s_px);
 }
 

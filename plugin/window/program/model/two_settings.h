@@ -89,8 +89,8 @@ inline ControllerSettings with_values(ControllerSettings controller, const Setti
     const auto found = values.find(name);
     return found == values.end() ? otherwise : found->second;
   };
-  controller.kind = static_cast<ControllerKind>(
-      static_cast<int>(value("controller", static_cast<int>(controller.kind))));
+  controller.law = static_cast<ControlLaw>(
+      static_cast<int>(value("controller", static_cast<int>(controller.law))));
   controller.max_force_N = value("max-force", controller.max_force_N);
   controller.alpha_s_px = value("alpha", controller.alpha_s_px);
   return controller;
