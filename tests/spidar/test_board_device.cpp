@@ -197,9 +197,13 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
     for (const std::string& real : real_names(kind)) {
       EXPECT_EQ(make_grip(real, profile)->name(), real);
       EXPECT_EQ(make_grip(real, profile)->traits().has_strings, kind.has_strings()) << real;
-      if (!kind.has_strings()) EXPECT_THROW(make_device(real, profile), DeviceError) << real;
+      if (!kind.has_strings()) {
+        EXPECT_THROW(make_device(real, profile), DeviceError) << real;
+      }
     }
-    if (!kind.has_strings()) EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
+    if (!kind.has_strings()) {
+      EXPECT_THROW(make_device(spec, profile), DeviceError) << spec;
+    }
   }
   for (const std::string spec : {"uart:/dev/ttyUSB0,/dev/ttyUSB1", "inverse3:049D,port=8500",
                                  "sound:A,3=x,4=0.6/0.8/0,carrier=40,gain=50"}) {
