@@ -49,7 +49,7 @@ BackgroundVotes votes(const std::vector<Displacement>& points, int blocks = 250)
   return votes;
 }
 
-const Background& estimate(BackgroundEstimator& estimator, const BackgroundVotes& votes) {
+Background estimate(BackgroundEstimator& estimator, const BackgroundVotes& votes) {
   return estimator.keep(estimator.propose(votes));
 }
 
@@ -141,7 +141,7 @@ TEST(Background, FollowsThePanBehindAnObjectThatHasTwoFifthsOfTheVotes) {
       auto points = source.moved(pan, 80, kSigma_px);
       // 80 points have some 96 votes, for those at the border have two.
       add_object(source, points, 64, {0, 0}, {6, 3}, kSigma_px);
-      const Background& found = estimate(estimator, votes(points));
+      const Background found = estimate(estimator, votes(points));
       ASSERT_EQ(found.model.kind, ModelKind::kTranslation) << "seed " << seed;
       // 80 points that do not count alike, at worst as 40: σ / √40 a coordinate, 5 deviations.
       EXPECT_LT((found.model.shift_px - pan.shift_px).norm(), 5 * kSigma_px / std::sqrt(40.0));
@@ -223,7 +223,7 @@ TEST(Background, AFastCameraIsFoundBesideAnObjectThatMovesAsOne) {
       points.back().moved_px.x() += 6;
     }
     BackgroundEstimator estimator;
-    const Background& found = estimate(estimator, votes(points));
+    const Background found = estimate(estimator, votes(points));
     EXPECT_EQ(found.model.kind, ModelKind::kHomography) << "seed " << seed;
     // As above, of 240 points: √(8 / 480) = 0.13 σ.
     for (const Eigen::Vector2d& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(300, 160)}) {
@@ -256,7 +256,7 @@ TEST(SparseVotes, OfOneOrTwoObjectsAreNotTheBackgrounds) {
         for (size_t i = 0; i < objects; ++i) {
           add_object(source, points, count, positions_px[i], moved_px[i], kSigma_px);
         }
-        const Background& found = estimate(estimator, votes(points, 900));
+        const Background found = estimate(estimator, votes(points, 900));
         EXPECT_EQ(found.model.kind, ModelKind::kStill)
             << objects << " objects of " << count << ", frame " << n;
         EXPECT_TRUE(found.is_known) << objects << " objects of " << count << ", frame " << n;
@@ -350,7 +350,7 @@ TEST(SparseVotes, OfALargeThingDoNotMakeItUnknown) {
   PointSource source(3);
   for (int i = 0; i < 10; ++i) points.push_back(source.stray());
   BackgroundEstimator estimator;
-  const Background& found = estimate(estimator, votes(points, kPlainBlocks));
+  const Background found = estimate(estimator, votes(points, kPlainBlocks));
   EXPECT_EQ(found.model.kind, ModelKind::kStill);
   EXPECT_TRUE(found.is_known);
 }
@@ -369,7 +369,7 @@ TEST(SparseVotes, InManyPlacesAreEnough) {
           const Eigen::Vector2d within_px(16 * (i / 15 % 2), 16 * (i / 30));
           points.push_back(source.moved(truth, cloud_px + within_px, kSigma_px));
         }
-        const Background& found = estimate(estimator, votes(points, 900));
+        const Background found = estimate(estimator, votes(points, 900));
         EXPECT_EQ(found.model.kind, kind) << "seed " << seed << ", frame " << n;
         // 60 points: σ / √60 a coordinate, 5 deviations.
         EXPECT_LT((found.model.shift_px - truth.shift_px).norm(),
