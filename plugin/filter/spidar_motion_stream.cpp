@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "plugin/filter/analysis_permit.h"
 #include "plugin/filter/motion_state.h"
 #include "plugin/frame/motion_message.h"
 #include "plugin/gobject/bus_messages.h"
@@ -18,6 +19,7 @@
 
 using spidar::FrameReport;
 using spidar::Pointer;
+using spidar::filter::AnalysisPermit;
 using spidar::filter::MotionState;
 
 static GstBaseTransformClass* parent_class() {
@@ -101,6 +103,8 @@ static bool device_goes_on(MotionState& state) {
 
 static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter,
                                                           GstVideoFrame* frame) {
+  const AnalysisPermit permit;
+  if (!permit) return GST_FLOW_OK;
   GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
   MotionState& state = *self->state;
   const spidar::FrameSettings& settings = state.frame_settings;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/filter/analysis_permit.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+
+namespace spidar::filter {
+namespace {
+
+/// More than a frame takes. What has not ended by then may not end at all, for example because
+/// exit() is called by the very thread that has the permit, in a handler of a signal.
+constexpr std::chrono::seconds kLongestWait{1};
+
+struct Permits {
+  std::mutex mutex;
+  std::condition_variable changed;
+  int given = 0;
+  bool is_ending = false;
+  bool is_registered = false;
+};
+
+/// Never destroyed: a thread may still ask for a permit while the process ends.
+Permits& permits() {
+  static auto& all = *new Permits;
+  return all;
+}
+
+void wait_for_frames() {
+  Permits& all = permits();
+  std::unique_lock<std::mutex> lock(all.mutex);
+  all.is_ending = true;
+  all.changed.wait_for(lock, kLongestWait, [&all] { return all.given == 0; });
+}
+
+}  // namespace
+
+AnalysisPermit::AnalysisPermit() {
+  Permits& all = permits();
+  const std::lock_guard<std::mutex> lock(all.mutex);
+  is_given_ = !all.is_ending;
+  if (!is_given_) return;
+  ++all.given;
+}
+
+AnalysisPermit::~AnalysisPermit() {
+  if (!is_given_) return;
+  Permits& all = permits();
+  const std::lock_guard<std::mutex> lock(all.mutex);
+  --all.given;
+  all.changed.notify_all();
+  // exit() calls what was registered last first. OpenCV makes its objects at their first use, so
+  // this is registered when a frame has been analysed.
+  if (!all.is_registered) all.is_registered = std::atexit(wait_for_frames) == 0;
+}
+
+}  // namespace spidar::filter

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// exit() while frames are analysed.
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "plugin/filter/analysis_permit.h"
+
+namespace spidar::test::analysis_permit_test {
+namespace {
+
+using filter::AnalysisPermit;
+
+std::atomic<bool> frame_begins{false};
+std::atomic<bool> frame_ends{false};
+
+/// Registered first, it is called last, as the destructors of OpenCV are.
+void check_the_end() {
+  if (!frame_ends) _exit(2);
+  _exit(AnalysisPermit() ? 3 : 0);
+}
+
+/// Ends the process while another thread analyses a frame, its second one.
+[[noreturn]] void exit_in_a_frame() {
+  std::atexit(check_the_end);
+  std::thread([] {
+    { const AnalysisPermit first; }
+    const AnalysisPermit second;
+    frame_begins = true;
+    // Long enough for exit() to be called.
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    frame_ends = true;
+  }).detach();
+  while (!frame_begins) std::this_thread::yield();
+  std::exit(1);
+}
+
+TEST(AnalysisPermit, ExitWaitsForTheFrameAndNoOtherIsAnalysed) {
+  EXPECT_EXIT(exit_in_a_frame(), testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace spidar::test::analysis_permit_test
