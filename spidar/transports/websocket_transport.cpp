@@ -179,7 +179,8 @@ bool WebSocketTransport::Connection::run(const Done& done, int64_t deadline_ns) 
     if (lws_service(context_, 0) < 0) state_ = State::kGone;
     if (gone()) break;
   }
-  lws_sul_schedule(context_, 0, &alarm_.entry, nullptr, LWS_SET_TIMER_USEC_CANCEL);
+  // From version 4.3.5 on, libwebsockets ends the process if there is no function to be called.
+  lws_sul_schedule(context_, 0, &alarm_.entry, Alarm::ring, LWS_SET_TIMER_USEC_CANCEL);
   return done();
 }
 

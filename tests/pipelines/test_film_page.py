@@ -70,7 +70,8 @@ class FilmPage(track_case.TrackCase):
 
     def run_page(self, *times_s, page="page.html"):
         """What film_page.js prints."""
-        return json.loads(self.run_in_folder(["node", str(FILM_PAGE_JS), str(self.path(page)), *map(str, times_s)]))
+        said = self.run_in_folder(["node", str(FILM_PAGE_JS), str(self.path(page)), *map(str, times_s)])
+        return json.loads(said.splitlines()[-1])  # after warnings of node's own
 
     def assert_shows(self, samples, tolerance_N):
         steps = range(0, len(samples) // STEP_MS, 7)

@@ -145,10 +145,12 @@ class Players(gst_case.GstCase):
                 self.stop(pipeline)
 
     def test_every_picture_of_videotestsrc(self):
-        for pattern in Gst.ElementFactory.make("videotestsrc").find_property("pattern").enum_class.__enum_values__.values():
-            outcome = self.play(f"videotestsrc num-buffers=5 pattern={pattern.value_nick} ! "
+        patterns = Gst.ElementFactory.make("videotestsrc").find_property("pattern").enum_class
+        # Newer releases of PyGObject give the class as GLib has it.
+        for pattern in range(patterns.n_values if hasattr(patterns, "n_values") else len(patterns.__enum_values__)):
+            outcome = self.play(f"videotestsrc num-buffers=5 pattern={pattern} ! "
                                 "video/x-raw,width=320,height=240 ! spidarmotion ! fakesink")
-            self.assertEqual((outcome.error, outcome.warnings, len(outcome.forces)), ("", [], 5), pattern.value_nick)
+            self.assertEqual((outcome.error, outcome.warnings, len(outcome.forces)), ("", [], 5), pattern)
 
     def test_a_damaged_film(self):
         self.make_film("clip.avi", 30)

@@ -95,7 +95,8 @@ class InFilm(track_case.TrackCase):
         tags = self.expect_kept()["tags"]
         self.assertEqual((tags["language"], tags["title"]), ("zxx", "Haptic track"))
         tracks = json.loads(self.run_in_folder(["mkvmerge", "-J", "both.mkv"]))["tracks"]
-        self.assertFalse(tracks[-1]["properties"]["enabled_track"])
+        haptic, = [track for track in tracks if track["properties"].get("track_name") == "Haptic track"]
+        self.assertFalse(haptic["properties"]["enabled_track"])
         self.expect_found()
 
     def test_ffmpeg(self):
