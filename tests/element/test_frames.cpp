@@ -129,29 +129,6 @@ TEST(Frames, CapsMayChangeWhilePlaying) {
   EXPECT_NEAR(h.motions()[3].velocity_x, 100, kTolerance_px_s);
 }
 
-TEST(Frames, OnlyTheCropIsLookedAt) {
-  ElementHarness h;
-  h.set_caps(make_caps("GRAY8", 640, 480));
-  for (int n = 0; n < 2; ++n) {
-    // Outside of the crop the picture moves the other way.
-    GstBuffer* frame = make_frame(h.info(), -3.0 * n, 0);
-    GstMapInfo map;
-    gst_buffer_map(frame, &map, GST_MAP_WRITE);
-    for (int y = 101; y < 301; ++y) {
-      for (int x = 201; x < 501; ++x) map.data[y * 640 + x] = grey(x - 2.0 * n, y);
-    }
-    gst_buffer_unmap(frame, &map);
-    GstVideoCropMeta* crop = gst_buffer_add_video_crop_meta(frame);
-    crop->x = 201;
-    crop->y = 101;
-    crop->width = 300;
-    crop->height = 200;
-    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-  }
-  ASSERT_EQ(h.motions().size(), 2u);
-  EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px_s);
-}
-
 TEST(Frames, CropsThatLeaveNothingOrReachOutsideAreHarmless) {
   ElementHarness h;
   h.set_caps(make_caps("GRAY8", 320, 240));

@@ -11,16 +11,6 @@
 namespace spidar::test::no_force_reason_test {
 namespace {
 
-TEST_F(NoForceReasonTest, IsNoneWhileTheForceIsFelt) {
-  open("device=sim");
-  play();
-  show_moved(kFrames, 2);
-  EXPECT_EQ(stats_field("no-force-reason"), "none");
-  EXPECT_EQ(message_reason(), "none");
-  EXPECT_EQ(stats_field("no-force-text"), "");
-  EXPECT_EQ(h->motions().back().no_force_text, "");
-}
-
 TEST_F(NoForceReasonTest, EachOfTheFilm) {
   const auto moves = [&] { show_moved(kFrames, 2); };
   const auto stays = [&] { show_moved(kFrames, 0); };

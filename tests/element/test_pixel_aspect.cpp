@@ -122,6 +122,8 @@ constexpr Aspect kSquare{1, 1};
 constexpr Aspect kAspects[] = {{64, 45}, {4, 3}, {8, 9}, {2, 1}, {1, 2}};
 
 TEST(PixelAspect, APanAndAnObjectFeelAsInSquarePixels) {
+  // A box ends with blocks of some 16 shown pixels.
+  constexpr double kBlock_px = 2 * 16;
   struct Case {
     const char* properties;
     Film film;
@@ -139,6 +141,14 @@ TEST(PixelAspect, APanAndAnObjectFeelAsInSquarePixels) {
       const Felt felt = feel(c.film, c.properties, aspect);
       ASSERT_EQ(felt.frames.size(), square.frames.size());
       const double pixel_px = static_cast<double>(aspect.n) / aspect.d;
+      ASSERT_EQ(felt.boxes.size(), square.boxes.size());
+      for (size_t n = 0; n < felt.boxes.size(); ++n) {
+        const ObjectBox &a = felt.boxes[n], &b = square.boxes[n];
+        EXPECT_NEAR(a.x * pixel_px, b.x, kBlock_px);
+        EXPECT_NEAR(a.width * pixel_px, b.width, kBlock_px);
+        EXPECT_NEAR(a.y, b.y, kBlock_px);
+        EXPECT_NEAR(a.height, b.height, kBlock_px);
+      }
       // An object is known from the second pair of frames on, and fades in.
       for (size_t n = 6; n < felt.frames.size(); ++n) {
         const MotionMessage &a = felt.frames[n], &b = square.frames[n];
@@ -168,24 +178,6 @@ TEST(PixelAspect, GrowthAndRollFeelAsInSquarePixels) {
       EXPECT_NEAR(a.force_N.z(), b.force_N.z(), force_of(kTolerance_px_s)) << n;
       EXPECT_NEAR(a_roll_N, b_roll_N, force_of(kTolerance_px_s)) << n;
     }
-  }
-}
-
-TEST(PixelAspect, BoxesAreInPixelsOfTheFrame) {
-  // The box ends with blocks of some 16 shown pixels.
-  constexpr double kBlock_px = 2 * 16;
-  const Felt square = feel(moving_disc, "motion=object", kSquare);
-  ASSERT_EQ(square.boxes.size(), 1u);
-  for (const Aspect& aspect : kAspects) {
-    SCOPED_TRACE(std::to_string(aspect.n) + "/" + std::to_string(aspect.d));
-    const Felt felt = feel(moving_disc, "motion=object", aspect);
-    ASSERT_EQ(felt.boxes.size(), 1u);
-    const double pixel_px = static_cast<double>(aspect.n) / aspect.d;
-    const ObjectBox &a = felt.boxes[0], &b = square.boxes[0];
-    EXPECT_NEAR(a.x * pixel_px, b.x, kBlock_px);
-    EXPECT_NEAR(a.width * pixel_px, b.width, kBlock_px);
-    EXPECT_NEAR(a.y, b.y, kBlock_px);
-    EXPECT_NEAR(a.height, b.height, kBlock_px);
   }
 }
 

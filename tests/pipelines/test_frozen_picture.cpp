@@ -33,29 +33,8 @@ TEST(FrozenPicture, TheClockStandsStill) {
   EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
 }
 
-TEST(FrozenPicture, AGapWhoseEndIsKnown) {
-  for (const GstClockTime gap : {200 * GST_MSECOND, 8 * GST_SECOND}) {
-    SCOPED_TRACE(gap);
-    SteppedPipeline pipeline(kPlayer);
-    pipeline.retime([gap](int n, GstClockTime pts) { return n < kBefore ? pts : pts + gap; });
-    pipeline.set_state(GST_STATE_PLAYING);
-    play(pipeline, kBefore);
-    pipeline.await();  // the last frame before the gap is on the screen, and the next one waits
-    EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
-    EXPECT_EQ(pipeline.idle(kRest - 10 * GST_MSECOND).commanded.stacked().norm(), 0);
-    const GstClockTime shown = pipeline.running_time();
-    const GstClockTime next = kBefore * kFrame + gap;
-    EXPECT_EQ(pipeline.idle(next - shown - 40 * GST_MSECOND).commanded.stacked().norm(), 0);
-    // Back before the frame is shown, and there in time.
-    EXPECT_GT(pipeline.idle(39 * GST_MSECOND).commanded.stacked().norm(), 0);
-    const TickRecord tick = pipeline.step();
-    expect_wrench_of_frame(pipeline, tick);
-    EXPECT_EQ(tick.commanded.force_N, tick.wanted.force_N);
-  }
-}
-
-TEST(FrozenPicture, AThousandFramesBetweenElementAndSink) {
-  constexpr int kFrames = 1000;
+TEST(FrozenPicture, FourHundredFramesBetweenElementAndSink) {
+  constexpr int kFrames = 400;  // more than the loop's queue and its timeline hold
   SteppedPipeline pipeline(
       "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
       " ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 " + kMotion +
@@ -63,23 +42,6 @@ TEST(FrozenPicture, AThousandFramesBetweenElementAndSink) {
   pipeline.set_state(GST_STATE_PLAYING);
   pipeline.await_analysed(kFrames);
   play(pipeline, kFrames);
-}
-
-TEST(FrozenPicture, ForceTenSecondsAfterThePicture) {
-  constexpr GstClockTime kOffset = 10 * GST_SECOND;
-  constexpr int kRate = 50;
-  SteppedPipeline pipeline(
-      "videotestsrc pattern=ball ! video/x-raw,format=GRAY8,width=320,height=240,framerate=50/1 " +
-      kMotion + kSink);
-  g_object_set(pipeline.element(), "ts-offset", static_cast<gint64>(kOffset), nullptr);
-  pipeline.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 20 * kRate; ++n) {
-    const TickRecord tick = pipeline.step();
-    const GstClockTime shown = pipeline.running_time();
-    if (shown <= kOffset) continue;
-    ASSERT_EQ(tick.running_ns + pipeline.early_ns(), static_cast<int64_t>(shown - kOffset));
-    expect_wrench_of(pipeline, tick, shown - kOffset);
-  }
 }
 
 }  // namespace

@@ -235,17 +235,6 @@ TEST(TrackPlayback, ALoopWithoutAFlushIsFeltWithoutAGap) {
   EXPECT_EQ(track.run(51).commanded.stacked().norm(), 0);
 }
 
-TEST(TrackPlayback, FlushedSamplesAreNotFeltAndRestIsReachedWithoutNewOnes) {
-  SteppedTrack track;
-  track.push(curve(), 0);
-  track.end();
-  track.set_state(GST_STATE_PLAYING);
-  EXPECT_GT(track.run(150).commanded.stacked().norm(), 0.5);
-  track.flush();
-  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
-  EXPECT_EQ(track.run(500).commanded.stacked().norm(), 0);
-}
-
 TEST(TrackPlayback, ASeekWhilePausedIsFeltWhenItPlaysAgainAlsoBackwards) {
   SteppedTrack track;
   track.push(curve(), 0);

@@ -109,19 +109,6 @@ TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsStoppedAndThenKilled) {
   clear_bus();
 }
 
-TEST(GuardianPairs, AStoppedPlayerWhoseGuardianIsKilled) {
-  plug(0, UsbKind::kSh4);
-  Victim victim("usb", kUsbProfile);
-  UsbPort& port = pulling_board(victim);
-  victim.send(SIGSTOP);
-  wait_for([&] { return port.at_rest(); });
-  kill(guardian_process(victim.id()), SIGKILL);
-  victim.end(SIGKILL);
-  sleep_ms(50);
-  EXPECT_TRUE(port.at_rest());
-  clear_bus();
-}
-
 /// Nobody is left who could do anything, but effects end by themselves.
 TEST(GuardianPairs, AStickWhosePlayerAndGuardianAreStoppedTogether) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);

@@ -168,15 +168,5 @@ TEST(LineWriter, OnlyAFileThatBeginsInTheSameWayIsReplaced) {
   }
 }
 
-TEST(LineWriter, ALinkToAnotherFileIsRefused) {
-  const TemporaryFolder folder;
-  const fs::path kept = folder.path / "kept", link = folder.path / "link";
-  std::ofstream(kept) << "as it was\n";
-  fs::create_symlink(kept, link);
-  LineWriter writer;
-  EXPECT_NE(writer.open(link, kLine).find("it is a link"), std::string::npos);
-  EXPECT_EQ(content(kept), "as it was\n");
-}
-
 }  // namespace
 }  // namespace spidar::test::line_writer_test
