@@ -60,6 +60,7 @@ DeviceKind falcon_kind() {
   kind.device = "falcon";
   kind.title = "Novint Falcon";
   kind.usb = {falcon::kVendor, falcon::kProduct, {falcon::kEndpointOut, falcon::kEndpointIn}};
+  kind.usb.full_speed = true;
   kind.board = "falcon";
   kind.names = "falcon, falcon:ID";
   kind.note = "reach and scale of the force are inferred";
@@ -73,8 +74,8 @@ DeviceKind mouse_kind() {
   DeviceKind kind;
   kind.device = "mouse";
   kind.title = "SPIDAR-mouse";
-  kind.usb = {
-      mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true}, true};
+  kind.usb = {mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true}};
+  kind.usb.shared = kind.usb.full_speed = true;
   kind.board = "mouse";
   kind.names = "mouse, mouse:ID";
   kind.verification = boards::Verification::kInferred;

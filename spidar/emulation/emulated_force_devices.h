@@ -72,18 +72,6 @@ class SpringHand final : public Motors {
                   at_m_ = Eigen::Vector3d::Zero();
 };
 
-/// What stays in the device while programs come and go. Starts as after plugging in.
-struct FalconMemory {
-  std::atomic<bool> loaded{false};  ///< with its firmware
-  std::atomic<uint16_t> baud{0};    ///< divisor
-
-  static std::shared_ptr<FalconMemory> with_firmware() {
-    auto memory = std::make_shared<FalconMemory>();
-    memory->loaded = true;
-    return memory;
-  }
-};
-
 /// Its digits are the force on the hand in millinewtons, right, up and towards the viewer; its
 /// counts are the position of the grip in micrometres, and its inputs buttons (bits 0–3) and the
 /// encoders whose marks have been passed (bits 4–6). Nothing has friction or weight. Any firmware
@@ -93,13 +81,12 @@ class Falcon final : public Board {
  public:
   static constexpr uint16_t kHomed = 0x70;  ///< inputs: every encoder has passed its mark
 
-  explicit Falcon(std::shared_ptr<Motors> motors,
-                  std::shared_ptr<FalconMemory> memory = FalconMemory::with_firmware()) noexcept
-      : Board(std::move(motors)), memory_(std::move(memory)) {}
+  using Board::Board;
 
   void receive(ByteView bytes) noexcept override;
   size_t reply(MutableBytes bytes) noexcept override;
   bool control(const VendorRequest& request) noexcept override;
+  void remember(Memory& memory) noexcept override { memory_ = &memory; }
 
  private:
   void hello(uint8_t byte) noexcept;
@@ -109,7 +96,8 @@ class Falcon final : public Board {
   void answer(ByteView bytes) noexcept;
   bool feed(uint8_t byte, size_t length) noexcept;
 
-  std::shared_ptr<FalconMemory> memory_;
+  Memory own_memory_{{true}, {0}};
+  Memory* memory_ = &own_memory_;
   Eigen::Vector3d angles_rad_ = Eigen::Vector3d::Constant(falcon::kAngleAtZero_rad);
   bool loader_ = false;  ///< started by toggling DTR, until the line is fast
   bool takes_firmware_ = false;

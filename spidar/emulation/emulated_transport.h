@@ -31,6 +31,12 @@ class Motors {
   virtual uint16_t inputs() noexcept { return 0; }
 };
 
+/// What stays in a device while programs come and go. Starts as after plugging in.
+struct Memory {
+  std::atomic<bool> loaded{false};  ///< with its firmware
+  std::atomic<uint16_t> baud{0};    ///< divisor
+};
+
 /// A board without its wire, and the motors to which it is connected. Not thread-safe.
 class Board {
  public:
@@ -41,6 +47,9 @@ class Board {
   /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
   /// too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
+  /// Begins with what is in there, and keeps it there; it must outlive the board. Without it, the
+  /// board is one that was used before.
+  virtual void remember(Memory&) noexcept {}
   /// Takes a request of the vendor; false where there is no such request.
   virtual bool control(const VendorRequest&) noexcept { return false; }
 

@@ -53,32 +53,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return text.empty() ? "none" : text;
 }
 
-template <double StringDrive::*kMember>
-StringVector per_string(const Profile& profile) {
-  StringVector values = StringVector::Zero();
-  for (int i = 0; i < profile.geometry.count; ++i) {
-    values[i] = profile.drives[static_cast<size_t>(i)].*kMember;
-  }
-  return values;
-}
-
 }  // namespace
-
-StringVector Profile::zero_count_length_m() const {
-  return string_lengths_m(geometry, {}) + per_string<&StringDrive::home_offset_m>(*this);
-}
-
-StringVector Profile::min_tension_N() const {
-  return per_string<&StringDrive::min_tension_N>(*this);
-}
-
-StringVector Profile::max_tension_N() const {
-  return per_string<&StringDrive::max_tension_N>(*this);
-}
-
-double Profile::max_pose_residual_m() const {
-  return per_string<&StringDrive::metres_per_count>(*this).maxCoeff();
-}
 
 Profile load_profile(const std::string& name_or_path) {
   if (is_path(name_or_path)) return read_file(name_or_path);

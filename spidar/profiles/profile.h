@@ -104,13 +104,25 @@ struct Profile {
   std::vector<Provenance> provenance;
 
   /// Lengths at which the counters are zero: those at the centre plus home_offset_m.
-  StringVector zero_count_length_m() const;
-  StringVector min_tension_N() const;
-  StringVector max_tension_N() const;
+  StringVector zero_count_length_m() const {
+    return string_lengths_m(geometry, {}) + per_string<&StringDrive::home_offset_m>();
+  }
+  StringVector min_tension_N() const { return per_string<&StringDrive::min_tension_N>(); }
+  StringVector max_tension_N() const { return per_string<&StringDrive::max_tension_N>(); }
   /// The largest residual (root mean square) of a right pose, for PoseSolver: one step of the
   /// coarsest encoder. Counts are off by at most half a step; the other half allows for errors of
   /// the geometry.
-  double max_pose_residual_m() const;
+  double max_pose_residual_m() const {
+    return per_string<&StringDrive::metres_per_count>().maxCoeff();
+  }
+
+ private:
+  template <double StringDrive::*kMember>
+  StringVector per_string() const {
+    StringVector values = StringVector::Zero();
+    for (int i = 0; i < geometry.count; ++i) values[i] = drives[static_cast<size_t>(i)].*kMember;
+    return values;
+  }
 };
 
 /// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).

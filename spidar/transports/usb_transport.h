@@ -56,7 +56,8 @@ struct UsbId {
   uint16_t vendor = 0;  ///< 0: it is not on USB
   uint16_t product = 0;
   UsbPipes pipes;
-  bool shared = false;  ///< other devices have this id, too, so each that has it is asked
+  bool shared = false;      ///< other devices have this id, too, so each that has it is asked
+  bool full_speed = false;  ///< 12 Mbit/s, packets of 64 bytes; otherwise 480 and 512
 
   /// "0cec:0205"
   std::string text() const;

@@ -8,11 +8,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <stdexcept>
 #include <string>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <vector>
 
+#include "spidar/devices/device_kind.h"
 #include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"
@@ -20,24 +23,30 @@
 namespace spidar::test {
 namespace {
 
-UsbPort& plug_into(BusState& state, size_t port, UsbKind kind, const char* serial) {
+/// Never destroyed: a player may exit while its haptic loop still looks for the device.
+const std::vector<DeviceKind>& kinds() {
+  static const auto& it = *new std::vector<DeviceKind>(usb_kinds());
+  return it;
+}
+
+UsbPort& plug_into(BusState& state, size_t port, size_t kind, const char* serial) {
   UsbPort& p = state.port[port];
   for (auto& digit : p.digit) digit = 0;
   p.fault = LinkFault::kNone;
   p.serial = {};
   std::strncpy(p.serial.data(), serial, p.serial.size() - 1);
-  p.falcon.loaded = false;
-  p.falcon.baud = 0;
+  p.memory.loaded = false;
+  p.memory.baud = 0;
   p.address = ++state.last_address;
   p.kind = kind;
   return p;
 }
 
-UsbKind kind_named(const std::string& name) {
-  if (name == "sh4") return UsbKind::kSh4;
-  if (name == "simple") return UsbKind::kSimple;
-  if (name == "falcon") return UsbKind::kFalcon;
-  return name == "mouse" ? UsbKind::kMouse : UsbKind::kNone;
+/// UsbPort::kind of this DeviceKind::board; 0 if there is none.
+size_t kind_named(const std::string& board) {
+  for (size_t i = 0; i < kinds().size(); ++i)
+    if (board == kinds()[i].board) return i + 1;
+  return 0;
 }
 
 EvdevKind evdev_named(const std::string& name) {
@@ -49,9 +58,9 @@ EvdevKind evdev_named(const std::string& name) {
 /// New pages are filled with zeros, which is the initial value of all members of BusState.
 BusState* map_state() {
   const char* named = std::getenv("SPIDAR_EMULATED_BUS");
-  const UsbKind kind = kind_named(named ? named : "");
+  const size_t kind = kind_named(named ? named : "");
   const EvdevKind input = evdev_named(named ? named : "");
-  const bool own = kind != UsbKind::kNone || input != EvdevKind::kNone;
+  const bool own = kind != 0 || input != EvdevKind::kNone;
   const char* path = own ? nullptr : named;
   const int file = path ? real_open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600) : -1;
   if (path && (file < 0 || ftruncate(file, sizeof(BusState)) != 0)) {
@@ -63,7 +72,7 @@ BusState* map_state() {
   if (memory == MAP_FAILED) std::abort();
   set_lock_file(file);
   auto* state = static_cast<BusState*>(memory);
-  if (kind != UsbKind::kNone) plug_into(*state, 0, kind, "");
+  if (kind != 0) plug_into(*state, 0, kind, "");
   if (input != EvdevKind::kNone) plug_evdev_into(*state, 0, input, nullptr);
   return state;
 }
@@ -75,12 +84,19 @@ BusState& bus() {
   return *state;
 }
 
-UsbPort& plug(size_t port, UsbKind kind, const char* serial) {
+UsbPort& plug(size_t port, const std::string& board, const char* serial) {
+  const size_t kind = kind_named(board);
+  if (kind == 0) throw std::invalid_argument("no board on USB is called \"" + board + "\"");
   return plug_into(bus(), port, kind, serial);
 }
 
+const DeviceKind* kind_in(const UsbPort& port) {
+  const size_t kind = port.kind;
+  return kind == 0 ? nullptr : &kinds()[kind - 1];
+}
+
 void unplug(size_t port, int errno_first) {
-  bus().port[port].kind = UsbKind::kNone;
+  bus().port[port].kind = 0;
   disconnect_files(port, errno_first);
 }
 

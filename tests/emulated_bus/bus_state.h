@@ -7,19 +7,22 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "spidar/device.h"
-#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/emulation/emulated_transport.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/exported.h"
 
-namespace spidar::test {
+namespace spidar {
+struct DeviceKind;
+}
 
-enum class UsbKind : int { kNone, kSh4, kSimple, kMouse, kFalcon };
+namespace spidar::test {
 
 /// One port of the bus and the device in it. Any process may change any member at any time.
 struct UsbPort {
-  std::atomic<UsbKind> kind{UsbKind::kNone};
+  std::atomic<size_t> kind{0};  ///< which of usb_kinds(), from 1; 0: nothing is plugged in
   std::atomic<int> address{0};  ///< a new one every time something is plugged in
   std::array<char, 32> serial{};
 
@@ -33,7 +36,7 @@ struct UsbPort {
   std::atomic<bool> forbidden{false};   ///< open() gives EACCES
   std::atomic<bool> has_driver{false};  ///< a kernel driver that must be detached first
   std::atomic<uint64_t> halts_cleared{0};
-  emulated::FalconMemory falcon;
+  emulated::Memory memory;
 
   bool at_rest() const {
     for (const auto& d : digit)
@@ -64,14 +67,18 @@ struct BusState {
 };
 
 /// The bus of this process. If $SPIDAR_EMULATED_BUS is the name of a file, which is created if
-/// necessary, the bus is shared with all processes that have the same value. If it is "sh4",
-/// "simple", "mouse" or "falcon", the process has a bus of its own with such a board; "stick",
+/// necessary, the bus is shared with all processes that have the same value. If it is "sh4" or
+/// another DeviceKind::board on USB, the process has a bus of its own with such a board; "stick",
 /// "wheel" or "pad", with such an input device. Without it, the process has an empty bus of its
 /// own.
 BUS_API BusState& bus();
 
-/// Adds the device to the list of the bus, as 1-1, 1-2, …, at rest.
-BUS_API UsbPort& plug(size_t port, UsbKind kind, const char* serial = "");
+/// Adds the device with this DeviceKind::board to the list of the bus, as 1-1, 1-2, …, at rest.
+/// Throws std::invalid_argument if there is none on USB.
+BUS_API UsbPort& plug(size_t port, const std::string& board, const char* serial = "");
+
+/// What is plugged in there; null when nothing is.
+const DeviceKind* kind_in(const UsbPort& port);
 
 /// Pulls the device out. Pending transfers fail with `errno_first` (EPROTO is common) or, if that
 /// is zero, with ESHUTDOWN; later ones with ENODEV.

@@ -12,11 +12,11 @@ using namespace spidar::test;
 
 extern "C" {
 
-BUS_API void bus_plug(int port, int kind) {
-  plug(static_cast<size_t>(port), static_cast<UsbKind>(kind));
+BUS_API void bus_plug(int port, const char* board) {
+  plug(static_cast<size_t>(port), board);
 }
-BUS_API void bus_plug_named(int port, int kind, const char* serial) {
-  plug(static_cast<size_t>(port), static_cast<UsbKind>(kind), serial);
+BUS_API void bus_plug_named(int port, const char* board, const char* serial) {
+  plug(static_cast<size_t>(port), board, serial);
 }
 /// Whether open() gives EACCES.
 BUS_API void bus_forbid(int port, bool forbidden) {

@@ -45,18 +45,18 @@ int no_such_file() {
 int port_with_address(int address) {
   for (size_t i = 0; i < kPorts; ++i) {
     const UsbPort& port = bus().port[i];
-    if (port.kind != UsbKind::kNone && port.address == address) return static_cast<int>(i);
+    if (port.kind != 0 && port.address == address) return static_cast<int>(i);
   }
   return -1;
 }
 
-int open_attribute(size_t number, const char* attribute) {
-  const UsbPort& port = bus().port[number];
-  const std::string name = attribute;
+int open_attribute(const UsbPort& port, const std::string& name) {
+  const DeviceKind* const kind = kind_in(port);
+  if (!kind) return no_such_file();
   if (name == "busnum" || name == "bConfigurationValue") return memory_file("1\n");
   if (name == "devnum") return memory_file(std::to_string(port.address) + "\n");
-  if (name == "speed") return memory_file(port.kind == UsbKind::kMouse ? "12\n" : "480\n");
-  if (name == "descriptors") return memory_file(descriptors_of(port.kind));
+  if (name == "speed") return memory_file(kind->usb.full_speed ? "12\n" : "480\n");
+  if (name == "descriptors") return memory_file(descriptors_of(*kind));
   if (name == "serial" && port.serial[0])
     return memory_file(port.serial.data() + std::string("\n"));
   return no_such_file();
@@ -72,10 +72,9 @@ bool open_emulated(const char* path, int& file) {
     return true;
   }
   if (std::sscanf(path, "/sys/bus/usb/devices/1-%d/%63s", &number, attribute.data()) == 2) {
-    const bool there = number >= 1 && number <= static_cast<int>(kPorts) &&
-                       bus().port[static_cast<size_t>(number - 1)].kind != UsbKind::kNone;
-    file =
-        there ? open_attribute(static_cast<size_t>(number - 1), attribute.data()) : no_such_file();
+    const bool there = number >= 1 && number <= static_cast<int>(kPorts);
+    file = there ? open_attribute(bus().port[static_cast<size_t>(number - 1)], attribute.data())
+                 : no_such_file();
     return true;
   }
   return false;

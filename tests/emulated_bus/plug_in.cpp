@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <string>
+#include <stdexcept>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -22,9 +22,9 @@ using namespace spidar::test;
 using Digits = std::array<int, 8>;
 
 constexpr const char* kUsage =
-    "usage: plug_in sh4|simple [COMMAND [ARGUMENT]...]\n"
-    "Without COMMAND, a shell. The board is \"usb\"; its outputs are printed when they have "
-    "changed and stay.\n";
+    "usage: plug_in BOARD [COMMAND [ARGUMENT]...]\n"
+    "BOARD is sh4, simple or another that is on USB. Without COMMAND, a shell. The outputs of the "
+    "board are printed when they have changed and stay.\n";
 
 Digits outputs(const UsbPort& port) {
   Digits digits{};
@@ -51,13 +51,14 @@ pid_t start(char** command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string kind = argc > 1 ? argv[1] : "";
-  if (kind != "sh4" && kind != "simple") {
-    std::fputs(kUsage, stderr);
+  const SharedBus shared;
+  try {
+    plug(0, argc > 1 ? argv[1] : "", "EMULATED");
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "plug_in: %s\n%s", error.what(), kUsage);
     return 2;
   }
-  const SharedBus shared;
-  const UsbPort& port = plug(0, kind == "sh4" ? UsbKind::kSh4 : UsbKind::kSimple, "EMULATED");
+  const UsbPort& port = bus().port[0];
   const char* const shell = std::getenv("SHELL");
   std::array<char*, 2> interactive{const_cast<char*>(shell ? shell : "/bin/sh"), nullptr};
   const pid_t child = start(argc > 2 ? argv + 2 : interactive.data());

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The board in a port of the emulated USB, and the effect of link faults on its transfers.
+/// The motors of a board in a port of the emulated USB, and the effect of link faults on its
+/// transfers.
 #pragma once
 
 #include <array>
 #include <cerrno>
-#include <memory>
-#include <utility>
 
 #include "spidar/device.h"
-#include "spidar/emulation/emulated_boards.h"
-#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/emulation/emulated_transport.h"
 #include "spidar/protocols/bytes.h"
 #include "tests/emulated_bus/bus_state.h"
 
@@ -34,19 +32,6 @@ class PortMotors final : public emulated::Motors {
  private:
   UsbPort& port_;
 };
-
-/// `falcon` must outlive the board.
-inline std::unique_ptr<emulated::Board> make_board(UsbKind kind,
-                                                   std::shared_ptr<emulated::Motors> motors,
-                                                   emulated::FalconMemory& falcon) {
-  if (kind == UsbKind::kFalcon)
-    return std::make_unique<emulated::Falcon>(
-        std::move(motors),
-        std::shared_ptr<emulated::FalconMemory>(std::shared_ptr<void>(), &falcon));
-  if (kind == UsbKind::kSimple) return std::make_unique<emulated::Simple>(std::move(motors));
-  if (kind == UsbKind::kMouse) return std::make_unique<emulated::Mouse>(std::move(motors));
-  return std::make_unique<emulated::Sh4>(std::move(motors));
-}
 
 /// The negative errno with which usbfs ends a transfer on such a link; 0: the transfer succeeds.
 inline int status_of(LinkFault fault) {

@@ -87,7 +87,7 @@ BUS_API int udev_enumerate_add_match_property(udev_enumerate*, const char*, cons
 }
 BUS_API int udev_enumerate_scan_devices(udev_enumerate* list) {
   for (size_t i = 0; i < kPorts; ++i)
-    if (bus().port[i].kind != UsbKind::kNone)
+    if (bus().port[i].kind != 0)
       list->entries.push_back({kUsbDevices + ("1-" + std::to_string(i + 1)), nullptr});
   for (size_t i = 0; i + 1 < list->entries.size(); ++i)
     list->entries[i].next = &list->entries[i + 1];
@@ -109,8 +109,7 @@ BUS_API const char* udev_list_entry_get_name(udev_list_entry* entry) {
 
 BUS_API udev_device* udev_device_new_from_syspath(udev*, const char* path) {
   for (size_t i = 0; i < kPorts; ++i)
-    if (path == kUsbDevices + ("1-" + std::to_string(i + 1)) &&
-        bus().port[i].kind != UsbKind::kNone)
+    if (path == kUsbDevices + ("1-" + std::to_string(i + 1)) && bus().port[i].kind != 0)
       return device_in(i);
   return nullptr;
 }

@@ -23,6 +23,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "spidar/devices/device_kind.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/port_board.h"
@@ -32,12 +33,21 @@ namespace {
 
 constexpr uint8_t kIn = 0x80;
 
+/// Null when it was pulled out meanwhile.
+std::unique_ptr<emulated::Board> board_in(UsbPort& port) {
+  const DeviceKind* const kind = kind_in(port);
+  if (!kind) return nullptr;
+  auto board = kind->emulate(std::make_shared<PortMotors>(port));
+  board->remember(port.memory);
+  return board;
+}
+
 struct UsbFile {
   explicit UsbFile(SharedFile& with)
       : shared(with),
         port_number(shared.port),
         port(bus().port[port_number]),
-        board(make_board(port.kind, std::make_shared<PortMotors>(port), port.falcon)) {}
+        board(board_in(port)) {}
 
   SharedFile& shared;
   const size_t port_number;
@@ -130,7 +140,7 @@ void disconnect(UsbFile& f, int errno_first) {
 }
 
 bool still_there(UsbFile& f) {
-  if (f.port.kind == UsbKind::kNone || f.port.address != f.shared.address) disconnect(f, 0);
+  if (f.port.kind == 0 || f.port.address != f.shared.address) disconnect(f, 0);
   return f.connected;
 }
 

@@ -107,7 +107,7 @@ TEST(KernelFalcon, TakesItsFirmwareAndExchanges) {
   setenv("SPIDAR_FALCON_FIRMWARE", firmware.c_str(), 1);
   MotorBench bench;
   bench.inputs = 0x70;  // homed
-  UsbipBoard board{std::make_shared<RecordedMotors>(bench), "EMULATED", UsbKind::kFalcon};
+  UsbipBoard board{std::make_shared<RecordedMotors>(bench), "EMULATED", "falcon"};
   board.plug();
   wait_for(listed);
   boards::Settings settings;

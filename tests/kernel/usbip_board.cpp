@@ -12,13 +12,11 @@
 
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/descriptors.h"
-#include "tests/emulated_bus/port_board.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr const char* kAttach = "/sys/devices/platform/vhci_hcd.0/attach";
-constexpr uint32_t kOut = 2;
 /// No request of a driver of these boards is longer; the kernel's own are shorter.
 constexpr size_t kMaxLength = 4096;
 
@@ -49,8 +47,11 @@ void attach(int socket, bool full_speed) {
 
 }  // namespace
 
-UsbipBoard::UsbipBoard(std::shared_ptr<emulated::Motors> motors, std::string serial, UsbKind kind)
-    : motors_(std::move(motors)), serial_(std::move(serial)), kind_(kind) {}
+UsbipBoard::UsbipBoard(std::shared_ptr<emulated::Motors> motors, std::string serial,
+                       const std::string& board)
+    : motors_(std::move(motors)),
+      serial_(std::move(serial)),
+      kind_(*simulated_kind(DeviceName("sim:" + board))) {}
 
 UsbipBoard::~UsbipBoard() {
   unplug();
@@ -64,7 +65,7 @@ void UsbipBoard::plug() {
   socket_ = ends[0];
   unplug_in_transfer_ = false;
   thread_ = std::thread([this] { serve(socket_); });
-  attach(ends[1], kind_ == UsbKind::kFalcon);
+  attach(ends[1], kind_.usb.full_speed);
   close(ends[1]);
 }
 
@@ -76,8 +77,10 @@ void UsbipBoard::unplug() {
 }
 
 void UsbipBoard::serve(int socket) {
-  falcon_.loaded = false;
-  const auto board = make_board(kind_, motors_, falcon_);
+  memory_.loaded = false;
+  memory_.baud = 0;
+  const auto board = kind_.emulate(motors_);
+  board->remember(memory_);
   board_ = board.get();
   waiting_.clear();
   UsbipHeader header;
@@ -95,12 +98,12 @@ void UsbipBoard::serve(int socket) {
 /// Returns false to pull the board out.
 bool UsbipBoard::take(const UsbipRequest& request, const std::vector<uint8_t>& data) {
   if (request.endpoint == 0) return control(request);
-  const uint32_t in = kind_ == UsbKind::kFalcon ? 1 : 6;
-  if (request.in && request.endpoint == in) {
+  constexpr uint8_t kNumber = 0x0F;  // of an endpoint, without its direction
+  if (request.in && request.endpoint == (kind_.usb.pipes.in & kNumber)) {
     waiting_.push_back(request);
     return !unplug_in_transfer_ && answer();
   }
-  if (request.in || request.endpoint != kOut)
+  if (request.in || request.endpoint != kind_.usb.pipes.out)
     return reply(UsbipCommand::kSubmitReply, request.sequence, -EPIPE);
   board_->receive({data.data(), data.size()});
   return reply(UsbipCommand::kSubmitReply, request.sequence, 0, data.size()) && answer();

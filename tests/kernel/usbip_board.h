@@ -10,9 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/emulation/emulated_transport.h"
-#include "tests/emulated_bus/bus_state.h"
 #include "tests/kernel/usbip_packets.h"
 
 namespace spidar::test {
@@ -22,7 +21,7 @@ class UsbipBoard {
  public:
   /// Initially not plugged in.
   UsbipBoard(std::shared_ptr<emulated::Motors> motors, std::string serial,
-             UsbKind kind = UsbKind::kSh4);
+             const std::string& board = "sh4");
   ~UsbipBoard();
   UsbipBoard(const UsbipBoard&) = delete;
   UsbipBoard& operator=(const UsbipBoard&) = delete;
@@ -52,13 +51,13 @@ class UsbipBoard {
 
   const std::shared_ptr<emulated::Motors> motors_;
   const std::string serial_;
-  const UsbKind kind_;
+  const DeviceKind& kind_;
   std::thread thread_;
   std::atomic<bool> unplug_in_transfer_{false};
   std::atomic<size_t> abandoned_{0};
   int socket_ = -1;
   // Of the thread.
-  emulated::FalconMemory falcon_;
+  emulated::Memory memory_;
   emulated::Board* board_ = nullptr;
   std::deque<UsbipRequest> waiting_;  // IN, for the board to say something
 };

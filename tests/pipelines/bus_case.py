@@ -18,14 +18,6 @@ FEEL = os.environ["SPIDAR_FEEL"]
 PROFILE = "profile=spidar-g6x3-v2-r"
 
 
-class Usb(enum.IntEnum):
-    """Boards, in the order of UsbKind."""
-    SH4 = 1
-    SIMPLE = 2
-    MOUSE = 3
-    FALCON = 4
-
-
 class Evdev(enum.IntEnum):
     """Input devices, in the order of EvdevKind."""
     STICK = 1

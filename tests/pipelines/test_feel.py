@@ -12,7 +12,7 @@ import unittest
 
 import bus_case
 import track_case
-from bus_case import FEEL, PROFILE, Evdev, Usb, bus
+from bus_case import FEEL, PROFILE, Evdev, bus
 
 HERE = pathlib.Path(__file__).parent
 PLAYER = [sys.executable, HERE / "feel_player.py"]
@@ -49,7 +49,7 @@ class FeelCase(bus_case.BusCase):
 class Feel(FeelCase):
     def setUp(self):
         super().setUp()
-        bus.bus_plug(0, Usb.SH4)
+        bus.bus_plug(0, b"sh4")
 
     def test_a_player_is_felt_while_it_plays_and_at_rest_while_paused(self):
         """From 60 ms after the pause on. It has nothing to say."""
@@ -158,7 +158,7 @@ class NoDevice(FeelCase):
         for device in ((), ("device=sim",), ("device=sim:sh4",)):
             self.assertNotEqual(shown(*device), alone)
             self.assertEqual(shown(*device, "overlay=none"), alone)
-        bus.bus_plug(0, Usb.SH4)
+        bus.bus_plug(0, b"sh4")
         self.assertEqual(shown("device=usb", PROFILE), alone)
 
 

@@ -16,7 +16,7 @@ import unittest
 
 import bus_case
 import screen
-from bus_case import Usb, bus
+from bus_case import bus
 from screen import comes
 
 HERE = pathlib.Path(__file__).parent
@@ -72,7 +72,7 @@ class PlayerCase(screen.ScreenCase, bus_case.BusCase):
                  "framerate=25/1 ! vp8enc deadline=1 cpu-used=16 keyframe-max-dist=25 ! webmmux ! filesink location=film.webm")
         self.page.write_text("<video id=v src=film.webm autoplay muted loop width=320></video><script>onkeydown = e => { "
                              "e.preventDefault(); v.paused ? v.play() : v.pause() }</script>")
-        bus.bus_plug(0, Usb.SH4)
+        bus.bus_plug(0, b"sh4")
 
     def start(self, command, env=None):
         player = subprocess.Popen(command, cwd=self.folder, env=dict(os.environ, **(env or {})))

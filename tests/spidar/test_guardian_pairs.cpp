@@ -80,7 +80,7 @@ UsbPort& pulling_board(Victim& victim) {
 
 TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsKilled) {
   for (const LinkFault fault : {LinkFault::kStall, LinkFault::kBusError}) {
-    plug(0, UsbKind::kSh4);
+    plug(0, "sh4");
     Victim victim("usb", kUsbProfile);
     UsbPort& port = pulling_board(victim);
     port.fault = fault;
@@ -95,7 +95,7 @@ TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsKilled) {
 
 /// A player that continues while its board still fails must find its guardian at work.
 TEST(GuardianPairs, ABoardThatStallsWhileItsPlayerIsStoppedAndThenKilled) {
-  plug(0, UsbKind::kSh4);
+  plug(0, "sh4");
   Victim victim("usb", kUsbProfile);
   UsbPort& port = pulling_board(victim);
   port.fault = LinkFault::kStall;
@@ -147,7 +147,7 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
 #else
   static_assert(kBeat_ms + kAnswer_ms + boards::StringLink::kTransfer_ns / 1'000'000 <= 100);
 #endif
-  plug(0, UsbKind::kSh4);
+  plug(0, "sh4");
   Victim victim("usb", kUsbProfile);
   int64_t shortest_ns = INT64_MAX;
   for (int i = 0; i < 20 && shortest_ns > kSecond_ns / 10; ++i) {
@@ -206,7 +206,7 @@ TEST(GuardianPairs, AControlGroupThatIsKilledOrFrozen) {
     systemd.add("systemd-run", "echo $$ > " + guardians.procs().string() + "\n" + kRunCommand);
     Victim victim("usb", kUsbProfile, "--pull-when-plugged");
     if (!players.add(victim.id())) GTEST_SKIP() << "no control group of version 2 can be made";
-    plug(0, UsbKind::kSh4);
+    plug(0, "sh4");
     UsbPort& port = pulling_board(victim);
     ASSERT_TRUE(players.write(how, "1"));
     wait_for([&] { return port.at_rest(); });
@@ -218,7 +218,7 @@ TEST(GuardianPairs, AScopeIsUsedWhereSystemdRuns) {
   const FakeSystemd systemd;
   const std::string seen = (systemd.folder.path / "seen").string();
   systemd.add("systemd-run", "echo \"$@\" > " + seen + "\n" + kRunCommand);
-  plug(0, UsbKind::kSh4);
+  plug(0, "sh4");
   const auto device = make_device("usb", load_profile(kUsbProfile));
   device->open();
   EXPECT_NE(guardian_process(), 0);
@@ -234,7 +234,7 @@ TEST(GuardianPairs, WithoutAScopeThereIsAGuardianNevertheless) {
   for (const char* script : {"exit 1", "kill -9 $$", "exec sleep 100"}) {
     const FakeSystemd systemd;
     systemd.add("systemd-run", script);
-    plug(0, UsbKind::kSh4);
+    plug(0, "sh4");
     Victim victim("usb", kUsbProfile);
     UsbPort& port = pulling_board(victim);
     victim.end(SIGKILL);
@@ -250,7 +250,7 @@ TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
   systemd.add("systemd-run", kRunCommand);
   systemd.add("systemd-inhibit", "echo \"$@\" > " + held + "; cat; rm " + held);
   const auto is_held = [&] { return std::filesystem::exists(held); };
-  UsbPort& port = plug(0, UsbKind::kSh4);
+  UsbPort& port = plug(0, "sh4");
   const auto device = make_device("usb", load_profile(kUsbProfile));
   device->open();
   DeviceReading reading;
@@ -295,7 +295,7 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
     posix_spawn_file_actions_destroy(&actions);
     close(connection);
   });
-  plug(0, UsbKind::kSh4);
+  plug(0, "sh4");
   Victim victim("usb", kUsbProfile);
   accepting.join();
   UsbPort& port = pulling_board(victim);

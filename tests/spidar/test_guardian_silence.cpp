@@ -16,7 +16,7 @@ namespace spidar::test {
 namespace {
 
 TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
+  UsbPort& port = plug(0, "sh4");
   const auto device = make_device("usb", load_profile(kUsbProfile));
   device->open();
   for (int times = 0; times < 3; ++times) {
@@ -33,7 +33,7 @@ TEST(Guardian, LeavesAHostAloneThatIsSilentAtRest) {
 
 /// The board may never have got the zeros, and goes on pulling.
 TEST(Guardian, ZeroesABoardWhoseHostIsSilentAfterZerosThatFailed) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
+  UsbPort& port = plug(0, "sh4");
   boards::Settings settings;
   settings.threaded = false;  // so that nothing is exchanged after this
   const auto device = make_device("usb", load_profile(kUsbProfile), settings);

@@ -90,7 +90,7 @@ class ProfileChoice : public testing::Test {
 };
 
 TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
-  const UsbPort& port = plug(0, UsbKind::kSimple, "S1");
+  const UsbPort& port = plug(0, "simple", "S1");
   for (const std::string command :
        {"monitor usb --taut --seconds 0.01 --yes", "pull usb 0 2 0.1 --yes", "selftest usb --yes",
         "calibrate usb --centre", "monitor usb --taut --seconds 0.1"}) {
@@ -119,7 +119,7 @@ TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
 }
 
 TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
-  UsbPort& port = plug(0, UsbKind::kSh4, "S1");
+  UsbPort& port = plug(0, "sh4", "S1");
   const Profile real = load_profile("spidar-g645");
   std::string text;
   // The position of its rotary switch.
@@ -134,7 +134,7 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
   for (const auto& [file, device, said] :
        {std::tuple("A1 =", "usb", "boards.toml: "), std::tuple("", "usb:3", "one of several")}) {
     std::ofstream(remembered_profiles_file()) << file;
-    plug(1, UsbKind::kSh4, "S3");
+    plug(1, "sh4", "S3");
     const std::string name = *file ? "usb:S1" : device;
     const CommandResult refused = run(spidarctl("choose " + name + " --profile spidar-g645"));
     EXPECT_EQ(refused.status, 1);
@@ -142,12 +142,12 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
   }
   unplug(1);
   // Another board is another one.
-  plug(0, UsbKind::kSh4, "S2");
+  plug(0, "sh4", "S2");
   EXPECT_EQ(board_info("usb").profile, "");
 }
 
 TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
-  UsbPort& port = plug(0, UsbKind::kSimple, "S1");
+  UsbPort& port = plug(0, "simple", "S1");
   std::string text;
   EXPECT_EQ(choose(port, "usb", load_profile("spidar-g6c"), "spidar-g6x3-v1-r", text), 1) << text;
   // Strings 6 and 7, which count the other way as well, leave this frame elsewhere.
@@ -161,7 +161,7 @@ TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
 }
 
 TEST_F(ProfileChoice, ABoardWhoseEncodersAreDeadIsNotTakenForAGoodOne) {
-  UsbPort& port = plug(0, UsbKind::kSh4, "S1");
+  UsbPort& port = plug(0, "sh4", "S1");
   Profile dead = load_profile("spidar-g645");
   for (StringDrive& drive : dead.drives) drive.metres_per_count = 0;
   std::string text;
@@ -172,7 +172,7 @@ TEST_F(ProfileChoice, ABoardWhoseEncodersAreDeadIsNotTakenForAGoodOne) {
 /// The cable is not to blame.
 TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
   for (const bool stopped : {true, false}) {
-    const UsbPort& port = plug(0, UsbKind::kSh4);
+    const UsbPort& port = plug(0, "sh4");
     const fs::path log = settings_folder().path / "loss";
     ChildProcess taut(
         {"sh", "-c",
@@ -204,7 +204,7 @@ TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
 }
 
 TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
-  const UsbPort& port = plug(0, UsbKind::kSh4);
+  const UsbPort& port = plug(0, "sh4");
   struct Case {
     const char* arguments;
     int status;

@@ -22,6 +22,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/kinds.h"
 #include "tests/support/pushed_grip.h"
 
 namespace spidar::test::usb_boards_test {
@@ -69,16 +70,24 @@ class UsbBoards : public testing::Test {
   const Profile profile = load_profile("spidar-g645");  // its source names no board
 };
 
-class EachUsbBoard : public UsbBoards, public testing::WithParamInterface<UsbKind> {};
-INSTANTIATE_TEST_SUITE_P(, EachUsbBoard, testing::Values(UsbKind::kSh4, UsbKind::kSimple),
-                         [](const auto& kind) {
-                           return kind.param == UsbKind::kSh4 ? "sh4" : "simple";
-                         });
+class EachUsbBoard : public UsbBoards, public testing::WithParamInterface<std::string> {
+ protected:
+  std::unique_ptr<StringDevice> only_device(bool threaded) const {
+    return device(kind_of(GetParam()).device, threaded);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(, EachUsbBoard, testing::ValuesIn([] {
+                           std::vector<std::string> boards;
+                           for (const std::string& board : boards_that_there_are(true))
+                             if (kind_of(board).usb.vendor != 0) boards.push_back(board);
+                           return boards;
+                         }()),
+                         name_of);
 
 TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
-  plug(0, UsbKind::kSh4, "A1");
-  plug(2, UsbKind::kSimple).forbidden = true;
-  plug(3, UsbKind::kMouse);
+  plug(0, "sh4", "A1");
+  plug(2, "simple").forbidden = true;
+  plug(3, "mouse");
   const std::vector<BoardInfo> boards = list_boards();
   ASSERT_GE(boards.size(), 4u);
   EXPECT_EQ(boards[0].device, "usb:1-1");
@@ -102,11 +111,11 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(board_info("mouse").verification, boards::Verification::kInferred);
   EXPECT_FALSE(board_info("sim:mouse").has_strings);
   EXPECT_TRUE(board_info("foo").name.empty());
-  plug(0, UsbKind::kSh4, "A1");
+  plug(0, "sh4", "A1");
   EXPECT_EQ(board_info("usb").device, "usb:1-1");
   EXPECT_EQ(board_info("usb:A1").path, "1-1");
   EXPECT_EQ(board_info("usb:1-1").name, "CyVerse USB 2.0 SH4");
-  plug(1, UsbKind::kSimple);
+  plug(1, "simple");
   EXPECT_EQ(board_info("usb").path, "");
   const BoardInfo line = board_info("uart:/no/such/line");
   EXPECT_EQ(line.path, "/no/such/line");
@@ -133,7 +142,7 @@ TEST_F(UsbBoards, AreLookedForWithoutAskingOtherDevices) {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   const bool listens = bind(service, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
                        listen(service, 1) == 0;
-  plug(0, UsbKind::kSh4, "A1");
+  plug(0, "sh4", "A1");
   EXPECT_EQ(board_info("usb").path, "1-1");
   const bool asked = accept(service, nullptr, nullptr) >= 0;
   EXPECT_FALSE(asked);
@@ -143,9 +152,9 @@ TEST_F(UsbBoards, AreLookedForWithoutAskingOtherDevices) {
 }
 
 TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
-  plug(0, UsbKind::kSh4, "SN-5").inputs = 0x30;
-  plug(1, UsbKind::kSimple).inputs = 0x70;
-  plug(2, UsbKind::kSh4).inputs = 0x90;
+  plug(0, "sh4", "SN-5").inputs = 0x30;
+  plug(1, "simple").inputs = 0x70;
+  plug(2, "sh4").inputs = 0x90;
   struct Case {
     const char* spec;
     size_t port;
@@ -172,8 +181,8 @@ TEST_F(UsbBoards, AreFoundByPathSerialOrRotarySwitch) {
 
 /// Of boards that are asked for their switch, one does not answer.
 TEST_F(UsbBoards, ABoardThatDidNotOpenIsFree) {
-  UsbPort& silent = plug(0, UsbKind::kSh4);
-  plug(1, UsbKind::kSh4).inputs = 0x70;
+  UsbPort& silent = plug(0, "sh4");
+  plug(1, "sh4").inputs = 0x70;
   silent.fault = LinkFault::kTimeout;
   const auto seventh = device("usb:7", false);
   ASSERT_EQ(opening(*seventh), "");
@@ -187,7 +196,7 @@ TEST_F(UsbBoards, OpenSaysWhatToDo) {
   const std::string absent = opening(*device());
   EXPECT_EQ(absent.find("usb: no CyVerse USB 2.0 SH4 (0cec:0205) or "), 0u) << absent;
   EXPECT_EQ(absent.substr(absent.size() - 14), " is plugged in");
-  UsbPort& port = plug(0, UsbKind::kSh4);
+  UsbPort& port = plug(0, "sh4");
   port.forbidden = true;
   const std::string denied = opening(*device());
   EXPECT_NE(denied.find("/dev/bus/usb/001/"), std::string::npos) << denied;
@@ -200,14 +209,14 @@ TEST_F(UsbBoards, OpenSaysWhatToDo) {
 }
 
 TEST_F(UsbBoards, AKernelDriverIsDetached) {
-  plug(0, UsbKind::kSh4).has_driver = true;
+  plug(0, "sh4").has_driver = true;
   const auto board = device();
   EXPECT_EQ(opening(*board), "");
 }
 
 TEST_P(EachUsbBoard, ExchangesTenThousandTimes) {
   UsbPort& port = plug(0, GetParam());
-  const auto board = device("usb", false);
+  const auto board = only_device(false);
   ASSERT_EQ(opening(*board), "");
   DeviceReading reading;
   for (int i = 1; i <= 10'000; ++i) {
@@ -222,11 +231,11 @@ TEST_P(EachUsbBoard, ExchangesTenThousandTimes) {
 
 TEST_P(EachUsbBoard, EveryFaultIsNamedAndPasses) {
   UsbPort& port = plug(0, GetParam());
-  const auto board = device("usb", false);
+  const auto board = only_device(false);
   ASSERT_EQ(opening(*board), "");
   std::vector<LinkFault> faults{LinkFault::kTimeout, LinkFault::kStall, LinkFault::kShort,
                                 LinkFault::kBabble, LinkFault::kBusError};
-  if (GetParam() == UsbKind::kSh4) faults.push_back(LinkFault::kWrongEcho);
+  if (GetParam() == "sh4") faults.push_back(LinkFault::kWrongEcho);
   DeviceReading reading;
   for (const LinkFault fault : faults) {
     const uint64_t halts = port.halts_cleared;
@@ -248,7 +257,7 @@ TEST_P(EachUsbBoard, EveryFaultIsNamedAndPasses) {
 TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
   for (const int first : {0, EPROTO}) {
     plug(1, GetParam());
-    const auto board = device();
+    const auto board = only_device(true);
     ASSERT_EQ(opening(*board), "");
     DeviceReading reading;
     exchange_until(*board, LinkFault::kNone, reading);
@@ -273,7 +282,7 @@ TEST_P(EachUsbBoard, UnpluggedAndBackAgain) {
 }
 
 TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
-  UsbPort& port = plug(0, UsbKind::kSh4);
+  UsbPort& port = plug(0, "sh4");
   port.count[0] = 600;
   Profile calibrated = profile;
   for (const bool offsets : {false, true}) {
@@ -287,13 +296,13 @@ TEST_F(UsbBoards, CountsOfACalibratedProfileAreTheBoards) {
 }
 
 TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
-  UsbPort& other = plug(0, UsbKind::kMouse);
+  UsbPort& other = plug(0, "mouse");
   other.fault = LinkFault::kTimeout;  // does not answer to the question for its state
   const auto mouse = make_grip("mouse", profile, unguarded(false));
   const std::string what = opening(*mouse);
   EXPECT_NE(what.find("is no SPIDAR-mouse"), std::string::npos) << what;
   EXPECT_EQ(other.updates, 0u);
-  UsbPort& right = plug(1, UsbKind::kMouse);
+  UsbPort& right = plug(1, "mouse");
   ASSERT_EQ(opening(*mouse), "");
   EXPECT_EQ(mouse->description(), "at 1-2: SPIDAR-mouse");
   for (int i = 0; i < 4; ++i) ASSERT_EQ(mouse->exchange(told(1)), LinkFault::kNone);
@@ -301,6 +310,20 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   EXPECT_TRUE(other.at_rest());
   mouse->close();
   EXPECT_TRUE(right.at_rest());
+}
+
+TEST_F(UsbBoards, EachKindCanBePluggedInAndNoOther) {
+  for (const DeviceKind& kind : devices()) {
+    if (kind.usb.vendor == 0) {
+      EXPECT_THROW(plug(0, kind.board), std::invalid_argument) << kind.board;
+      continue;
+    }
+    plug(0, kind.board);
+    const BoardInfo found = board_info(kind.device);
+    EXPECT_EQ(found.name, kind.title);
+    EXPECT_EQ(found.usb_id, kind.usb.text());
+    EXPECT_EQ(found.path, "1-1");
+  }
 }
 
 std::string text_of(const std::filesystem::path& path) {

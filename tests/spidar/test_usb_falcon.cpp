@@ -38,7 +38,7 @@ class UsbFalcon : public testing::Test {
     for (size_t i = 0; i < bytes; ++i) file.put(static_cast<char>(i * i >> 3));
   }
   static UsbPort& plug_homed(size_t port, const char* serial = "") {
-    UsbPort& plugged = plug(port, UsbKind::kFalcon, serial);
+    UsbPort& plugged = plug(port, "falcon", serial);
     plugged.inputs = kHomed;
     return plugged;
   }
@@ -65,7 +65,7 @@ TEST_F(UsbFalcon, GetsItsFirmwareOnceAfterEachPlugIn) {
   const auto falcon = grip();
   for (int times = 0; times < 2; ++times) {
     ASSERT_EQ(opening(*falcon), "");
-    EXPECT_TRUE(port.falcon.loaded);
+    EXPECT_TRUE(port.memory.loaded);
     EXPECT_EQ(falcon->description(), "at 1-2: Novint Falcon");
     falcon->close();
     // Without the file: it still has it.
@@ -99,9 +99,9 @@ TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
 }
 
 TEST_F(UsbFalcon, IsListedAndFoundByPathOrSerial) {
-  plug_homed(0, "F1").falcon.loaded = true;
+  plug_homed(0, "F1").memory.loaded = true;
   UsbPort& second = plug_homed(2);
-  second.falcon.loaded = true;
+  second.memory.loaded = true;
   const std::vector<BoardInfo> boards = list_boards();
   EXPECT_EQ(boards[0].device, "falcon:1-1");
   EXPECT_EQ(boards[0].name, "Novint Falcon");

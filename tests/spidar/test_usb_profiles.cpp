@@ -39,8 +39,8 @@ void expect_contains(const std::string& text, const std::string& part) {
 
 /// A wrong profile pulls with other forces than wanted, and where it should let go.
 TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
-  plug(0, UsbKind::kSh4, "A1");
-  plug(1, UsbKind::kSimple);
+  plug(0, "sh4", "A1");
+  plug(1, "simple");
   for (const std::string device : {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "uart:/dev/null"}) {
     EXPECT_EQ(board_info(device).profile, "") << device;
     EXPECT_THROW(profile_for(device, ""), NoProfile) << device;
@@ -73,7 +73,7 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
 }
 
 TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
-  plug(0, UsbKind::kSimple).inputs = 0x70;
+  plug(0, "simple").inputs = 0x70;
   for (const std::string name : {"spidar-g6x3-v2-r", "spidar-gcc", "spidar-g6x5-l"}) {
     const std::string text = refusal_of([&] { profile_for("usb:1-1", name); });
     expect_contains(text, "profile \"" + name + "\" is for boards of the kind ");
@@ -82,7 +82,7 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
     EXPECT_EQ(text.find("spidar-g6x3-v2-l"), std::string::npos) << text;
   }
   // The switch is read, and so the kind known, when it is opened.
-  plug(1, UsbKind::kSh4).inputs = 0x30;
+  plug(1, "sh4").inputs = 0x30;
   const Profile of_sh4 = profile_for("usb:7", "spidar-g6x3-v2-r");
   expect_contains(refusal_of([&] { make_device("usb:7", of_sh4)->open(); }),
                   "the board at 1-1 is a CyVerse USB 2.0 Simple, and profile \"spidar-g6x3-v2-r\" "
@@ -100,9 +100,9 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
 TEST_F(UsbProfiles, AreKeptForTheSerialNumberForWhichTheyWereConfirmed) {
   const TemporaryFolder folder;
   setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
-  plug(0, UsbKind::kSh4, "A1");
-  plug(1, UsbKind::kSh4, "A2");
-  plug(2, UsbKind::kSh4);
+  plug(0, "sh4", "A1");
+  plug(1, "sh4", "A2");
+  plug(2, "sh4");
   remember_profile(board_info("usb:A1"), "spidar-g6x3-v2-l");
   remember_profile(board_info("usb:A2"), "mine.toml");
   remember_profile(board_info("usb:A1"), "spidar-g645");
