@@ -48,6 +48,9 @@ struct DeviceKind : boards::BoardKind {
   /// With which it is driven if none is named: its simulation, and the real one, too, if it has no
   /// strings.
   const char* profile = kDefaultProfile;
+  /// What device=auto says that it has chosen, of a device without strings: "a Novint Falcon".
+  /// Empty: it is used only if it is named.
+  const char* chosen_as = "";
   boards::Verification verification = boards::Verification::kEmulated;
   const char* note = "";  ///< what is inferred
   boards::Traits traits;  ///< of a board with strings: what profiles have to fit

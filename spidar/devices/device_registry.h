@@ -13,8 +13,8 @@
 
 namespace spidar {
 
-/// In the order in which they are listed: those with strings, then the others, about in the order
-/// in which device=auto tries them.
+/// In the order in which they are listed, and device=auto tries them: those with strings, then the
+/// others.
 const std::vector<DeviceKind>& devices();
 
 /// A device's name, split at its first colon.

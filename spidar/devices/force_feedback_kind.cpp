@@ -83,6 +83,7 @@ std::vector<DeviceKind> force_feedback_kinds() {
   kind.title = "force-feedback device";
   kind.board = "ff";
   kind.names = "ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT";
+  kind.chosen_as = "a joystick or wheel with directional force";
   kind.attach = attach_force_feedback;
   kind.emulate = emulate<emulated::ForceFeedback>;
   kind.simulated_motors = unconnected_motors;

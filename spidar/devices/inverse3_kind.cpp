@@ -53,6 +53,7 @@ std::vector<DeviceKind> inverse3_kinds() {
   kind.title = "Haply Inverse3";
   kind.board = "inverse3";
   kind.names = "inverse3, inverse3:ID";
+  kind.chosen_as = "a Haply Inverse3";
   kind.verification = boards::Verification::kInferred;
   kind.attach = attach_inverse3;
   kind.emulate = emulate<emulated::Inverse3>;

@@ -70,7 +70,7 @@ std::vector<DeviceKind> uart_kinds() {
   DeviceKind kind;
   kind.device = "uart";
   kind.title = "UART motor boards";
-  kind.profile_board = board_name::kUart;
+  kind.profile_board = "uart";
   kind.board = "uart";
   kind.names = "uart:PATH";
   kind.profile = "spidar-g6x4";

@@ -34,7 +34,7 @@ DeviceKind cyverse_kind() {
 DeviceKind sh4_kind() {
   DeviceKind kind = cyverse_kind();
   kind.title = "CyVerse USB 2.0 SH4";
-  kind.profile_board = board_name::kSh4;
+  kind.profile_board = "usb-sh4";
   kind.usb = {sh4::kVendor, sh4::kProduct, {sh4::kEndpointOut, sh4::kEndpointIn}};
   kind.board = "sh4";
   kind.attach = attach<boards::Sh4>;
@@ -45,7 +45,7 @@ DeviceKind sh4_kind() {
 DeviceKind simple_kind() {
   DeviceKind kind = cyverse_kind();
   kind.title = "CyVerse USB 2.0 Simple";
-  kind.profile_board = board_name::kSimple;
+  kind.profile_board = "usb-simple";
   kind.usb = {usb_simple::kVendor,
               usb_simple::kProduct,
               {usb_simple::kEndpointOut, usb_simple::kEndpointIn}};
@@ -63,6 +63,7 @@ DeviceKind falcon_kind() {
   kind.usb.full_speed = true;
   kind.board = "falcon";
   kind.names = "falcon, falcon:ID";
+  kind.chosen_as = "a Novint Falcon";
   kind.note = "reach and scale of the force are inferred";
   kind.attach = attach<boards::Falcon>;
   kind.emulate = emulate<emulated::Falcon>;

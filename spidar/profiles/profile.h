@@ -30,13 +30,13 @@ class ProfileError : public std::runtime_error {
 /// What Profile::board may be: the controller that a SPIDAR was used with.
 namespace board_name {
 
-constexpr const char* kSh4 = "usb-sh4";
-constexpr const char* kSimple = "usb-simple";
-constexpr const char* kUart = "uart";
-constexpr const char* kAhs = "ahs";          ///< has no driver
 constexpr const char* kUnknown = "unknown";  ///< its source names none; may be any
 
-inline const std::initializer_list<std::string_view> kAll = {kSh4, kSimple, kUart, kAhs, kUnknown};
+inline const std::initializer_list<std::string_view> kAll = {
+    "usb-sh4", "usb-simple", "uart",
+    "ahs",  // has no driver
+    kUnknown,
+};
 
 }  // namespace board_name
 

@@ -145,18 +145,11 @@ BoardInfo board_info(const std::string& device) {
 
 namespace {
 
-/// In the order in which they are tried.
-struct Rank {
-  const char* device;
-  bool directional;
-  const char* why;
-};
-constexpr Rank kForces[] = {
-    {"ff", true, "a joystick or wheel with directional force"},
-    {"inverse3", true, "a Haply Inverse3"},
-    {"falcon", true, "a Novint Falcon"},
-    {"ff", false, "a gamepad that rumbles"},
-};
+/// DeviceKind::chosen_as; empty for simulations, too.
+std::string chosen_as(const BoardInfo& board) {
+  const auto kinds = kinds_called(DeviceName(board.device).device);
+  return kinds.empty() ? "" : kinds[0]->chosen_as;
+}
 
 std::string unconfirmed(const BoardInfo& board) {
   const std::string named = "device=" + board.device + " profile=NAME";
@@ -182,17 +175,17 @@ std::vector<AutoDevice> auto_devices() {
       found.push_back({board.device, "", unconfirmed(board)});
     }
   }
-  for (const Rank& rank : kForces) {
+  for (const bool directional : {true, false}) {
     for (const BoardInfo& board : boards) {
-      if (DeviceName(board.device).device == rank.device && board.directional == rank.directional) {
-        found.push_back({board.device, rank.why, ""});
-      }
+      const std::string why = chosen_as(board);
+      if (why.empty() || board.directional != directional) continue;
+      found.push_back({board.device, directional ? why : "a gamepad that rumbles", ""});
     }
   }
   for (const BoardInfo& board : boards) {
-    if (DeviceName(board.device).device == "mouse") {
-      found.push_back({board.device, "", "a " + board.name + " is used only with device=mouse"});
-    }
+    if (board.has_strings || board.usb_id.empty() || !chosen_as(board).empty()) continue;
+    const std::string device = DeviceName(board.device).device;
+    found.push_back({board.device, "", "a " + board.name + " is used only with device=" + device});
   }
   return found;
 }

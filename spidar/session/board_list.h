@@ -36,10 +36,10 @@ struct AutoDevice {
 };
 
 /// What is plugged in and gives a force, in the order in which it is to be tried: a SPIDAR whose
-/// profile somebody has confirmed, a joystick or wheel with directional force, an Inverse3, a
-/// Falcon, and what rumbles. Boards whose profile nobody has named come after the others with
-/// strings, with `why_not`, and so does what is used only if it is named. Opens nothing, so that
-/// what is listed may still be in use, or not be permitted.
+/// profile somebody has confirmed, the others in the order of devices(), and what only rumbles.
+/// Boards whose profile nobody has named come after the others with strings, with `why_not`, and so
+/// do devices on USB that are used only if they are named. Opens nothing, so that what is listed
+/// may still be in use, or not be permitted.
 std::vector<AutoDevice> auto_devices();
 
 }  // namespace spidar

@@ -312,6 +312,15 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   EXPECT_TRUE(right.at_rest());
 }
 
+/// Else no file of a profile could name it.
+TEST(BoardKinds, EachWithStringsHasANameForProfiles) {
+  for (const DeviceKind& kind : devices()) {
+    if (!kind.has_strings()) continue;
+    const auto& all = board_name::kAll;
+    EXPECT_NE(std::find(all.begin(), all.end(), kind.profile_board), all.end()) << kind.title;
+  }
+}
+
 TEST_F(UsbBoards, EachKindCanBePluggedInAndNoOther) {
   for (const DeviceKind& kind : devices()) {
     if (kind.usb.vendor == 0) {
@@ -333,10 +342,7 @@ std::string text_of(const std::filesystem::path& path) {
 
 /// The software centre of a desktop finds the package by the modalias.
 TEST(UsbKinds, EachHasAUdevRuleAndAModalias) {
-  const std::filesystem::path rules_path = UDEV_RULES;
-  const std::string rules = text_of(rules_path);
-  const std::string metainfo =
-      text_of(rules_path.parent_path() / "org.gst_spidar.tools.metainfo.xml");
+  const std::string rules = text_of(UDEV_RULES), metainfo = text_of(METAINFO);
   for (const DeviceKind& kind : devices()) {
     if (kind.usb.vendor == 0) continue;
     const std::string id = kind.usb.text();
