@@ -10,12 +10,10 @@
 
 namespace spidar {
 
-class ExampleBoard final : public boards::Board {
+class ExampleBoard final : public boards::OnTransport<boards::Board> {
  public:
   ExampleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
-      : name_(std::move(name)),
-        dac_(boards::unipolar_dac(profile)),
-        transport_(std::move(transport)) {
+      : OnTransport(std::move(name), std::move(transport)), dac_(boards::unipolar_dac(profile)) {
     boards::require_fitting(name_, profile, {12, 0, false});  // bits, largest volts, negative ones
   }
 
@@ -36,15 +34,12 @@ class ExampleBoard final : public boards::Board {
     reading.count = counts_.counts();
     return LinkFault::kNone;
   }
-  void recover() noexcept override { transport_->recover(); }
   void zero_counts() noexcept override { counts_.zero(); }
   bool counts_restarted() const noexcept override { return counts_.restarted(); }
-  void close() noexcept override { transport_->close(); }
   std::vector<LastWill> last_wills() const override {
     return boards::wills(*transport_, {std::array<uint8_t, 16>{}});
   }
   std::string description() const override { return "example"; }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   using Raw = std::array<uint32_t, kMaxStrings>;
@@ -58,9 +53,7 @@ class ExampleBoard final : public boards::Board {
     return fault;
   }
 
-  const std::string name_;
   const boards::DacScale dac_;
-  const std::unique_ptr<Transport> transport_;
   boards::EncoderCounts counts_{16};
 };
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spidar/device.h"
@@ -19,6 +21,22 @@
 #include "spidar/transports/transport.h"
 
 namespace spidar::boards {
+
+/// What is the same for all that are at the other end of one transport.
+template <typename BoardType>
+class OnTransport : public BoardType {
+ public:
+  OnTransport(std::string name, std::unique_ptr<Transport> transport)
+      : name_(std::move(name)), transport_(std::move(transport)) {}
+
+  void recover() noexcept override { transport_->recover(); }
+  void close() noexcept override { transport_->close(); }
+  const std::string& name() const noexcept final { return name_; }
+
+ protected:
+  const std::string name_;
+  const std::unique_ptr<Transport> transport_;
+};
 
 /// Returns the transport's will with these packets; empty if no other process can reach the board.
 inline std::vector<LastWill> wills(const Transport& transport,

@@ -11,9 +11,8 @@ namespace spidar::boards {
 
 Cyverse::Cyverse(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
                  int counter_bits)
-    : name_(std::move(name)),
+    : OnTransport(std::move(name), std::move(transport)),
       dac_(unipolar_dac(profile)),
-      transport_(std::move(transport)),
       counts_(counter_bits) {
   require_fitting(name_, profile, kCyverseTraits);
 }
@@ -66,7 +65,7 @@ LinkFault Sh4::exchange(const DacDigits& digits, Readout& readout, int64_t deadl
   sent_[sent_at_] = digits;
   sent_at_ = (sent_at_ + 1) % kEchoes;
   sh4::encode_update(digits, out_);
-  const Transfer transfer = transport().exchange({out_}, in_, deadline_ns);
+  const Transfer transfer = transport_->exchange({out_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
   sh4::Reading reading;
   if (!sh4::decode_reading({in_.data(), transfer.received}, reading)) return LinkFault::kShort;
@@ -104,13 +103,13 @@ Simple::Simple(std::string name, const Profile& profile, std::unique_ptr<Transpo
 LinkFault Simple::reset(int64_t deadline_ns) noexcept {
   usb_simple::Packet direction;
   usb_simple::encode_encoder_direction(kAllChannels, direction);
-  return transport().exchange({direction}, {}, deadline_ns).fault;
+  return transport_->exchange({direction}, {}, deadline_ns).fault;
 }
 
 LinkFault Simple::exchange(const DacDigits& digits, Readout& readout,
                            int64_t deadline_ns) noexcept {
   usb_simple::encode_set_dac(digits, set_dac_);
-  const Transfer transfer = transport().exchange({set_dac_, latch_}, in_, deadline_ns);
+  const Transfer transfer = transport_->exchange({set_dac_, latch_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
   usb_simple::Reading reading;
   if (!usb_simple::decode_reading({in_.data(), transfer.received}, reading)) {

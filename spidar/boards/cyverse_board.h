@@ -17,7 +17,7 @@
 
 namespace spidar::boards {
 
-class Cyverse : public Board {
+class Cyverse : public OnTransport<Board> {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
   Cyverse(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
@@ -26,14 +26,11 @@ class Cyverse : public Board {
   void open() final;
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept final;
-  void recover() noexcept final { transport_->recover(); }
   /// Zeroes the counts on the host; the board's own counters are not changed.
   void zero_counts() noexcept final { counts_.zero(); }
   bool counts_restarted() const noexcept final { return counts_.restarted(); }
-  void close() noexcept final { transport_->close(); }
   std::vector<LastWill> last_wills() const final;
   int rotary() const noexcept final { return rotary_; }
-  const std::string& name() const noexcept final { return name_; }
 
  protected:
   using DacDigits = std::array<uint16_t, kMaxStrings>;
@@ -51,12 +48,8 @@ class Cyverse : public Board {
   /// The packet that sets all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
 
-  Transport& transport() noexcept { return *transport_; }
-
  private:
-  const std::string name_;
   const DacScale dac_;
-  const std::unique_ptr<Transport> transport_;
   EncoderCounts counts_;
   int rotary_ = -1;
 };

@@ -50,9 +50,6 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
 
 }  // namespace
 
-Falcon::Falcon(std::string name, std::unique_ptr<Transport> transport)
-    : name_(std::move(name)), transport_(std::move(transport)) {}
-
 template <typename Requests>
 LinkFault Falcon::set_line(const Requests& requests) noexcept {
   for (const VendorRequest& request : requests) {
@@ -188,7 +185,7 @@ LinkFault Falcon::cycle(const ForceOutput& output, ForceReading& reading,
 }
 
 void Falcon::recover() noexcept {
-  transport_->recover();
+  OnTransport::recover();
   stale_ = true;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "spidar/boards/board.h"
+#include "spidar/boards/board_parts.h"
 #include "spidar/protocols/novint_falcon.h"
 #include "spidar/transports/transport.h"
 
@@ -20,19 +21,17 @@ namespace spidar::boards {
 ///
 /// Until every encoder has passed its mark there is no position and no force: the user pulls the
 /// grip all the way out and pushes it all the way in.
-class Falcon final : public ForceBoard {
+class Falcon final : public OnTransport<ForceBoard> {
  public:
-  Falcon(std::string name, std::unique_ptr<Transport> transport);
+  using OnTransport::OnTransport;
 
   void open() override;
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
                   int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
-  void close() noexcept override { transport_->close(); }
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
   GripAbilities abilities() const noexcept override { return kAbilities; }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   /// At libnifalcon's scale, the motors can give this in every direction within 50 mm of the
@@ -58,8 +57,6 @@ class Falcon final : public ForceBoard {
   void see() noexcept;
   std::array<int, 3> digits_for(const Eigen::Vector3d& force_N) const noexcept;
 
-  const std::string name_;
-  const std::unique_ptr<Transport> transport_;
   falcon::Packet out_{};
   falcon::Reading seen_;
   std::optional<Position> position_;

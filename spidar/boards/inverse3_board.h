@@ -18,17 +18,15 @@ namespace spidar::boards {
 
 /// One force and one state in each cycle: the service answers every message. A force is sent only
 /// when the one before has been answered, so that none can arrive late.
-class Inverse3 final : public ForceBoard {
+class Inverse3 final : public OnTransport<ForceBoard> {
  public:
   /// `id` is the device's number in the service ("049D"); empty: the first one.
   Inverse3(std::string name, std::string id, std::unique_ptr<Transport> transport)
-      : name_(std::move(name)),
+      : OnTransport(std::move(name), std::move(transport)),
         id_(std::move(id)),
-        transport_(std::move(transport)),
         answer_(inverse3::kStateSize) {}
 
   void open() override {
-    close();
     transport_->open();
     const LinkFault fault = open_exchange(
         [&](int64_t deadline_ns) {
@@ -75,13 +73,12 @@ class Inverse3 final : public ForceBoard {
     reading.buttons = now_.buttons;
     return LinkFault::kNone;
   }
-  void recover() noexcept override { transport_->recover(); }
   void close() noexcept override {
     if (opened_) {
       ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_, soon_ns());
     }
     opened_ = false;
-    transport_->close();
+    OnTransport::close();
   }
   std::vector<LastWill> last_wills() const override {
     std::array<uint8_t, inverse3::kCommandSize> zero{};
@@ -95,7 +92,6 @@ class Inverse3 final : public ForceBoard {
            (device_.version == inverse3::Version::k35 ? "3.5" : "3.1");
   }
   GripAbilities abilities() const noexcept override { return kAbilities; }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   /// Half of the side of the square in the circle of kReach_m.
@@ -135,9 +131,7 @@ class Inverse3 final : public ForceBoard {
     throw DeviceError(name_ + ": " + why, code, location);
   }
 
-  const std::string name_;
   const std::string id_;
-  const std::unique_ptr<Transport> transport_;
   inverse3::State device_;  ///< as it was when it was opened
   inverse3::State now_;
   bool opened_ = false;

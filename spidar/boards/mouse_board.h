@@ -3,23 +3,19 @@
 /// The SPIDAR-mouse: two force axes, no position.
 #pragma once
 
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_parts.h"
 #include "spidar/protocols/spidar_mouse.h"
-#include "spidar/transports/transport.h"
 
 namespace spidar::boards {
 
 /// Its grip is always at the centre.
-class Mouse final : public ForceBoard {
+class Mouse final : public OnTransport<ForceBoard> {
  public:
-  Mouse(std::string name, std::unique_ptr<Transport> transport)
-      : name_(std::move(name)), transport_(std::move(transport)) {}
+  using OnTransport::OnTransport;
 
   void open() override {
     transport_->open();
@@ -54,7 +50,6 @@ class Mouse final : public ForceBoard {
     reading.position_m.setZero();
     return LinkFault::kNone;
   }
-  void recover() noexcept override { transport_->recover(); }
   void close() noexcept override {
     if (started_) {
       const int64_t deadline_ns = soon_ns();
@@ -64,7 +59,7 @@ class Mouse final : public ForceBoard {
       transport_->exchange({out_}, {}, deadline_ns);
       started_ = false;
     }
-    transport_->close();
+    OnTransport::close();
   }
   std::vector<LastWill> last_wills() const override {
     mouse::Report zero, stop;
@@ -74,7 +69,6 @@ class Mouse final : public ForceBoard {
   }
   std::string description() const override { return "SPIDAR-mouse"; }
   GripAbilities abilities() const noexcept override { return kAbilities; }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   /// Period at which the published program sends a force, 4 ms.
@@ -82,8 +76,6 @@ class Mouse final : public ForceBoard {
   static constexpr GripAbilities kAbilities{
       {true, true, false}, false, true, {}, mouse::kMaxForce_N, 1000 / kCyclesPerReport};
 
-  const std::string name_;
-  const std::unique_ptr<Transport> transport_;
   bool started_ = false;
   int cycle_ = 0;
   mouse::Report out_{};

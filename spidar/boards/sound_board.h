@@ -20,10 +20,10 @@ namespace spidar::boards {
 
 /// Needs no guardian: the card stops by itself. The kernel stops it when this process ends, and
 /// what is written ends within the buffer of the card when it is stopped (SoundTransport).
-class Sound final : public ForceBoard {
+class Sound final : public OnTransport<ForceBoard> {
  public:
   Sound(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})
-      : name_(std::move(name)), settings_(std::move(settings)), transport_(std::move(transport)) {
+      : OnTransport(std::move(name), std::move(transport)), settings_(std::move(settings)) {
     abilities_.torque = false;
     abilities_.position = {};
     abilities_.largest_force_N = sound::kFullForce_N;
@@ -50,10 +50,9 @@ class Sound final : public ForceBoard {
     reading.lag_ns = lag_ns_;
     return LinkFault::kNone;
   }
-  void recover() noexcept override { transport_->recover(); }
   void close() noexcept override {
     play({}, soon_ns());
-    transport_->close();
+    OnTransport::close();
   }
   std::vector<LastWill> last_wills() const override { return {}; }
   std::string description() const override {
@@ -78,7 +77,6 @@ class Sound final : public ForceBoard {
            " ms; real-time priority for this program helps, or another card.";
   }
   GripAbilities abilities() const noexcept override { return abilities_; }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   LinkFault play(const sound::Levels& levels, int64_t deadline_ns) noexcept {
@@ -93,9 +91,7 @@ class Sound final : public ForceBoard {
     return transfer.fault;
   }
 
-  const std::string name_;
   const sound::Settings settings_;
-  const std::unique_ptr<Transport> transport_;
   GripAbilities abilities_;
   std::atomic<int64_t> lag_ns_{0};
   std::atomic<int> underruns_{0}, period_ms_{0};

@@ -27,6 +27,14 @@ inline const DeviceKind& kind_of(const std::string& board) {
   return *simulated_kind(DeviceName("sim:" + board));
 }
 
+/// Those with strings on USB.
+inline std::vector<std::string> string_boards_on_usb() {
+  std::vector<std::string> boards;
+  for (const std::string& board : boards_that_there_are(true))
+    if (kind_of(board).usb.vendor != 0) boards.push_back(board);
+  return boards;
+}
+
 inline std::string name_of(const testing::TestParamInfo<std::string>& board) {
   return board.param;
 }

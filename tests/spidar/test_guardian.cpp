@@ -22,6 +22,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
 #include "tests/spidar/guardian_victim.h"
+#include "tests/spidar/kinds.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/recorded_motors.h"
@@ -74,10 +75,10 @@ template <typename Opened, typename Exchange>
 }
 
 TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
-  for (const char* kind : {"sh4", "simple"}) {
+  for (const std::string& board : string_boards_on_usb()) {
     for (const int signal : {SIGKILL, SIGTERM, SIGABRT}) {
-      UsbPort& port = plug(0, kind);
-      Victim victim("usb", kUsbProfile);
+      UsbPort& port = plug(0, board);
+      Victim victim(kind_of(board).device, kUsbProfile);
       wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
       ASSERT_TRUE(victim.lives());
       victim.end(signal);
@@ -103,9 +104,9 @@ TEST(Guardian, ZeroesAFalconWhenTheHostIsKilledOrStopped) {
 }
 
 TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsStopped) {
-  for (const char* kind : {"sh4", "simple"}) {
-    UsbPort& port = plug(0, kind);
-    Victim victim("usb", kUsbProfile);
+  for (const std::string& board : string_boards_on_usb()) {
+    UsbPort& port = plug(0, board);
+    Victim victim(kind_of(board).device, kUsbProfile);
     for (int times = 0; times < 3; ++times) {
       // A host that goes on has lost its board, and gets it and a new guardian by opening it again.
       wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });

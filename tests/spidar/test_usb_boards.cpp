@@ -76,13 +76,7 @@ class EachUsbBoard : public UsbBoards, public testing::WithParamInterface<std::s
     return device(kind_of(GetParam()).device, threaded);
   }
 };
-INSTANTIATE_TEST_SUITE_P(, EachUsbBoard, testing::ValuesIn([] {
-                           std::vector<std::string> boards;
-                           for (const std::string& board : boards_that_there_are(true))
-                             if (kind_of(board).usb.vendor != 0) boards.push_back(board);
-                           return boards;
-                         }()),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(, EachUsbBoard, testing::ValuesIn(string_boards_on_usb()), name_of);
 
 TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
   plug(0, "sh4", "A1");
