@@ -154,7 +154,7 @@ template <typename BoardType>
 void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
   for (Kind& kind : kinds_) {
     if (kind.known != candidate.kind) continue;
-    if (kind.known->has_strings() && profile_board_ != board_name::kUnknown &&
+    if (kind.known->has_strings() && profile_board_ != kUnknownBoard &&
         profile_board_ != kind.known->profile_board) {
       throw DeviceError(name_ + ": the board at " + candidate.device.path + " is a " +
                             kind.known->title + ", and profile \"" + profile_name_ +

@@ -20,7 +20,7 @@ namespace spidar::boards {
 struct BoardKind {
   const char* device = "";  ///< what its name for make_grip() begins with: "usb"
   const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
-  /// Profile::board of profiles for it, one of board_name::kAll; empty for one without strings.
+  /// Profile::board of profiles for it; empty for one without strings.
   const char* profile_board = "";
   UsbId usb;  ///< nothing for one that is not on USB
   /// The board at the other end of this transport. Throws DeviceError when it cannot drive the

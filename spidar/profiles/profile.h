@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -27,18 +25,8 @@ class ProfileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What Profile::board may be: the controller that a SPIDAR was used with.
-namespace board_name {
-
-constexpr const char* kUnknown = "unknown";  ///< its source names none; may be any
-
-inline const std::initializer_list<std::string_view> kAll = {
-    "usb-sh4", "usb-simple", "uart",
-    "ahs",  // has no driver
-    kUnknown,
-};
-
-}  // namespace board_name
+/// Profile::board when its source names none: it may be any.
+constexpr const char* kUnknownBoard = "unknown";
 
 /// Motor, encoder and force range of one string.
 struct StringDrive {
@@ -92,7 +80,7 @@ struct Profile {
 
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;        ///< controller it was used with, see board_name
+  std::string board;        ///< controller it was used with, see parse_profile()
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V

@@ -138,7 +138,7 @@ std::string why_not(const BoardInfo& board, const Profile& profile) {
   std::string names, why;
   for (const DeviceKind* kind : kinds_of(board)) {
     names += (names.empty() ? "" : " or ") + std::string(kind->profile_board);
-    if (profile.board != board_name::kUnknown && profile.board != kind->profile_board) continue;
+    if (profile.board != kUnknownBoard && profile.board != kind->profile_board) continue;
     why = boards::misfit(profile, kind->traits);
     if (why.empty()) return {};
   }

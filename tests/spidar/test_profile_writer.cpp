@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/device_registry.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/whole_file.h"
 #include "tests/spidar/calibration_samples.h"
@@ -84,6 +85,15 @@ TEST(ProfileWriter, EveryShippedProfileComesBack) {
     const Profile profile = load_profile(name);
     save_profile(profile, path);
     expect_same(profile, load_profile(path));
+  }
+}
+
+TEST(ProfileWriter, AnyBoardWithStringsMayBeNamed) {
+  Profile profile = load_profile("spidar-gcc");
+  for (const DeviceKind& kind : devices()) {
+    if (!kind.has_strings()) continue;
+    profile.board = kind.profile_board;
+    EXPECT_EQ(parse_profile(profile_text(profile), "", "").board, kind.profile_board);
   }
 }
 

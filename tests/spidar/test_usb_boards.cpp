@@ -306,15 +306,6 @@ TEST_F(UsbBoards, MouseIsToldFromOtherDevicesOfItsId) {
   EXPECT_TRUE(right.at_rest());
 }
 
-/// Else no file of a profile could name it.
-TEST(BoardKinds, EachWithStringsHasANameForProfiles) {
-  for (const DeviceKind& kind : devices()) {
-    if (!kind.has_strings()) continue;
-    const auto& all = board_name::kAll;
-    EXPECT_NE(std::find(all.begin(), all.end(), kind.profile_board), all.end()) << kind.title;
-  }
-}
-
 TEST_F(UsbBoards, EachKindCanBePluggedInAndNoOther) {
   for (const DeviceKind& kind : devices()) {
     if (kind.usb.vendor == 0) {
