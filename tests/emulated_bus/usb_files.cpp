@@ -26,12 +26,50 @@
 #include "spidar/devices/device_kind.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/claim_locks.h"
-#include "tests/emulated_bus/port_board.h"
 
 namespace spidar::test {
 namespace {
 
 constexpr uint8_t kIn = 0x80;
+
+/// Motors and encoders of a port.
+class PortMotors final : public emulated::Motors {
+ public:
+  explicit PortMotors(UsbPort& port) : port_(port) {}
+  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+    for (size_t i = 0; i < digits.size(); ++i) port_.digit[i] = digits[i];
+    ++port_.updates;
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override {
+    std::array<int32_t, kMaxStrings> counts{};
+    for (size_t i = 0; i < counts.size(); ++i) counts[i] = port_.count[i];
+    return counts;
+  }
+  uint16_t inputs() noexcept override { return port_.inputs; }
+
+ private:
+  UsbPort& port_;
+};
+
+/// The negative errno with which usbfs ends a transfer on such a link; 0: the transfer succeeds.
+int status_of(LinkFault fault) {
+  switch (fault) {
+    case LinkFault::kStall:
+      return -EPIPE;
+    case LinkFault::kBusError:
+      return -EPROTO;
+    default:
+      return 0;
+  }
+}
+
+/// Changes a reply as the fault does. Returns how many bytes of it arrive.
+size_t spoil_reply(LinkFault fault, MutableBytes reply) {
+  if (fault == LinkFault::kWrongReply)
+    for (size_t i = 0; i < reply.size; ++i) reply.data[i] ^= 0xA5;
+  if (fault == LinkFault::kWrongEcho) reply.data[0] ^= 0x10;
+  return fault == LinkFault::kShort ? reply.size / 2 : reply.size;
+}
 
 /// Null when it was pulled out meanwhile.
 std::unique_ptr<emulated::Board> board_in(UsbPort& port) {

@@ -17,6 +17,7 @@
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_transport.h"
+#include "tests/spidar/board_bench.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 #include "tests/support/temporary_folder.h"
@@ -26,12 +27,6 @@ namespace {
 
 constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
 constexpr uart_motor::BoardInfo kB5M{7, 1, 8, 0, 4, 0};
-
-MotorVolts all_volts(double volt) {
-  MotorVolts volts;
-  volts.volt.fill(volt);
-  return volts;
-}
 
 class UartLines : public testing::Test {
  protected:

@@ -22,17 +22,11 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
-#include "tests/spidar/kinds.h"
+#include "tests/spidar/board_bench.h"
 #include "tests/support/pushed_grip.h"
 
 namespace spidar::test::usb_boards_test {
 namespace {
-
-MotorVolts all_volts(double volt) {
-  MotorVolts volts;
-  volts.volt.fill(volt);
-  return volts;
-}
 
 /// The message of open(); empty on success.
 template <typename Opened>
