@@ -33,4 +33,10 @@ StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pos
   return W;
 }
 
+Eigen::Vector3d half_frame_m(const StringGeometry& geometry) {
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
+  for (int i = 0; i < geometry.count; ++i) half_m = half_m.cwiseMax(geometry.exit_m[i].cwiseAbs());
+  return half_m;
+}
+
 }  // namespace spidar

@@ -42,15 +42,14 @@ StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
 /// grip point to the exit. A string of no length has no direction: its column is zero.
 StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
 
-/// How far the grip is to move from the workspace's centre to each side: half of the way to the box
-/// that holds the exits of the strings. There it can still be held (docs/strings.md).
+/// Half the size of the box about the workspace's centre that holds the exits of the strings.
+Eigen::Vector3d half_frame_m(const StringGeometry& geometry);
+
+/// How far the grip is to move from the workspace's centre to each side: half of the way to that
+/// box. There it can still be held (docs/strings.md).
 inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
-  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < geometry.count; ++i) {
-    half_m = half_m.cwiseMax(kReach * geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
-  }
-  return half_m;
+  return kReach * half_frame_m(geometry);
 }
 
 /// Stretched until half_room_m() is `half_m`, in the axes in which that is not zero: for a device

@@ -22,11 +22,7 @@ const std::array<HandMoves::Side, 6> HandMoves::kSides{{{"to the right", {1, 0, 
                                                         {"away from you", {0, 0, -1}}}};
 
 double hand_move_m(const StringGeometry& geometry) {
-  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < geometry.count; ++i) {
-    half_m = half_m.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
-  }
-  return std::min(kLargestMove_m, kFractionOfFrame * half_m.minCoeff());
+  return std::min(kLargestMove_m, kFractionOfFrame * half_frame_m(geometry).minCoeff());
 }
 
 std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const HandMoves& moves) {

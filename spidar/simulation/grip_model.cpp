@@ -81,11 +81,8 @@ Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept {
 
 GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& max_tension_N,
                            const GripModel& model)
-    : geometry_(geometry), model_(model), limit_m_(Eigen::Vector3d::Zero()) {
+    : geometry_(geometry), model_(model), limit_m_(half_frame_m(geometry)) {
   check(model);
-  for (int i = 0; i < geometry.count; ++i) {
-    limit_m_ = limit_m_.cwiseMax(geometry.exit_m[static_cast<size_t>(i)].cwiseAbs());
-  }
   const double frequency = std::sqrt(max_frequency_squared(geometry, max_tension_N, model));
   max_step_s_ =
       frequency > 0 ? std::min(kLongestStep_s, kStepTimesFrequency / frequency) : kLongestStep_s;
