@@ -22,7 +22,7 @@
 
 namespace spidar {
 
-/// Of the analysis of frames, the rendering among it.
+/// Of the analysis of frames, and of the rendering of what it finds.
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pictures for OpenCV, OpenCV without its worker threads, and its vectors of 16 bytes: the
-/// processor's, or an emulation where it has none, which needs what opencv2/core.hpp declares and
-/// does not include it.
+/// What is needed of OpenCV: its view of a picture, its functions on one thread, and its vectors of
+/// 16 bytes, which are emulated where the processor has none. intrin.hpp needs core.hpp and does
+/// not include it.
 #pragma once
 
 #include <cstdint>

@@ -13,6 +13,7 @@
 #include <gst/gst.h>
 
 #include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 
 namespace spidar {

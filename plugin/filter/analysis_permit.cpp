@@ -4,8 +4,11 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <cstdlib>
 #include <mutex>
+#include <unistd.h>
+#include <utility>
 
 namespace spidar::filter {
 namespace {
@@ -18,8 +21,9 @@ struct Permits {
   std::mutex mutex;
   std::condition_variable changed;
   int given = 0;
+  uint64_t frames = 0;
   bool is_ending = false;
-  bool is_registered = false;
+  const pid_t process = getpid();
 };
 
 /// Never destroyed: a thread may still ask for a permit while the process ends.
@@ -30,8 +34,10 @@ Permits& permits() {
 
 void wait_for_frames() {
   Permits& all = permits();
+  // A child after fork() has none of the threads, but what they had locked.
+  if (getpid() != all.process) return;
   std::unique_lock<std::mutex> lock(all.mutex);
-  all.is_ending = true;
+  if (std::exchange(all.is_ending, true)) return;
   all.changed.wait_for(lock, kLongestWait, [&all] { return all.given == 0; });
 }
 
@@ -43,6 +49,10 @@ AnalysisPermit::AnalysisPermit() {
   is_given_ = !all.is_ending;
   if (!is_given_) return;
   ++all.given;
+  // exit() calls what was registered last first. OpenCV makes its objects at their first use, some
+  // of them only in a later frame: so this is registered again before frames 2, 3, 5, 9, 17 …
+  const uint64_t before = all.frames++;
+  if ((before & (before - 1)) == 0) std::atexit(wait_for_frames);
 }
 
 AnalysisPermit::~AnalysisPermit() {
@@ -51,9 +61,6 @@ AnalysisPermit::~AnalysisPermit() {
   const std::lock_guard<std::mutex> lock(all.mutex);
   --all.given;
   all.changed.notify_all();
-  // exit() calls what was registered last first. OpenCV makes its objects at their first use, so
-  // this is registered when a frame has been analysed.
-  if (!all.is_registered) all.is_registered = std::atexit(wait_for_frames) == 0;
 }
 
 }  // namespace spidar::filter

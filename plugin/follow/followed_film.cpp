@@ -9,8 +9,8 @@
 
 #include <gst/pbutils/pbutils.h>
 
-#include "plugin/films/file_pipeline.h"
 #include "plugin/films/film_reader.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/open_track.h"

@@ -13,6 +13,7 @@
 #include "plugin/films/file_bytes.h"
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/track_samples.h"

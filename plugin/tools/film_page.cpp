@@ -15,6 +15,7 @@
 #include "core/track/keyframes.h"
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_page_html.h"
 #include "plugin/tools/film_watch.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 
 namespace spidar::tools {

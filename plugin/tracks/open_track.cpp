@@ -13,6 +13,7 @@
 
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/track_tags.h"
 

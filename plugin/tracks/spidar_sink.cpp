@@ -37,7 +37,7 @@
 
 #include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
-#include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/frame/motion_message.h"
 #include "plugin/frame/no_force.h"
 #include "plugin/output/device_warnings.h"

@@ -6,7 +6,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 
 namespace spidar::tracks {
 namespace {

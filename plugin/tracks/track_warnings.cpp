@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/gobject/category.h"
 
 // GST_ELEMENT_WARNING logs there.

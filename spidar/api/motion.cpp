@@ -25,7 +25,7 @@ spidar::ControlLaw law_of(Controller controller) {
   throw std::invalid_argument("there is no such controller");
 }
 
-spidar::MotionKind law_of(FeltMotion motion) {
+spidar::MotionKind kind_of(FeltMotion motion) {
   switch (motion) {
     case FeltMotion::kMean:
       return spidar::MotionKind::kMean;
@@ -42,7 +42,7 @@ spidar::MotionKind law_of(FeltMotion motion) {
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   spidar::AnalyzerSettings result;
   result.controller.law = law_of(settings.controller);
-  result.motion = law_of(settings.motion);
+  result.motion = kind_of(settings.motion);
   result.controller.max_force_N = settings.max_force_N;
   result.controller.alpha_s_px = settings.alpha_s_px;
   result.pointer = {settings.pointer_x, settings.pointer_y};

@@ -452,7 +452,8 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
                   [](unsigned char c) { return c < ' '; })) {
     description.fail("has a control character, must be one line");
   }
-  // DeviceKind::profile_board of all with strings, and one that has no driver.
+  // DeviceKind::profile_board of all with strings, one that has no driver (ahs), and a source that
+  // names none.
   profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", kUnknownBoard});
   profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
   const TomlField dac_max = root["dac_max_V"];

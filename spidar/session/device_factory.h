@@ -24,7 +24,8 @@ bool is_simulated(const std::string& spec);
 ///   ff, ff:PATH[,OPTION]…   the first one, or this file; OPTION: axes=1 for a wheel or axes=2 for
 ///                           a joystick, if it is taken for the other; gain=PERCENT of its strength
 ///                           (20); flip=x, y or xy if its driver pushes to the other side
-///   falcon, falcon:ID       and others on USB without strings; ID: serial number or bus path
+///   mouse, falcon, …; NAME:ID
+///                           a device on USB without strings; ID: serial number or bus path
 ///   inverse3, inverse3:ID[,port=N]
 ///                           the first one of the maker's service, or this one
 ///   sound:CARD[,OPTION]…    this sound card; OPTION: 3=x for the direction that a channel plays,

@@ -19,21 +19,23 @@ using filter::AnalysisPermit;
 std::atomic<bool> frame_begins{false};
 std::atomic<bool> frame_ends{false};
 
-/// Registered first, it is called last, as the destructors of OpenCV are.
 void check_the_end() {
   if (!frame_ends) _exit(2);
   _exit(AnalysisPermit() ? 3 : 0);
 }
 
-/// Ends the process while another thread analyses a frame, its second one.
+/// Ends the process while another thread analyses a frame, its third one.
 [[noreturn]] void exit_in_a_frame() {
-  std::atexit(check_the_end);
   std::thread([] {
     { const AnalysisPermit first; }
-    const AnalysisPermit second;
+    {
+      const AnalysisPermit second;
+      std::atexit(check_the_end);  // as the destructor of an object that OpenCV makes in a frame
+    }
+    const AnalysisPermit third;
     frame_begins = true;
-    // Long enough for exit() to be called.
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    // There are permits until exit() is called.
+    while (AnalysisPermit()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     frame_ends = true;
   }).detach();
   while (!frame_begins) std::this_thread::yield();

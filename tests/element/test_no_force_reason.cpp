@@ -61,6 +61,8 @@ TEST_F(NoForceReasonTest, WhileTouchingItIsThatOfThePartOfTheMotionThatIsRendere
   show_moved(kFrames, 2);
   EXPECT_EQ(message_reason(), "none");
   EXPECT_EQ(stats_field("no-force-reason"), "none");
+  EXPECT_EQ(stats_field("no-force-text"), "");
+  EXPECT_EQ(h->motions().back().no_force_text, "");
 }
 
 TEST_F(NoForceReasonTest, FramesWithoutAPictureRepeatTheOneBefore) {

@@ -135,6 +135,9 @@ TEST(PixelAspect, APanAndAnObjectFeelAsInSquarePixels) {
                         {"motion=object feel=\"0:00- object at 0.48,0.55\"", moving_disc}};
   for (const Case& c : cases) {
     const Felt square = feel(c.film, c.properties, kSquare);
+    if (std::string(c.properties) == "motion=object") {
+      ASSERT_EQ(square.boxes.size(), 1u);
+    }
     for (const Aspect& aspect : kAspects) {
       SCOPED_TRACE(std::string(c.properties) + " " + std::to_string(aspect.n) + "/" +
                    std::to_string(aspect.d));

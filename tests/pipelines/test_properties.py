@@ -7,7 +7,6 @@ import errno
 import fcntl
 import math
 import os
-import subprocess
 import time
 import unittest
 
@@ -251,6 +250,7 @@ class Traces(ElementCase):
                                  (f"device=none trace={full}", os.strerror(errno.ENOSPC)),
                                  (f"device=none trace={link}", "it is a link"),
                                  (f"device=none trace={pipe}", "a pipe that nobody reads"),
+                                 (f"device=sim haptic-trace={pipe}", "a pipe that nobody reads"),
                                  (f"device=none trace={self.path('trace.txt')}", "neither in .csv nor in .jsonl"),
                                  ("device=none haptic-trace=ticks.csv", "device=none opens none"),
                                  ("device=sim haptic-trace=/nowhere/haptic.csv", "/nowhere/haptic.csv"),

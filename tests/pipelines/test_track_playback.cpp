@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/force/motion_rendering.h"
-#include "plugin/films/file_pipeline.h"
+#include "plugin/films/stream_content.h"
 #include "plugin/tracks/track_tags.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/wav_track.h"
@@ -233,6 +233,17 @@ TEST(TrackPlayback, ALoopWithoutAFlushIsFeltWithoutAGap) {
     EXPECT_TRUE(ms < kFadeIn_ms || tick.commanded.stacked() == tick.wanted.stacked()) << ms;
   }
   EXPECT_EQ(track.run(51).commanded.stacked().norm(), 0);
+}
+
+TEST(TrackPlayback, FlushedSamplesAreNotFeltAndRestIsReachedWithoutNewOnes) {
+  SteppedTrack track;
+  track.push(curve(), 0);
+  track.end();
+  track.set_state(GST_STATE_PLAYING);
+  EXPECT_GT(track.run(150).commanded.stacked().norm(), 0.5);
+  track.flush();
+  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
+  EXPECT_EQ(track.run(500).commanded.stacked().norm(), 0);
 }
 
 TEST(TrackPlayback, ASeekWhilePausedIsFeltWhenItPlaysAgainAlsoBackwards) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What is in a stream of a film: pictures, sound for ears, or a haptic track.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// A line of the comment of a track, which FLAC, Matroska and WAV keep, and a tag of its own where
+/// there are such. Whatever writes tracks writes it.
+extern const char* const kTrackMark;
+
+/// Whether tags of a stream contain the mark. Those of a container apply to all of its streams, and
+/// say nothing of one of them.
+bool is_marked_track(const GstTagList* tags);
+
+/// Whether the stream that comes to a pad is marked, from the events that come to it.
+class TrackMark {
+ public:
+  void follow(GstEvent* event);
+  bool is_set() const { return is_set_; }
+
+ private:
+  // When the first packets of a network stream are lost, its tags may come before its start, after
+  // one that rtpgstdepay has made up. Such a stream has no caps.
+  bool has_caps_ = false;
+  bool is_set_ = false;
+};
+
+/// Whether a tag that has come to `pad` is marked.
+bool is_marked_track(GstPad* pad);
+
+/// Whether sound that nothing has converted, such as that in a file, has the form of the tracks
+/// that this project writes: six channels of 1000 samples a second, which no sound for ears has.
+bool has_form_of_track(const GstCaps* caps);
+
+/// How to mark a file, as the rest of a sentence.
+std::string how_to_mark();
+
+enum class StreamContent {
+  kVideo,
+  kSound,        ///< for ears
+  kHapticTrack,  ///< has_form_of_track(), or is_marked_track()
+  kOther,
+};
+
+/// Of the caps of a parsed or decoded stream.
+StreamContent content_of(const GstCaps* caps);
+/// Of the stream at a pad, by its caps and by the tags that have come to it.
+StreamContent content_of(GstPad* pad);
+
+/// Whether a stream is of pictures that are files otherwise, as a cover is: image/jpeg, image/png.
+bool is_picture(const GstCaps* caps);
+
+/// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
+/// unless there is a known reason.
+std::string why_missing(GstElement* bin);
+
+/// Stream time of a buffer that passes the pad; GST_CLOCK_TIME_NONE when it has none.
+GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer);
+
+/// Current caps, else what the pad could have. Owned by the caller.
+GstCaps* caps_of(GstPad* pad);
+
+}  // namespace spidar
