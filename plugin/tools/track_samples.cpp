@@ -230,10 +230,10 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
   const std::string encoder = encoder_of(path);
   if (!encoder.empty()) return write_sound(part, encoder, samples, options.notes);
   std::string waiting;
-  constexpr size_t kAtOnce = size_t{1} << 16U;
+  constexpr size_t kBlock_bytes = size_t{1} << 16U;
   const auto write = [&](const std::string& text) {
     waiting += text;
-    if (waiting.size() < kAtOnce) return;
+    if (waiting.size() < kBlock_bytes) return;
     part.write(waiting);
     waiting.clear();
   };
