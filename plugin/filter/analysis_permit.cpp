@@ -34,7 +34,7 @@ Permits& permits() {
 
 void wait_for_frames() {
   Permits& all = permits();
-  // A child after fork() has none of the threads, but what they had locked.
+  // fork() copies the mutex, which may be locked, but not the thread that would unlock it.
   if (getpid() != all.process) return;
   std::unique_lock<std::mutex> lock(all.mutex);
   if (std::exchange(all.is_ending, true)) return;
