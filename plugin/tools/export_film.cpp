@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -15,6 +16,9 @@
 #include "plugin/films/film_reader.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_page.h"
+#include "plugin/tools/film_process.h"
+#include "plugin/tools/record_options.h"
+#include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
@@ -48,30 +52,57 @@ void read_file(const std::string& path, size_t at_once,
   }
 }
 
+/// In a page: base64 takes a third more, and neither Chromium's longest string (2^29 - 24
+/// characters) nor the memory of telephones holds much more.
+constexpr uint64_t kMostEmbedded_bytes = uint64_t{1} << 28;
+
+void expect_embeddable(const std::string& name, const std::string& file) {
+  const uint64_t bytes = FileBytes(file).size();
+  if (bytes <= kMostEmbedded_bytes) return;
+  constexpr uint64_t kMega = 1'000'000;
+  throw std::runtime_error(name + ": has " + std::to_string(bytes / kMega) +
+                           " MB, which is too large for a page: browsers do not hold more than " +
+                           std::to_string(kMostEmbedded_bytes / kMega) +
+                           " MB with --embed; export it to a folder, FOLDER/");
+}
+
 /// What an exported film consists of.
 class ExportedFilm {
  public:
-  explicit ExportedFilm(const ExportOptions& options)
-      : film_(options.film),
-        replaces_{options.force, kMaker},
-        condition_(read_track(film_, [this](const TrackSample& sample) { page_.add(sample); })) {
+  /// `is_whole`: the film goes with the page.
+  ExportedFilm(const ExportOptions& options, const fs::path& page, bool is_whole)
+      : film_(options.film), replaces_{options.force, kMaker} {
+    const bool is_recorded = options.properties || (options.track.empty() && !has_track(film_));
+    unplayed_ = why_no_browser(film_);
+    if (options.embed && unplayed_.empty()) expect_embeddable(film_, film_);
+    parts_of_work_ = 1 + (is_recorded ? 1 : 0) + (is_whole && !unplayed_.empty() ? 1 : 0);
+    std::unique_ptr<PartFile> recorded;  // never published
+    if (is_recorded) {
+      recorded = std::make_unique<PartFile>(fs::path(page) += ".haptic.flac",
+                                            PartFile::Replaces{true, {}});
+      record(options.properties.value_or(parse_record_properties({}, 1)), *recorded);
+    }
+    condition_ = read_track(
+        film_, [this](const TrackSample& sample) { page_.add(sample); }, kUsualAxis,
+        recorded ? recorded->path() : options.track);
     if (condition_.film.empty()) {
       throw UsageError(film_ + ": is a track; give the film that it is for");
     }
     expect_own_track(condition_);
-    unplayed_ = why_no_browser(film_);
     place_arrow();
   }
 
   /// A page that plays the film from where it is.
   void write_page(PartFile& page) {
-    const FilmPage::Html html = this->html(relative_url(film_, page.target()), 0);
+    const FilmPage::Html html = this->html(relative_url(film_, page.target()), film_, 0);
     page.write(html.text);
     publish(page);
     tell(page.target(), html,
          unplayed_.empty()
              ? ""
-             : "; browsers do not play it: " + unplayed_ +
+             : (ends_with(unplayed_, kNotEveryBrowser) ? "; not every browser plays it: "
+                                                       : "; browsers do not play it: ") +
+                   unplayed_ +
                    "; export it to a folder, FOLDER/, or with --embed, and it is converted");
   }
 
@@ -84,7 +115,8 @@ class ExportedFilm {
       missing = convert(*converted);
     }
     const std::string path = converted ? converted->path() : film_;
-    const FilmPage::Html html = this->html("", later_s(path));
+    if (converted) expect_embeddable(film_, path);
+    const FilmPage::Html html = this->html("", path, later_s(path));
     constexpr const char* kTrack = "<script type=\"application/json\" id=\"track\">";
     const size_t at = html.text.find(kTrack);
     page.write(html.text.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
@@ -102,7 +134,6 @@ class ExportedFilm {
 
   /// A folder of the page and the film, which need nothing else.
   void write_folder(const fs::path& folder) {
-    fs::create_directories(folder);
     const fs::path source = film_;
     const fs::path copy =
         folder / (unplayed_.empty() ? source.filename() : source.stem().concat(".mp4"));
@@ -114,7 +145,8 @@ class ExportedFilm {
     } else {
       missing = convert(film);
     }
-    const FilmPage::Html html = this->html(relative_url(copy, page.target()), later_s(film.path()));
+    const FilmPage::Html html =
+        this->html(relative_url(copy, page.target()), film.path(), later_s(film.path()));
     page.write(html.text);
     publish(film);
     publish(page);
@@ -122,11 +154,31 @@ class ExportedFilm {
   }
 
  private:
+  void record(const RecordProperties& properties, const PartFile& track) {
+    try {
+      const FilmResult result = record_in_process(
+          {film_, track.target(), with_rules(properties, film_), false}, track, next_part());
+      said_ = "; " + result.felt + (result.remark.empty() ? "" : "; " + result.remark);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(film_ + ": " + error.what());
+    }
+  }
+
+  /// Reports the next part of the work.
+  std::function<void(int percent)> next_part() {
+    const int done = parts_done_++;
+    return [this, done](int percent) {
+      constexpr int kWhole = 100;
+      report_->progress(0, (kWhole * done + percent) / parts_of_work_);
+    };
+  }
+
   /// On what is felt, if the track tells how it was measured.
   void place_arrow() {
+    const auto tell = next_part();
     if (!condition_.notes.settings) return;
     try {
-      std::vector<FeltBox> boxes = find_felt_boxes(film_, *condition_.notes.settings);
+      std::vector<FeltBox> boxes = find_felt_boxes(film_, *condition_.notes.settings, tell);
       for (FeltBox& box : boxes) box.stream_ns -= condition_.later_ns;
       page_.set_boxes(boxes);
     } catch (const std::runtime_error& error) {
@@ -134,15 +186,16 @@ class ExportedFilm {
     }
   }
 
-  FilmPage::Html html(const std::string& url, double more_s) const {
-    return page_.html(url, fs::path(film_).filename(),
+  /// `file` is that which the page plays.
+  FilmPage::Html html(const std::string& url, const std::string& file, double more_s) const {
+    return page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
                       1e-9 * static_cast<double>(condition_.later_ns) + more_s);
   }
 
   /// Returns what is missing, for the end of the line.
-  std::string convert(const PartFile& part) const {
+  std::string convert(const PartFile& part) {
     try {
-      const std::string missing = convert_for_browsers(film_, part);
+      const std::string missing = convert_for_browsers(film_, part, next_part());
       return "; converted, because " + unplayed_ + (missing.empty() ? "" : "; " + missing);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(film_ + ": browsers do not play it, because " + unplayed_ +
@@ -156,13 +209,19 @@ class ExportedFilm {
     return 1e-9 * static_cast<double>(read_film(copy).begin_ns - read_film(film_).begin_ns);
   }
 
-  void tell(const std::string& to, const FilmPage::Html& html, const std::string& more) const {
-    std::printf("%s: %s; %zu KB, exact to %.2f N%s%s\n", film_.c_str(), to.c_str(),
-                html.text.size() / 1000, html.tolerance_N, more.c_str(), in_the_middle_.c_str());
+  void tell(const std::string& to, const FilmPage::Html& html, const std::string& more) {
+    report_ = nullptr;  // its line is erased
+    std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s\n", film_.c_str(), to.c_str(),
+                html.text.size() / 1000, html.tolerance_N, more.c_str(), in_the_middle_.c_str(),
+                said_.c_str());
   }
 
   const std::string film_;
   const PartFile::Replaces replaces_;
+  std::unique_ptr<RecordReport> report_ =
+      std::make_unique<RecordReport>(std::vector<std::string>{film_});
+  int parts_of_work_ = 1, parts_done_ = 0;
+  std::string said_;  ///< of what was recorded
   FilmPage page_;
   TrackCondition condition_;
   std::string unplayed_;       ///< why browsers do not play it
@@ -180,11 +239,12 @@ int export_film(const ExportOptions& options) {
   }
   if (is_folder && options.embed) throw UsageError("--embed is for a page, not for a folder");
   if (is_folder) {
-    ExportedFilm(options).write_folder(to);
+    fs::create_directories(to);
+    ExportedFilm(options, fs::path(to) / "index.html", true).write_folder(to);
     return kDone;
   }
   PartFile page(to, {options.force, kMaker});
-  ExportedFilm film(options);
+  ExportedFilm film(options, to, options.embed);
   if (options.embed) {
     film.write_all_in_one(page);
   } else {

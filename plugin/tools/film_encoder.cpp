@@ -171,36 +171,54 @@ void KeptSound::keep(GstPad* sound) {
 
 namespace {
 
-/// Pictures and sound that all browsers decode. Of H.264 with 8 bits and 4:2:0.
+/// Pictures and sound that all browsers decode, in MP4 and in WebM. Of H.264 with 8 bits and 4:2:0.
 constexpr const char* kPlayed =
     "video/x-h264,profile=(string){constrained-baseline,baseline,main,high,constrained-high,"
-    "progressive-high}; video/x-vp8; video/x-vp9,profile=(string)0; video/x-av1; "
+    "progressive-high}; "
     "audio/mpeg,mpegversion=(int){2,4}; audio/mpeg,mpegversion=(int)1,layer=(int)3; audio/x-opus; "
     "audio/x-vorbis";
+constexpr const char* kPlayedInWebm = "video/x-vp8; video/x-vp9,profile=(string)0";
+/// Safari decodes AV1 where the device does (from the iPhone 15 Pro and the M3 on), and VP8 and VP9
+/// in WebM only.
+constexpr const char* kMostlyPlayed = "video/x-av1; video/x-vp8; video/x-vp9,profile=(string)0";
 
-bool has_played_container(const std::string& film) {
-  constexpr size_t kHead_bytes = 64;
-  const std::string head = FileBytes(film).read(0, kHead_bytes);
-  return has_at(head, 4, "ftyp") ||
-         (has_at(head, 0, "\x1a\x45\xdf\xa3") && head.find("webm") != std::string::npos);
+constexpr size_t kHead_bytes = 64;
+
+bool is_mp4(const std::string& film) {
+  return has_at(FileBytes(film).read(0, kHead_bytes), 4, "ftyp");
 }
 
-/// Why browsers do not play one stream of a film; empty if they do.
-std::string why_not_played(GstPad* pad) {
+bool is_one_of(const GstCaps* caps, const char* text) {
+  const Ref<GstCaps> others(gst_caps_from_string(text));
+  return gst_caps_can_intersect(caps, others.get()) != FALSE;
+}
+
+/// Why some browser does not play one stream of a film; empty if all do.
+std::string why_not_played(GstPad* pad, bool in_webm) {
   const StreamContent content = content_of(pad);
-  const Ref<GstCaps> caps(caps_of(pad)), played(gst_caps_from_string(kPlayed));
+  const Ref<GstCaps> caps(caps_of(pad));
   if (content != StreamContent::kVideo && content != StreamContent::kSound) return {};
-  if (is_picture(caps.get()) || gst_caps_can_intersect(caps.get(), played.get())) return {};
+  if (is_picture(caps.get()) || is_one_of(caps.get(), kPlayed) ||
+      (in_webm && is_one_of(caps.get(), kPlayedInWebm))) {
+    return {};
+  }
   const GstStructure* const format = gst_caps_get_structure(caps.get(), 0);
   const char* const profile = gst_structure_get_string(format, "profile");
   return std::string(content == StreamContent::kVideo ? "its picture is " : "its sound is ") +
-         gst_structure_get_name(format) + (profile ? std::string(" ") + profile : "");
+         gst_structure_get_name(format) + (profile ? std::string(" ") + profile : "") +
+         (is_one_of(caps.get(), kMostlyPlayed) ? kNotEveryBrowser : "");
 }
 
 }  // namespace
 
+bool is_webm(const std::string& film) {
+  const std::string head = FileBytes(film).read(0, kHead_bytes);
+  return has_at(head, 0, "\x1a\x45\xdf\xa3") && head.find("webm") != std::string::npos;
+}
+
 std::string why_no_browser(const std::string& film) {
-  if (!has_played_container(film)) return "it is neither MP4 nor WebM";
+  const bool in_webm = is_webm(film);
+  if (!in_webm && !is_mp4(film)) return "it is neither MP4 nor WebM";
   // Subtitles may come late, and are not looked at.
   constexpr GstClockTime kLongest = 2 * GST_SECOND;
   std::mutex mutex;  // outlive the pipeline
@@ -209,7 +227,7 @@ std::string why_no_browser(const std::string& film) {
   FilePipeline file("filesrc name=source ! parsebin name=parse", film);
   GstElement* const parser = file.find("parse");
   file.link_streams([&](GstPad* pad) -> GstElement* {
-    const std::string why = why_not_played(pad);
+    const std::string why = why_not_played(pad, in_webm);
     const std::lock_guard<std::mutex> lock(mutex);
     if (!why.empty()) error = why;
     if (++known == parser->numsrcpads || !why.empty()) {
@@ -227,7 +245,9 @@ std::string why_no_browser(const std::string& film) {
   return error;
 }
 
-std::string convert_for_browsers(const std::string& film, const PartFile& part) {
+std::string convert_for_browsers(const std::string& film, const PartFile& part,
+                                 const std::function<void(int percent)>& tell) {
+  FilmProgress progress(tell);
   FilmWatch watch;
   KeptSound sound;
   QuietEnd quiet;
@@ -240,6 +260,7 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part) 
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
   sound.begin(file.pipeline());
   quiet.begin(file.pipeline());
+  progress.watch(file.find("flip"));
   const Ref<GstPad> pictures(gst_element_get_static_pad(file.find("flip"), "src"));
   gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
   watch.play(file);

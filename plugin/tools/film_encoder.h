@@ -3,6 +3,7 @@
 /// Writes films as H.264, with the sound of another film, and as browsers play them.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <gst/gst.h>
@@ -63,13 +64,20 @@ class KeptSound {
   std::string missing_;
 };
 
-/// Why some browser does not play the film, as the end of a sentence: "their picture is
-/// video/x-h265". Empty when all do: H.264, VP8, VP9 or AV1 with AAC, MP3, Opus or Vorbis, in MP4
-/// or WebM. Throws std::runtime_error when it cannot be read.
+/// Why some browser does not play the film, as the end of a sentence: "its picture is
+/// video/x-h265". Empty when all do: H.264 in MP4, VP8 or VP9 in WebM, with AAC, MP3, Opus or
+/// Vorbis. Throws std::runtime_error when it cannot be read.
 std::string why_no_browser(const std::string& film);
 
+/// Ends that sentence for what most browsers play.
+constexpr const char* kNotEveryBrowser = ", which not every iPhone or Mac (Safari) plays";
+
+/// Whether it is in the container of WebM; else, if browsers play it, in MP4.
+bool is_webm(const std::string& film);
+
 /// Writes `film` as H.264 and AAC into `part`, whose name ends in .mp4. Returns what is missing in
-/// it, as a sentence; usually empty. Throws std::runtime_error.
-std::string convert_for_browsers(const std::string& film, const PartFile& part);
+/// it, as a sentence; usually empty. `tell` as that of FilmProgress. Throws std::runtime_error.
+std::string convert_for_browsers(const std::string& film, const PartFile& part,
+                                 const std::function<void(int percent)>& tell);
 
 }  // namespace spidar::tools

@@ -52,14 +52,17 @@ GstPadProbeReturn measured(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
 
 }  // namespace
 
-std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings) {
+std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
+                                     const std::function<void(int percent)>& tell) {
   const RecordProperties properties = properties_of(settings);
   std::vector<FeltBox> boxes;  // outlive the pipeline
+  FilmProgress progress(tell);
   FilmWatch watch;
   const FilePipeline file(kMeasuredFilm, film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, properties);
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
+  progress.watch(motion);
   const Ref<GstPad> frames(gst_element_get_static_pad(motion, "src"));
   gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, measured, &boxes, nullptr);
   watch.play(file);
@@ -141,7 +144,7 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
 }
 
 FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
-                              double later_s) const {
+                              const std::string& type, double later_s) const {
   constexpr double kCoarser = 1.25;
   // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
   double edges_off = 2 * 0.005;
@@ -151,6 +154,7 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
   const double most_N = std::max(largest_N_, kFeltForce_N);
   Json track = {{"film", name},
                 {"url", url},
+                {"type", type},
                 {"later_s", later_s},
                 {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
                 {"most_N", most_N}};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ struct FeltBox {
 
 /// Of each frame, as spidarmotion measures it with `settings`, see RecordProperties. Throws
 /// std::runtime_error, without the name of the film, when it cannot be played to its end, or the
-/// settings are not those of a track.
-std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings);
+/// settings are not those of a track. `tell` as that of FilmProgress.
+std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
+                                     const std::function<void(int percent)>& tell);
 
 class FilmPage {
  public:
@@ -44,9 +46,10 @@ class FilmPage {
     std::string text;
     double tolerance_N;  ///< the force that is shown differs by so much at most, along each axis
   };
-  /// `url` is of the film, relative to the page, and `name` for people. The film shows its pictures
-  /// `later_s` seconds later than the track says.
-  Html html(const std::string& url, const std::string& name, double later_s) const;
+  /// `url` is of the film, relative to the page, and `name` for people; `type` is its MIME type.
+  /// The film shows its pictures `later_s` seconds later than the track says.
+  Html html(const std::string& url, const std::string& name, const std::string& type,
+            double later_s) const;
 
  private:
   /// Forces are shown at the rate of a screen.

@@ -110,7 +110,9 @@ class FilmBatch {
     }
     work();
     for (std::thread& worker : workers) worker.join();
-    return report_.finish();
+    const bool no_film_failed = report_.finish();
+    tell_where();
+    return no_film_failed;
   }
 
  private:
@@ -126,6 +128,20 @@ class FilmBatch {
     std::vector<std::string> paths;
     for (const ListedFilm& film : films) paths.push_back(film.path);
     return paths;
+  }
+
+  /// Nothing looks for tracks in a folder that nobody has named.
+  void tell_where() {
+    if (options_.folder.empty() || options_.films.empty()) return;
+    std::error_code none;
+    const ListedFilm& film = options_.films.front();
+    const fs::path track = fs::weakly_canonical(options_.file_of(film), none);
+    const fs::path found = find_sidecar(film.path);
+    if (!fs::exists(track, none) || (!found.empty() && fs::equivalent(found, track, none))) return;
+    report_.tell(
+        std::string(found.empty() ? "" : "warning: " + found.string() + " goes before these; ") +
+        "players find these tracks with " + kTrackPath + "=" +
+        fs::absolute(options_.folder, none).lexically_normal().string());
   }
 
   /// Queues the films, but for those whose track has the same name as that of an earlier one.
@@ -200,7 +216,7 @@ class FilmBatch {
             !options_.manifest.empty()};
   }
 
-  /// The folder itself has to be there: it may be a share that is not mounted.
+  /// The folder itself is there, unless it has gone since.
   void make_subfolder(size_t index) const {
     const fs::path& subfolder = options_.films[index].subfolder;
     if (options_.folder.empty() || subfolder.empty() || !fs::is_directory(options_.folder)) return;
@@ -239,9 +255,26 @@ class FilmBatch {
   std::deque<Film> waiting_;
 };
 
+/// Makes the folder if that in which it is to be is there: what is missing may be a share that is
+/// not mounted.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  const fs::path above = fs::absolute(folder).lexically_normal();
+  const fs::path parent = (above.has_filename() ? above : above.parent_path()).parent_path();
+  if (!fs::is_directory(parent, error)) {
+    throw std::runtime_error(folder.string() + ": is not made, because there is no folder " +
+                             parent.string() + "; make that, or mount it");
+  }
+  if (!fs::create_directory(folder, error) && error) {
+    throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+  }
+}
+
 }  // namespace
 
 int record_films(const RecordOptions& options) {
+  make_folder(options.folder);
   return FilmBatch(options).run() ? kDone : kFailed;
 }
 

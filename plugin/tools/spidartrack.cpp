@@ -15,6 +15,7 @@
 #include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
+#include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"
 
@@ -57,7 +58,7 @@ class CommandLine {
     char** const end = argv + argc;
     // What follows "--" are properties, not options.
     const std::string command = argc > 1 ? argv[1] : "";
-    char** const dashes = command == "record" || command == "show"
+    char** const dashes = command == "record" || command == "show" || command == "export"
                               ? std::find(argv + 1, end, std::string("--"))
                               : end;
     properties_.assign(std::min(dashes + 1, end), end);
@@ -70,7 +71,10 @@ class CommandLine {
  private:
   CLI::App* add(const char* name, const char* description, int (CommandLine::*command)()) {
     CLI::App* const added = app_.add_subcommand(name, description);
-    added->callback([this, command] { status_ = (this->*command)(); });
+    added->callback([this, command] {
+      search_folder();
+      status_ = (this->*command)();
+    });
     return added;
   }
 
@@ -118,11 +122,28 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     return record_films(record_);
   }
 
-  /// The argument of commands that read a track.
-  static void add_track(CLI::App* app, const char* name, std::string& path) {
+  /// The arguments of commands that read a track.
+  void add_track(CLI::App* app, const char* name, std::string& path) {
     app->add_option(name, path, "a haptic track, or a film with one inside it or beside it")
         ->required()
         ->type_name("");
+    add_track_folder(app);
+  }
+
+  void add_track_folder(CLI::App* app) {
+    app->add_option("--folder", track_folder_,
+                    std::string("a folder with tracks of films, as record --folder fills it; else "
+                                "those of the variable ") +
+                        kTrackPath)
+        ->check(CLI::ExistingDirectory)
+        ->type_name("FOLDER");
+  }
+
+  /// Names the folder for all that looks for a track.
+  void search_folder() const {
+    if (track_folder_.empty()) return;
+    const char* const others = g_getenv(kTrackPath);
+    g_setenv(kTrackPath, (track_folder_ + (others ? std::string(":") + others : "")).c_str(), TRUE);
   }
 
   /// For commands that write one file.
@@ -225,10 +246,15 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     app->add_option("PROPERTY", misplaced_)->group("");
   }
   int show() {
-    for (const std::string& word : misplaced_) expect_no_property(word, "show FILM TO");
-    if (!misplaced_.empty()) throw CLI::ExtrasError(misplaced_);
+    refuse_misplaced("show FILM TO");
     show_.properties = with_rules(parse_record_properties(properties_, 1), show_.film);
     return show_film(show_);
+  }
+
+  /// Properties without dashes, or what nothing is known of.
+  void refuse_misplaced(const std::string& command) const {
+    for (const std::string& word : misplaced_) expect_no_property(word, command);
+    if (!misplaced_.empty()) throw CLI::ExtrasError(misplaced_);
   }
 
   void add_export() {
@@ -236,28 +262,42 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
                               &CommandLine::export_page);
     app->footer(
         R"(The page plays FILM with an arrow and a curve of the force, and vibrates a gamepad, or a
-telephone. It needs no network. The force is that of the track inside the film or beside it.
+telephone. It needs no network. The force is that of the track of FILM; if it has none, FILM is
+analysed, as record does it.
 
 A page PAGE.html plays FILM from where it is, and has less than 100 KB; with --embed, the film
 is in it. A folder FOLDER/ gets the page, index.html, and the film. There and with --embed, a
-film that browsers do not play becomes H.264 and AAC in MP4.)");
-    app->add_option("FILM", export_.film, "a film with a track inside it or beside it")
-        ->required()
-        ->type_name("");
+film that not every browser plays becomes H.264 and AAC in MP4.
+
+Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes;
+FILM is then analysed with them:
+  spidartrack export FILM.mp4 PAGE.html -- max-force=2)");
+    app->add_option("FILM", export_.film, "a film")->required()->type_name("");
     app->add_option("TO", export_.to,
                     "the page to write, whose name ends in .html, or a folder, which ends in /")
         ->required()
         ->type_name("");
     app->add_flag("--embed", export_.embed, "put the film into the page");
+    app->add_option("--track", export_.track, "the track of FILM")->type_name("TRACK");
+    add_track_folder(app);
     add_force(app, "TO", export_.force);
+    app->add_option("PROPERTY", misplaced_)->group("");
   }
-  int export_page() { return export_film(export_); }
+  int export_page() {
+    refuse_misplaced("export FILM TO");
+    if (!properties_.empty() && !export_.track.empty()) {
+      throw UsageError("--track and properties exclude each other: a track is not analysed");
+    }
+    if (!properties_.empty()) export_.properties = parse_record_properties(properties_, 1);
+    return export_film(export_);
+  }
 
   const rlim_t descriptors_;
   CLI::App app_{"Records, inspects, checks, converts, plots and shows haptic tracks.",
                 "spidartrack"};
   RecordOptions record_;
   std::vector<std::string> films_, properties_, misplaced_;
+  std::string track_folder_;
   InfoOptions info_;
   CheckOptions check_;
   ConvertOptions convert_;

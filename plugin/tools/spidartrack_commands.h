@@ -49,6 +49,8 @@ struct ShowOptions {
 
 struct ExportOptions {
   std::string film, to;
+  std::string track;                           ///< empty: that of the film, else it is recorded
+  std::optional<RecordProperties> properties;  ///< with which it is recorded, whatever there is
   bool force = false;
   bool embed = false;  ///< the film into the page
 };

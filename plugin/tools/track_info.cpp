@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -15,6 +16,9 @@
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 std::pair<TrackCondition, tracks::Summary> summarise(const std::string& path) {
@@ -55,8 +59,11 @@ int print_info(const InfoOptions& options) {
     return kDone;
   }
   if (!found.film.empty()) {
+    const fs::path at = fs::path(found.track).parent_path();
     std::cout << found.film << ": the haptic track is "
-              << (found.film == found.track ? "inside the film" : "beside the film")
+              << (found.film == found.track                  ? "inside the film"
+                  : at == fs::path(found.film).parent_path() ? "beside the film"
+                                                             : "in " + at.string())
               << (found.other.empty() ? "" : ", but is that of another film: " + found.other)
               << '\n';
   }

@@ -122,8 +122,8 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
   }
 }
 
-/// Which file has the track, and what is known of the film when `path` is one. Throws
-/// std::runtime_error when that is a film without a track, or a picture.
+/// Which file has the track, and what is known of the film when `path` is one; no file when that
+/// is a film without a track. Throws std::runtime_error when it is a picture.
 TrackCondition find_track(const std::string& path, Film& film) {
   TrackCondition found;
   found.track = path;
@@ -139,12 +139,7 @@ TrackCondition find_track(const std::string& path, Film& film) {
     throw std::runtime_error(path + ": is a single picture, in which nothing moves");
   }
   found.film = path;
-  if (film.has_track) return found;
-  found.track = find_sidecar(path);
-  if (found.track.empty()) {
-    throw std::runtime_error(path + ": is a film without a haptic track, inside it or beside it; " +
-                             "spidartrack record makes one");
-  }
+  if (!film.has_track) found.track = find_sidecar(path);
   return found;
 }
 
@@ -191,10 +186,21 @@ std::string encoder_of(const std::string& path) {
   return {};
 }
 
+bool has_track(const std::string& path) {
+  Film film;
+  return !find_track(path, film).track.empty();
+}
+
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
-                          size_t funscript_axis) {
+                          size_t funscript_axis, const std::string& track) {
   Film film;
   TrackCondition found = find_track(path, film);
+  if (!track.empty() && !found.film.empty()) found.track = track;
+  if (found.track.empty()) {
+    throw std::runtime_error(
+        path + ": is a film without a haptic track, inside it or beside it; " +
+        "spidartrack record makes one, and --folder FOLDER finds it elsewhere");
+  }
   const auto give = [&take](const std::vector<TrackSample>& samples) {
     for (const TrackSample& sample : samples) take(sample);
   };

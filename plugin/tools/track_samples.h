@@ -56,12 +56,17 @@ struct TrackCondition {
 /// The force upwards: the channel of formats that have only one.
 constexpr size_t kUsualAxis = 1;
 
-/// Gives the samples of a track, or of a film with a track inside it or beside it, in their order.
+/// Whether `path` is a track, or a film with one inside it, beside it or in a folder of tracks.
+/// Throws std::runtime_error for a single picture.
+bool has_track(const std::string& path);
+
+/// Gives the samples of a track, or of a film with a track (has_track()), in their order; of the
+/// film, it is the file `track` unless that is empty.
 /// The format follows from the end of the name: HJIF (`.hjif`), one channel (`.funscript`), else
 /// sound of any rate that spidarsink accepts, which is given as it is read. Gaps become silence,
 /// and so do samples that are not numbers, which are counted. Throws std::runtime_error.
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
-                          size_t funscript_axis = kUsualAxis);
+                          size_t funscript_axis = kUsualAxis, const std::string& track = {});
 
 /// Throws std::runtime_error when the track is that of another film than the one that was given.
 void expect_own_track(const TrackCondition& condition);

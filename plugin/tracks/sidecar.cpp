@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -38,22 +40,58 @@ std::vector<std::string> list_beside(const std::string& film,
   return files;
 }
 
-}  // namespace
-
-std::string find_beside(const std::string& film, std::initializer_list<const char*> ends) {
-  const std::vector<std::string> files = list_beside(film, ends);
-  return files.empty() ? std::string() : files.front();
+/// Folders of tracks, in the order in which they are searched: those that the user has named, and
+/// that of the user.
+std::vector<fs::path> track_folders() {
+  std::vector<fs::path> folders;
+  if (const char* const named = std::getenv(kTrackPath)) {
+    std::istringstream parts(named);
+    for (std::string part; std::getline(parts, part, ':');) {
+      if (!part.empty()) folders.emplace_back(part);
+    }
+  }
+  folders.push_back(fs::path(g_get_user_data_dir()) / "gst-spidar" / "tracks");
+  return folders;
 }
 
-std::string find_before(const std::string& film, std::initializer_list<const char*> ends,
-                        const std::string& file) {
-  const std::vector<std::string> files = list_beside(film, ends);
+/// Tracks of a film: beside it, and then in folders of tracks, where `spidartrack record` gives
+/// them the subfolders of their films. It is not known below which folder these are, so what agrees
+/// in most of the path comes first.
+std::vector<std::string> list_tracks(const std::string& film) {
+  std::vector<std::string> files = list_beside(film, kTrackEnds);
+  if (film.empty()) return files;
+  std::error_code ignored;
+  const fs::path path = fs::absolute(film, ignored).lexically_normal();
+  for (const fs::path& folder : track_folders()) {
+    if (!fs::is_directory(folder, ignored)) continue;
+    for (auto from = std::next(path.begin()); from != path.end(); ++from) {
+      fs::path below;
+      for (auto part = from; part != path.end(); ++part) below /= *part;
+      for (const std::string& file : list_beside((folder / below).string(), kTrackEnds)) {
+        files.push_back(file);
+      }
+    }
+  }
+  return files;
+}
+
+/// The first of `files`, among which is `file`, if it is another one; else empty.
+std::string first_before(const std::vector<std::string>& files, const std::string& file) {
   const auto is_file = [&file](const std::string& other) {
     std::error_code ignored;
     return fs::equivalent(file, other, ignored);
   };
   const auto found = std::find_if(files.begin(), files.end(), is_file);
   return found == files.begin() || found == files.end() ? std::string() : files.front();
+}
+
+}  // namespace
+
+const char* const kTrackPath = "SPIDAR_TRACK_PATH";
+
+std::string find_beside(const std::string& film, std::initializer_list<const char*> ends) {
+  const std::vector<std::string> files = list_beside(film, ends);
+  return files.empty() ? std::string() : files.front();
 }
 
 const char* const kOtherPictures =
@@ -75,11 +113,12 @@ std::string film_of(GstPad* pad) {
 }
 
 std::string find_sidecar(const std::string& film) {
-  return find_beside(film, kTrackEnds);
+  const std::vector<std::string> files = list_tracks(film);
+  return files.empty() ? std::string() : files.front();
 }
 
 std::string why_not_played(const std::string& film, const std::string& track) {
-  const std::string other = find_before(film, kTrackEnds, track);
+  const std::string other = first_before(list_tracks(film), track);
   if (other.empty()) return {};
   return "warning: track=auto and spidartrack play " + other + " in place of " + track +
          "; remove it, or use track=" + track;

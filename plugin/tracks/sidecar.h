@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Files that lie beside a film: its haptic track, and the rules of what is felt.
+/// Files that belong to a film: its haptic track, and the rules of what is felt.
 #pragma once
 
 #include <initializer_list>
@@ -17,19 +17,18 @@ namespace spidar {
 /// there; empty when none is. The whole name comes first because films may differ in nothing else.
 std::string find_beside(const std::string& film, std::initializer_list<const char*> ends);
 
-/// The file that find_beside() finds although `file`, which is also one of these, is there; empty
-/// when there is none.
-std::string find_before(const std::string& film, std::initializer_list<const char*> ends,
-                        const std::string& file);
-
 /// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
 std::string film_of(GstPad* pad);
 
-/// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside().
+/// The variable with folders of tracks that do not lie beside their films, separated by colons.
+extern const char* const kTrackPath;
+
+/// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else in the
+/// folders of kTrackPath, else in that of the user, ~/.local/share/gst-spidar/tracks: in the
+/// subfolder that the film has, if there is one. Empty when there is none.
 std::string find_sidecar(const std::string& film);
 
-/// Empty, or a sentence about the track beside the film that find_sidecar() finds in place of
-/// `track`.
+/// Empty, or a sentence about the track that find_sidecar() finds in place of `track`.
 std::string why_not_played(const std::string& film, const std::string& track);
 
 /// Why a file is not that of a film with other pictures.

@@ -112,8 +112,35 @@ class Batch(track_case.TrackCase):
         self.path("none").mkdir()
         self.assert_said("none: this folder has no film", "record", "none")
         # A share that is not mounted is not written to under its name.
-        self.spidartrack("record", "in", "--folder", "away", status=1)
+        self.assert_said("away/tracks: is not made, because there is no folder ", "record", "in", "--folder", "away/tracks")
         self.assertFalse(self.path("away").exists())
+
+    def test_a_folder_of_tracks_is_made_and_its_tracks_are_found(self):
+        self.make_film("lib/b c/film.avi")
+        self.make_film("lib/film.avi", pattern="smpte")  # another one of this name
+        said = self.spidartrack("record", "lib", "--folder", "tracks", "--manifest", "tracks/films.jsonl")
+        self.assertIn(f"players find these tracks with SPIDAR_TRACK_PATH={self.path('tracks')}\n", said)
+        self.assertEqual(len(self.json_lines("tracks/films.jsonl")), 2)
+        self.assert_said("a film without a haptic track", "info", "lib/film.avi")
+        setting = dict(os.environ, SPIDAR_TRACK_PATH=f"{self.path('none')}:{self.path('tracks')}")
+        user = self.path("home/gst-spidar")
+        user.mkdir(parents=True)
+        user.joinpath("tracks").symlink_to(self.path("tracks"))
+        for how, more, env in (("--folder", ["--folder", "tracks"], None), ("variable", [], setting),
+                               ("user", [], dict(os.environ, XDG_DATA_HOME=str(self.path("home"))))):
+            for film, folder in (("lib/b c/film.avi", "tracks/b c"), ("lib/film.avi", "tracks")):
+                with self.subTest(how, film=film):
+                    said = self.spidartrack("info", film, *more, env=env)
+                    self.assertRegex(said, f"film.avi: the haptic track is in [^\n]*{folder}\n")
+        self.spidartrack("plot", "lib/film.avi", "film.png", "--folder", "tracks")
+        self.assertNotIn("frames are felt", self.spidartrack("export", "lib/film.avi", "page.html", env=setting))
+        said = self.run_in_folder("gst-launch-1.0 filesrc location='lib/b c/film.avi' ! decodebin ! videoconvert ! "
+                                  "spidarmotion device=none track=auto feel=leftmost ! fakesink", env=setting)
+        self.assertIn(f"has no effect while the haptic track {self.path('tracks/b c/film.avi.haptic.flac')} is played", said)
+        # One beside its film goes before it.
+        self.make_track("lib/film.avi.haptic.wav")
+        self.assertIn("is beside the film", self.spidartrack("info", "lib/film.avi", env=setting))
+        self.assertIn("goes before these", self.spidartrack("record", "lib/film.avi", "--folder", "tracks", env=setting))
 
     def test_what_a_folder_has_besides_films_is_said_once(self):
         for name in ("in/a.avi", "in/b.DIVX", "in/c.f4v", "in/d.3g2", "in/e.m2v"):
