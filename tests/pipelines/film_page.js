@@ -17,6 +17,8 @@ const pen = {
   lineTo(x, y) { places.push([x, y]); },
   clearRect() { tip = origin = box = null; },
   // The second corner of the head.
+  fillRect() {},
+  fillText() {},
   fill() { if (pen.fillStyle === "white") tip = [places[1][0] - origin[0], origin[1] - places[1][1]]; },
   closePath() {},
   stroke() { if (places.length === 2) [origin] = places; },  // the shaft
@@ -26,7 +28,7 @@ const part = (more) => ({ addEventListener() {}, ...more });
 const on = {};
 const film = part({ addEventListener(name, call) { on[name] = call; }, clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0, readyState: 4 });
 const parts = {
-  track: { textContent: data }, film, said: part(), wide: part(), pad: part(), rumble: part({ checked: true }),
+  track: { textContent: data }, film, said: part(), wide: part(), stage: { requestFullscreen() {} }, pad: part(), rumble: part({ checked: true }),
   arrow: { getContext: () => pen },
 };
 const actuator = { playEffect(kind, effect) { pulses.push(effect.strongMagnitude); return Promise.resolve(); } };
