@@ -123,9 +123,10 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   // Of what force-feedback devices can do, and how strong they are, nothing is known before.
   const bool force_feedback = grip.name().compare(0, 2, "ff") == 0;
   const bool whole = can.force[0] && can.force[1] && can.direction;
-  if (chosen.empty() && whole && !force_feedback) return;
+  if (chosen.empty() && whole && is_simulated(grip.name())) return;
   std::string text;
   if (!chosen.empty()) text = grip.name() + ": " + chosen + ". ";
+  if (!force_feedback && chosen.empty()) text = grip.name() + ": ";
   if (force_feedback || chosen.empty()) text += session->opened() + ". ";
   if (!force_feedback) text += "It renders " + rendered_text(can) + ". ";
   text.pop_back();

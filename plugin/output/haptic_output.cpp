@@ -152,14 +152,15 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
     chosen_ = found.why + " (device=auto)" + refused;
     return trace_error;
   };
-  for (const AutoDevice& found : auto_devices()) {
+  for (const AutoDevice& found : auto_devices(profile_name)) {
     if (!found.why_not.empty()) {
       refused += "; not " + found.device + ": " + found.why_not;
       continue;
     }
     try {
-      // A profile that is named for a board is not confirmed for the one that is found.
-      return choose(found, "");
+      // Others than a SPIDAR have no profile.
+      const bool has_strings = kinds_called(DeviceName(found.device).device)[0]->has_strings();
+      return choose(found, has_strings ? profile_name : "");
     } catch (const std::runtime_error& error) {
       refused += std::string("; not ") + error.what();
     }

@@ -3,7 +3,9 @@
 #include "spidar/session/board_list.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 
 #include "spidar/boards/usb_board.h"
@@ -151,6 +153,17 @@ std::string chosen_as(const BoardInfo& board) {
   return kinds.empty() ? "" : kinds[0]->chosen_as;
 }
 
+/// As they are named or, of a file, where it is.
+bool is_same_profile(const std::string& confirmed, const std::string& named) {
+  std::error_code none;
+  return confirmed == named || std::filesystem::equivalent(confirmed, named, none);
+}
+
+std::string other_profile(const BoardInfo& board, const std::string& named) {
+  return "its confirmed profile is " + board.profile + ", and not " + named +
+         "; device=" + board.device + " profile=" + named + " uses this one once";
+}
+
 std::string unconfirmed(const BoardInfo& board) {
   const std::string named = "device=" + board.device + " profile=NAME";
   const std::string once = "spidarctl choose " + board.device + " --profile NAME";
@@ -162,17 +175,28 @@ std::string unconfirmed(const BoardInfo& board) {
 
 }  // namespace
 
-std::vector<AutoDevice> auto_devices() {
+std::vector<AutoDevice> auto_devices(const std::string& profile) {
   std::vector<AutoDevice> found;
   const std::vector<BoardInfo> boards = list_boards();
+  std::vector<const BoardInfo*> spidars;
   for (const BoardInfo& board : boards) {
-    if (board.has_strings && !board.profile.empty() && !is_simulated(board.device)) {
-      found.push_back({board.device, "a SPIDAR whose profile was confirmed", ""});
+    if (board.has_strings && !is_simulated(board.device)) spidars.push_back(&board);
+  }
+  for (const BoardInfo* board : spidars) {
+    if (!board->profile.empty() && (profile.empty() || is_same_profile(board->profile, profile))) {
+      found.push_back({board->device, "a SPIDAR whose profile was confirmed", ""});
     }
   }
-  for (const BoardInfo& board : boards) {
-    if (board.has_strings && board.profile.empty()) {
-      found.push_back({board.device, "", unconfirmed(board)});
+  const bool is_meant =
+      !profile.empty() && found.empty() && spidars.size() == 1 && spidars[0]->profile.empty();
+  for (const BoardInfo* board : spidars) {
+    if (is_meant) {
+      found.push_back(
+          {board->device, "the SPIDAR that is plugged in, with profile=" + profile, ""});
+    } else if (board->profile.empty()) {
+      found.push_back({board->device, "", unconfirmed(*board)});
+    } else if (!profile.empty() && !is_same_profile(board->profile, profile)) {
+      found.push_back({board->device, "", other_profile(*board, profile)});
     }
   }
   for (const bool directional : {true, false}) {

@@ -37,9 +37,11 @@ struct AutoDevice {
 
 /// What is plugged in and gives a force, in the order in which it is to be tried: a SPIDAR whose
 /// profile somebody has confirmed, the others in the order of devices(), and what only rumbles.
-/// Boards whose profile nobody has named come after the others with strings, with `why_not`, and so
-/// do devices on USB that are used only if they are named. Opens nothing, so that what is listed
-/// may still be in use, or not be permitted.
-std::vector<AutoDevice> auto_devices();
+/// `profile` is one that is named now, or empty: then it is only for the board for which it was
+/// confirmed or, if it is the only board with strings, the one that is there. Boards whose profile
+/// nobody has named come after the others with strings, with `why_not`, and so do devices on USB
+/// that are used only if they are named. Opens nothing, so that what is listed may still be in use,
+/// or not be permitted.
+std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
 }  // namespace spidar

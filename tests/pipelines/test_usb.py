@@ -154,7 +154,7 @@ class Auto(Pipelines):
         bus.bus_plug_named(0, b"sh4", b"A1")
         bus.bus_plug(1, b"mouse")
         with unittest.mock.patch.dict(os.environ, XDG_CONFIG_HOME=str(self.folder)):
-            device, why = self.chosen("profile=spidar-g")
+            device, why = self.chosen()
             self.assertEqual(device, "sim")
             self.assertEqual(bus.bus_updates(0), 0)
             self.assertIn("; not usb:1-1: this CyVerse USB 2.0 SH4 has no confirmed profile, without which its motors get no "
@@ -167,6 +167,33 @@ class Auto(Pipelines):
             bus.evdev_plug(0, Evdev.STICK)
             self.assertEqual(self.chosen(), ("usb:1-1", "a SPIDAR whose profile was confirmed (device=auto)"))
 
+    def test_a_profile_that_is_named_is_for_its_board(self):
+        bus.bus_plug_named(0, b"sh4", b"A1")
+        bus.evdev_plug(0, Evdev.STICK)
+        with unittest.mock.patch.dict(os.environ, XDG_CONFIG_HOME=str(self.folder)):
+            self.assertEqual(self.chosen(PROFILE), ("usb:1-1", "the SPIDAR that is plugged in, with " + PROFILE + " (device=auto)"))
+            # It would not say for which of two.
+            bus.bus_plug_named(1, b"sh4", b"A2")
+            device, why = self.chosen(PROFILE)
+            self.assertEqual(device, "ff:/dev/input/event0")
+            self.assertIn("; not usb:1-2: this CyVerse USB 2.0 SH4 has no confirmed profile", why)
+            self.path("gst-spidar").mkdir()
+            self.path("gst-spidar/boards.toml").write_text(
+                '"0cec:0205 A1" = "spidar-g6x3-v2-l"\n"0cec:0205 A2" = "spidar-g6x3-v2-r"\n')
+            self.assertEqual(self.chosen(PROFILE), ("usb:1-2", "a SPIDAR whose profile was confirmed (device=auto)"))
+            self.assertIn("; not usb:1-1: its confirmed profile is spidar-g6x3-v2-l, and not spidar-g; device=usb:1-1 "
+                          "profile=spidar-g uses this one once", self.chosen("profile=spidar-g")[1])
+            # One that does not fit is passed over, and why is said.
+            bus.bus_unplug(1, errno.ENODEV)
+            self.path("gst-spidar/boards.toml").unlink()
+            device, why = self.chosen("profile=spidar-g6c")
+            self.assertEqual(device, "ff:/dev/input/event0")
+            self.assertIn('not usb:1-1: profile "spidar-g6c" is for boards of the kind usb-simple', why)
+
+    def test_a_board_that_was_named_is_said_too(self):
+        bus.bus_plug(0, b"sh4")
+        said = self.run_in_folder(f"gst-launch-1.0 videotestsrc num-buffers=3 ! spidarmotion device=usb {PROFILE} ! fakesink")
+        self.assertRegex(said, r"usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force in every direction, up to \d+\.\d N, and torque\.")
     def test_what_cannot_be_opened_is_passed_over_and_named(self):
         bus.evdev_plug(0, Evdev.STICK)
         bus.evdev_plug(1, Evdev.PAD)
