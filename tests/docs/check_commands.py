@@ -3,9 +3,11 @@
 # Copyright 2026 the gst-spidar authors
 """Runs the command lines of README.md, CONTRIBUTING.md, tests/README.md and docs/.
 
-check_commands.py SOURCE BUILD: every code block of these pages is run line by line in a shell, in a folder that
-looks like SOURCE with BUILD as build/, with a short film under the names that the pages use, and its haptic
-tracks. All lines must exit with status 0, on a virtual screen, without installed profiles or plugins.
+check_commands.py SOURCE BUILD: the code blocks of each page are run in their order, line by line in a shell, as by
+somebody who reads it: in one folder that looks like SOURCE with BUILD as build/, and has a short film under the names
+that the pages use. What else a line reads, one before it has written. A line runs where the page has led: in the folder
+of the shell that `meson devenv` opens, or of `cd`. All lines must exit with status 0, on a virtual screen, without
+installed profiles or plugins.
 
 An HTML comment before a block states exceptions for the whole block or, with parentheses, for lines that contain
 the given text:
@@ -33,11 +35,6 @@ from pathlib import Path
 
 PYTHON = "/usr/bin/python3"
 FILMS = ("film.mp4", "vtest.avi", "ball.avi", "telephone.mp4")
-TRACKS = {  # of these films, and what writes them
-    "film.haptic.flac": "audioconvert dithering=none noise-shaping=none ! flacenc blocksize=40",
-    "film.haptic.mka": "matroskamux",
-    "film.haptic.wav": "wavenc",
-}
 OPTIONAL = {"ffmpeg": "ffmpeg", "mkvmerge": "mkvtoolnix"}  # programs that lines need, and who has them
 ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
 # What a program inside a line needs, a command that says whether it is there, and who has it.
@@ -53,6 +50,8 @@ LONGEST_S = 50  # of a line that ends; the test has a limit of its own
 ENDLESS_S = 2
 SKIPPED = 77
 NETWORK = re.compile(r"\b(srt|tcp|udp|sdp)\w* ")
+# A shell, not a command in it; it opens in the build folder unless another is named (-w).
+SHELL = re.compile(r"meson devenv -C (\S+?)(?: -w (\S+?))?(?:`|$|\s+#)")
 COMMENT = re.compile(r"<!-- (not run|endless|not commands)(?: \((.*?)\))?(?:: (.*?))? -->$")
 
 
@@ -60,13 +59,15 @@ COMMENT = re.compile(r"<!-- (not run|endless|not commands)(?: \((.*?)\))?(?:: (.
 class Line:
     where: str
     command: str
-    exports: list
+    exports: list  # of this and the blocks before it
+    folder: str
     endless: bool = False
     not_run: str = ""
 
 
 def blocks(text):
-    """(line number, comments before it, lines) of each block of code that is indented."""
+    """(line number, comments before it, lines) of each block of code that is indented; of what leads into a shell
+    elsewhere, the same without comments."""
     lines = text.split("\n")
     comments, i = [], 0
     while i < len(lines):
@@ -83,20 +84,28 @@ def blocks(text):
             continue
         elif lines[i]:
             comments = []
+            if SHELL.search(lines[i]):
+                yield i + 1, None, [lines[i]]
         i += 1
 
 
 def commands(page, source):
+    exports, folder = [], "."
     for number, comments, lines in blocks((source / page).read_text(encoding="utf-8")):
+        for shell in map(SHELL.search, lines):
+            if shell:
+                folder = shell.group(2) or shell.group(1)
+        if comments is None:
+            continue
         if any(kind == "not commands" for kind, _, _ in comments):
             continue
         whole = not_run_of(comments, None)
         if whole:
             for offset, line in enumerate(lines):
                 if offset == 0 or not lines[offset - 1].endswith("\\"):
-                    yield Line(f"{page}:{number + offset}", line, [], not_run=whole)
+                    yield Line(f"{page}:{number + offset}", line, [], folder, not_run=whole)
             continue
-        exports, command, begin = [], "", number
+        command, begin = "", number
         for offset, line in enumerate(lines):
             begin = begin if command else number + offset
             command += line
@@ -105,10 +114,12 @@ def commands(page, source):
                 continue
             if command.startswith("export "):
                 exports.append(command)
+            elif command.startswith("cd "):
+                folder = os.path.join(folder, command[3:])
             else:
                 endless = any(kind == "endless" and (text is None or text in command) for kind, text, _ in comments)
                 not_run = not_run_of(comments, command) or missing_program(command)
-                yield Line(f"{page}:{begin}", command, list(exports), endless, not_run)
+                yield Line(f"{page}:{begin}", command, list(exports), folder, endless, not_run)
             command = ""
 
 
@@ -148,16 +159,11 @@ def make_film(folder):
     )
     for name in FILMS[1:]:
         shutil.copy(film, folder / name)
-    for name, encoder in TRACKS.items():
-        subprocess.run(
-            f"gst-launch-1.0 -q filesrc location={film} ! decodebin ! videoconvert ! spidarmotion device=none "
-            f"attach-meta=true ! spidarextract name=x x.wrench ! {encoder} ! filesink location={folder / name}",
-            shell=True,
-            check=True,
-        )
 
 
-def make_folder(folder, source, build):
+def make_folder(folder, films, source, build):
+    for film in FILMS:
+        (folder / film).symlink_to(films / film)
     for entry in source.iterdir():
         if entry.name not in ("docs", "build") and not entry.name.startswith("."):
             (folder / entry.name).symlink_to(entry)
@@ -165,39 +171,32 @@ def make_folder(folder, source, build):
     (folder / "build").symlink_to(build)
 
 
-def run(line, films, source, build):
-    """What is wrong, or an empty text."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        make_folder(folder, source, build)
-        for film in FILMS:
-            (folder / film).symlink_to(films / film)
-        for track in TRACKS:
-            shutil.copy(films / track, folder / track)
-        text = re.sub(r"file:///\w+/", f"file://{folder}/", line.command)
-        script = "\n".join(["set -eo pipefail", *line.exports, text])
-        process = subprocess.Popen(
-            ["bash", "-c", script],
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            start_new_session=True,
-        )
+def run(line, folder):
+    """What is wrong, or an empty text. The page began in `folder`."""
+    text = re.sub(r"file:///\w+/", f"file://{folder}/", line.command)
+    script = "\n".join(["set -eo pipefail", *line.exports, text])
+    process = subprocess.Popen(
+        ["bash", "-c", script],
+        cwd=folder / line.folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+    )
+    try:
+        said, _ = process.communicate(timeout=ENDLESS_S if line.endless else LONGEST_S)
+        early = "ended by itself\n" if line.endless else ""
+    except subprocess.TimeoutExpired:
+        early = "" if line.endless else f"did not end within {LONGEST_S} s\n"
+        os.killpg(process.pid, signal.SIGINT)
         try:
-            said, _ = process.communicate(timeout=ENDLESS_S if line.endless else LONGEST_S)
-            early = "ended by itself\n" if line.endless else ""
+            said, _ = process.communicate(timeout=10)
         except subprocess.TimeoutExpired:
-            early = "" if line.endless else f"did not end within {LONGEST_S} s\n"
-            os.killpg(process.pid, signal.SIGINT)
-            try:
-                said, _ = process.communicate(timeout=10)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGKILL)
-                said, _ = process.communicate()
-                early += "did not end when it was interrupted\n"
+            os.killpg(process.pid, signal.SIGKILL)
+            said, _ = process.communicate()
+            early += "did not end when it was interrupted\n"
     status = process.returncode
     if line.endless and status in (-signal.SIGINT, 128 + signal.SIGINT):
         status = 0
@@ -246,32 +245,39 @@ def main():
 
     pages = ["README.md", "CONTRIBUTING.md", "tests/README.md"]
     pages += sorted(str(page.relative_to(source)) for page in (source / "docs").rglob("*.md"))
-    lines = [line for page in pages for line in commands(page, source)]
-    failed = 0
+    lines = [list(commands(page, source)) for page in pages]
+    failed = ran = 0
     with tempfile.TemporaryDirectory() as films:
         os.environ["GST_REGISTRY"] = f"{films}/registry.bin"
         make_film(Path(films))
-        to_run = [line for line in lines if not line.not_run]
         with ThreadPoolExecutor(WORKERS) as pool:
             # Two lines with the same port would meet: the second of them begins when the first has ended.
             on_network = threading.Lock()
 
-            def run_alone(line):
-                with on_network if NETWORK.search(line.command) else nullcontext():
-                    return run(line, Path(films), source, build)
+            def run_page(page):
+                """(line, what is wrong with it) of those that run."""
+                results = []
+                with tempfile.TemporaryDirectory() as name:
+                    make_folder(Path(name), Path(films), source, build)
+                    for line in page:
+                        if not line.not_run:
+                            with on_network if NETWORK.search(line.command) else nullcontext():
+                                results.append((line, run(line, Path(name))))
+                return results
 
-            results = pool.map(run_alone, to_run)
-            for line, wrong in zip(to_run, results):
-                print(f"{'FAILED' if wrong else 'ok'}: {line.where}: {line.command}", flush=True)
-                if wrong:
-                    failed += 1
-                    print(wrong)
+            for results in pool.map(run_page, lines):
+                for line, wrong in results:
+                    ran += 1
+                    print(f"{'FAILED' if wrong else 'ok'}: {line.where}: {line.command}", flush=True)
+                    if wrong:
+                        failed += 1
+                        print(wrong)
     screen.end()
-    for line in lines:
-        if line.not_run:
-            print(f"not run: {line.where}: {line.command.strip()}: {line.not_run}")
-    print(f"{len(to_run)} run, {failed} failed, {len(lines) - len(to_run)} not run")
-    return 1 if failed or not to_run else 0
+    not_run = [line for page in lines for line in page if line.not_run]
+    for line in not_run:
+        print(f"not run: {line.where}: {line.command.strip()}: {line.not_run}")
+    print(f"{ran} run, {failed} failed, {len(not_run)} not run")
+    return 1 if failed or not ran else 0
 
 
 if __name__ == "__main__":
