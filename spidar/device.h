@@ -109,6 +109,7 @@ inline MotorVolts scaled(MotorVolts volts, double fraction) noexcept {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
+  int64_t read_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: in the tick, as far as is known
 };
 
 /// A device as a grip has it: `Output` goes out, `Reading` comes in. One thread at a time.

@@ -28,11 +28,15 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
+  // Of ticks in time kSlope, whatever rounding does.
+  const double least_s = (kSlope - 0.5) * path.tick_s;
   double passed_s = 0;
-  for (size_t age = 0; age < kSlope; ++age) {
-    passed_s += age < dt_s_.size() ? dt_s_[age] : path.tick_s;
+  size_t since = 0;
+  for (; since < kKept && (since < kSlope || passed_s < least_s); ++since) {
+    passed_s += since < dt_s_.size() ? dt_s_[since] : path.tick_s;
   }
-  const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(kSlope);
+  passed_s = std::max(passed_s, least_s);
+  const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(since);
   const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
   const double out_m_s = then_m_s.dot(direction);
   const double left_J = std::max(0.0, left_J_ - mean_N_.dot(direction) * dt_s * out_m_s);
@@ -56,7 +60,7 @@ double EnergyBudget::allowed_fraction(const Eigen::Vector3d& wanted_N, const For
     bounded_N_ = kUnbounded_N;
     return 1;
   }
-  const double back_N = bounded_N_ + path.max_slew_N_s * dt_s;
+  const double back_N = bounded_N_ + path.max_slew_N_s * std::min(dt_s, path.longest_tick_s);
   const double allowed_N = std::min(back_N, most_N(wanted_N / size_N, path, dt_s));
   bounded_N_ = allowed_N < size_N ? allowed_N : kUnbounded_N;
   return std::min(1.0, allowed_N / size_N);
@@ -66,7 +70,7 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
                            const ForcePath& path, double dt_s) noexcept {
   const auto follow = [&](const Eigen::Vector3d& to_N, Eigen::Vector3d& limited_N) {
     const Eigen::Vector3d change_N = bounded(to_N, path.max_force_N) - limited_N;
-    limited_N += bounded(change_N, path.max_slew_N_s * dt_s);
+    limited_N += bounded(change_N, path.max_slew_N_s * std::min(dt_s, path.longest_tick_s));
   };
   follow(wanted_N + beside_N, limited_N_);
   follow(beside_N, beside_N_);

@@ -21,6 +21,8 @@ struct ForcePath {
   /// How long a force is held until the next one, which may be late, so that `dt_s` says nothing of
   /// it.
   double tick_s = 0.001;
+  /// A late tick counts for no more in the safety chain's slew limit.
+  double longest_tick_s = 0.002;
 };
 
 /// Tracks the energy that a contact has absorbed from the hand, and bounds the force so that the
@@ -66,12 +68,14 @@ class EnergyBudget {
   const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
 
  private:
-  static constexpr int kSlope = 3;  // ticks over which the acceleration is measured
+  static constexpr int kSlope = 3;  // ticks over which the acceleration is measured, or as long
 
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
-  History<Eigen::Vector3d, kSlope + 1> velocity_m_s_;
-  History<double, kSlope> dt_s_;  ///< of the last ticks: in these, the velocity became what it is
+  // A tick that is late is followed by short ones: as many as fit into the time of kSlope.
+  static constexpr size_t kKept = 16;
+  History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
+  History<double, kKept> dt_s_;  ///< of the last ticks: in these, the velocity became what it is
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();  ///< on the grip, at the end of the last tick

@@ -126,6 +126,7 @@ struct ForceReading {
   PoseFault pose_fault = PoseFault::kNoReading;  ///< why the position is not a number, if it is not
   uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
   int64_t lag_ns = 0;    ///< from a force to when it acts, as the device reports it
+  int64_t read_ns = 0;   ///< as in DeviceReading
 };
 
 /// Shortens a force that it cannot give, and gives none for one that is not a number.

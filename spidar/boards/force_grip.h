@@ -84,10 +84,11 @@ class ForceGrip final : public Grip {
   void see(const ForceReading& answer, const GripCommand& command) noexcept {
     reading_.buttons = answer.buttons;
     reading_.lag_ns = answer.lag_ns;
-    const PoseFault fault = judge(answer, command.now_ns);
+    const int64_t read_ns = PoseTrust::time_of(answer.read_ns, command.now_ns);
+    const PoseFault fault = judge(answer, read_ns);
     if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
       reading_.pose.position_m = answer.position_m;
-      trust_.locate(command.now_ns);
+      trust_.locate(read_ns);
     }
     if (fault == PoseFault::kNone) {
       trust_.succeed(command.wrench.stacked().isZero(0));
@@ -102,10 +103,10 @@ class ForceGrip final : public Grip {
     }
   }
   /// A stick is no hand: it snaps back, and its driver reports seldom.
-  PoseFault judge(const ForceReading& answer, int64_t now_ns) const noexcept {
+  PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double way_m = (answer.position_m - reading_.pose.position_m).norm();
-    return traits_.can_fly && trust_.is_jump(way_m, now_ns) ? PoseFault::kJump : PoseFault::kNone;
+    return traits_.can_fly && trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
   }
 
   const ForceBoard& board_;  ///< of the link

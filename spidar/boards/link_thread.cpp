@@ -167,7 +167,10 @@ void LinkThread<Output, Reading>::exchange_now(const Request& request, Reply& re
   reply.fault = board_->cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
   if (reply.fault == LinkFault::kNone) {
-    round_trip_.add(monotonic_now_ns() - begin_ns);
+    const int64_t took_ns = monotonic_now_ns() - begin_ns;
+    round_trip_.add(took_ns);
+    // Board and bus take about as long before it is read as after it.
+    reply.reading.read_ns = begin_ns + took_ns / 2;
     errors_in_a_row_ = 0;
   } else if (reply.fault != LinkFault::kGone &&
              (needs_recovery(reply.fault) || ++errors_in_a_row_ % kErrorsToRecover == 0)) {

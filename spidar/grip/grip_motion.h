@@ -3,14 +3,14 @@
 /// The velocity of the grip.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Core>
 
 #include "core/grip/string_geometry.h"
+#include "core/history.h"
 
 namespace spidar {
 
@@ -28,41 +28,45 @@ struct GripVelocity {
   Eigen::Vector3d angular_rad_s = Eigen::Vector3d::Zero();
 };
 
-/// Estimates the velocity from one pose a tick, by differences and a first-order low-pass.
+/// Estimates the velocity from poses and the times at which they were read.
 ///
-/// The estimate is kLag_s behind the newest pose. A coordinate with independent errors of standard
-/// deviation σ has a velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm)
-/// gives 1.5 mm/s.
+/// velocity() is a first-order low-pass of the differences, exact for any intervals, and kLag_s
+/// behind the newest pose. A coordinate with independent errors of standard deviation σ has a
+/// velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm) gives 1.5 mm/s.
+///
+/// velocity_in() fits a parabola to the poses of the last kFitted_ns by least squares. No interval
+/// alone decides: one of 0.05 ms follows a tick that was late. How far poses can be wrong, and how
+/// much a grip accelerates, bound what few or crowded poses say; without any, the fit is
+/// velocity().
 class GripMotion {
  public:
   static constexpr double kCutoff_Hz = 60;
   /// Half a tick of the difference, and the time constant of the low-pass.
   static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
-  /// The grip was at `pose` at `at_ns`. The same time again is no new pose.
+  /// The grip was at `pose` at `at_ns`. The same time again, or an earlier one, is no new pose.
   void see(const Pose& pose, int64_t at_ns) noexcept {
-    const double dt_s = 1e-9 * static_cast<double>(at_ns - at_ns_);
-    if (started_ && !(dt_s > 0)) return;
-    if (started_) {
-      std::copy_backward(velocity_.begin(), velocity_.end() - 1, velocity_.end());
+    if (!poses_.empty()) {
+      const double dt_s = 1e-9 * static_cast<double>(at_ns - poses_[0].at_ns);
+      if (!(dt_s > 0)) return;
       const double fraction = fraction_passed(dt_s, 1 / (2 * M_PI * kCutoff_Hz));
-      const Eigen::Quaterniond turn = pose.orientation * last_.orientation.conjugate();
-      // For the small angles of a tick the rotation vector is twice the vector part.
-      const Eigen::Vector3d turn_rad = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
-      GripVelocity& now = velocity_[0];
-      now.linear_m_s += fraction * ((pose.position_m - last_.position_m) / dt_s - now.linear_m_s);
-      now.angular_rad_s += fraction * (turn_rad / dt_s - now.angular_rad_s);
-      dt_s_ = dt_s;
+      velocity_.linear_m_s +=
+          fraction * ((pose.position_m - poses_[0].pose.position_m) / dt_s - velocity_.linear_m_s);
+      velocity_.angular_rad_s +=
+          fraction * (turn_rad(poses_[0].pose, pose) / dt_s - velocity_.angular_rad_s);
     }
-    started_ = true;
-    at_ns_ = at_ns;
-    last_ = pose;
+    // What is read in a burst replaces itself, so that it does not displace the poses before it.
+    if (poses_.size() > 1 && at_ns - poses_[1].at_ns < kApart_ns) {
+      poses_[0] = {pose, at_ns};
+    } else {
+      poses_.add({pose, at_ns});
+    }
   }
 
   /// The pose is not known: the velocity is zero until there are two poses again.
   void reset() noexcept { *this = {}; }
 
-  const GripVelocity& velocity() const noexcept { return velocity_[0]; }
+  const GripVelocity& velocity() const noexcept { return velocity_; }
 
   /// Where a grip at `pose` is `ahead_s` later at the present velocity.
   Pose pose_in(const Pose& pose, double ahead_s) const noexcept {
@@ -73,23 +77,62 @@ class GripMotion {
             (turn * pose.orientation).normalized()};
   }
 
-  /// The velocity `ahead_s` after the newest pose, with the present acceleration.
+  /// The velocity `ahead_s` after the newest pose, with the acceleration that the poses show.
   GripVelocity velocity_in(double ahead_s) const noexcept {
-    const GripVelocity& now = velocity_.front();
-    const GripVelocity& before = velocity_.back();
-    const double slopes = (ahead_s + kLag_s) / (kSlope * dt_s_);
-    return {now.linear_m_s + slopes * (now.linear_m_s - before.linear_m_s),
-            now.angular_rad_s + slopes * (now.angular_rad_s - before.angular_rad_s)};
+    // For each pose: 1, its time t, t²/2, and how far it is from where velocity_ would have had it.
+    // Sums of the products, divided by their number after the first column is taken out.
+    double n = 0, t_sum = 0, h_sum = 0, tt = 0, th = 0, hh = 0;
+    Six way_sum = Six::Zero(), t_way = Six::Zero(), h_way = Six::Zero();
+    for (size_t age = 0; age < poses_.size(); ++age) {
+      const int64_t before_ns = poses_[0].at_ns - poses_[age].at_ns;
+      if (before_ns > kFitted_ns) break;
+      const double t = -1e-9 * static_cast<double>(before_ns), h = 0.5 * t * t;
+      Six way;
+      way << poses_[age].pose.position_m - poses_[0].pose.position_m - t * velocity_.linear_m_s,
+          turn_rad(poses_[0].pose, poses_[age].pose) - t * velocity_.angular_rad_s;
+      n += 1, t_sum += t, h_sum += h, tt += t * t, th += t * h, hh += h * h;
+      way_sum += way, t_way += t * way, h_way += h * way;
+    }
+    if (!(n > 0)) return velocity_;
+    constexpr double kOfVelocity_s = kPoseError_m / kMost_m_s;
+    constexpr double kOfAcceleration_s2 = kPoseError_m / kMost_m_s2;
+    tt += kOfVelocity_s * kOfVelocity_s - t_sum * t_sum / n;
+    th -= t_sum * h_sum / n;
+    hh += kOfAcceleration_s2 * kOfAcceleration_s2 - h_sum * h_sum / n;
+    t_way -= t_sum / n * way_sum;
+    h_way -= h_sum / n * way_sum;
+    const double determinant = tt * hh - th * th;
+    const Six then = (hh * t_way - th * h_way + ahead_s * (tt * h_way - th * t_way)) / determinant;
+    return {velocity_.linear_m_s + then.head<3>(), velocity_.angular_rad_s + then.tail<3>()};
   }
 
  private:
-  static constexpr int kSlope = 3;  ///< ticks over which the acceleration is measured
+  using Six = Eigen::Matrix<double, 6, 1>;
+  struct TimedPose {
+    Pose pose;
+    int64_t at_ns = 0;
+  };
 
-  bool started_ = false;
-  int64_t at_ns_ = 0;
-  double dt_s_ = 1e-3;
-  Pose last_;
-  std::array<GripVelocity, kSlope + 1> velocity_;  ///< latest first
+  static constexpr int64_t kFitted_ns = 6'500'000;  ///< seven poses, if all ticks are in time
+  static constexpr int64_t kApart_ns =
+      500'000;  ///< of any pose and the next but one: kPoses suffice
+  static constexpr size_t kPoses = 2 * kFitted_ns / kApart_ns;
+  /// Two steps of the encoders, or what a hand at 0.5 m/s moves in 0.1 ms, by which a time of
+  /// reading is wrong.
+  static constexpr double kPoseError_m = 50e-6;
+  /// What a grip does: 3 N on the lightest, kLightestGrip_kg; and from velocity() within its lag.
+  /// Turns have the same proportions at the radius of a grip.
+  static constexpr double kMost_m_s2 = 90;
+  static constexpr double kMost_m_s = 0.3;
+
+  /// For the small angles of some ticks the rotation vector is twice the vector part.
+  static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {
+    const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
+    return (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
+  }
+
+  History<TimedPose, kPoses> poses_;
+  GripVelocity velocity_;
 };
 
 }  // namespace spidar

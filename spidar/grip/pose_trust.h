@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 namespace spidar {
 
@@ -62,14 +63,19 @@ class PoseTrust {
   static constexpr double kJumpMargin_m = 2e-3;
 
   /// Whether a grip that is so far from its newest pose has moved faster than a hand can.
-  bool is_jump(double way_m, int64_t now_ns) const noexcept {
-    const double passed_s = 1e-9 * static_cast<double>(now_ns - located_ns_);
+  bool is_jump(double way_m, int64_t read_ns) const noexcept {
+    const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
     return located_ && way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
+  /// When a pose was read in the tick of `now_ns`, if the device says `read_ns`. Where that is no
+  /// time of this clock, or older than any pose that is trusted, it is the tick's.
+  static int64_t time_of(int64_t read_ns, int64_t now_ns) noexcept {
+    return std::abs(read_ns - now_ns) < kPoseTimeout_ns ? read_ns : now_ns;
+  }
   /// A pose was read at this time, good or not.
-  void locate(int64_t now_ns) noexcept {
+  void locate(int64_t read_ns) noexcept {
     located_ = true;
-    located_ns_ = now_ns;
+    located_ns_ = read_ns;
   }
   /// The pose that was read is good. `may_trust`: trust may begin with it; existing trust is kept
   /// in any case.

@@ -43,7 +43,7 @@ void GripWatch::reset() noexcept {
   solver_.reset();
 }
 
-PoseFault GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexcept {
+PoseFault GripWatch::judge(const PoseResult& result, int64_t read_ns) const noexcept {
   if (result.status != PoseStatus::kSolved) return PoseFault::kNoFit;
   const Pose& pose = result.pose;
   const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
@@ -52,7 +52,7 @@ PoseFault GripWatch::judge(const PoseResult& result, int64_t now_ns) const noexc
   // A rotation counts as the way of the points at which the strings are tied.
   const double way_m = (pose.position_m - pose_.position_m).norm() +
                        radius_m_ * pose.orientation.angularDistance(pose_.orientation);
-  return trust_.is_jump(way_m, now_ns) ? PoseFault::kJump : PoseFault::kNone;
+  return trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
 }
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept {
@@ -76,15 +76,15 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& comma
 }
 
 void GripWatch::see(const DeviceReading& reading, const GripCommand& command) noexcept {
-  const int64_t now_ns = command.now_ns;
+  const int64_t read_ns = PoseTrust::time_of(reading.read_ns, command.now_ns);
   const bool frozen = is_frozen(reading, command);
   const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
   residual_m_ = result.residual_m;
-  PoseFault fault = judge(result, now_ns);
+  PoseFault fault = judge(result, read_ns);
   if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
     // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
-    trust_.locate(now_ns);
+    trust_.locate(read_ns);
   }
   if (fault == PoseFault::kNone && frozen) fault = PoseFault::kFrozen;
   if (fault == PoseFault::kNone) {

@@ -64,7 +64,7 @@ class GripWatch {
   uint64_t string_faults() const noexcept { return string_faults_; }
 
  private:
-  PoseFault judge(const PoseResult& result, int64_t now_ns) const noexcept;
+  PoseFault judge(const PoseResult& result, int64_t read_ns) const noexcept;
   bool is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept;
 
   const Profile profile_;

@@ -25,7 +25,8 @@ struct FadeBand {
 ///   strings have given more energy than a light one has at them: it is heavy, or in a hand. They
 ///   are those of the time at which the force acts, foreseen by the present acceleration.
 /// - A damper acts above the lower speed. Its damping follows the mass, which is twice that energy
-///   by the square of the speed.
+///   by the square of the speed. There is none while the strings have given less than the lightest
+///   grip has at its speed: then a hand moves it, and is not to feel it.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
 ///   faster than kFastest_rad_s, or moves as the strings alone would move a unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there

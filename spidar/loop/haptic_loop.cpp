@@ -143,10 +143,10 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   if (is_open) {
     grip_->check_age(now_ns);
     touch(record, passed_ns);
-    ask_callback(record, dt_s);
+    ask_callback(record, passed_ns);
     command(record, dt_s);
-    exchange(record, dt_s);
-    vibration_.pass(grip_->reading().delivered, dt_s, now_ns);
+    exchange(record, dt_s, passed_ns);
+    vibration_.pass(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
@@ -218,7 +218,7 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   record.wanted.force_N += record.contact.force_N;
 }
 
-void HapticLoop::ask_callback(TickRecord& record, double dt_s) noexcept {
+void HapticLoop::ask_callback(TickRecord& record, int64_t passed_ns) noexcept {
   if (!callback_.is_set()) return;
   const GripReading& grip = grip_->reading();
   if (!grip.knows_pose() || closing_.load(std::memory_order_acquire)) return callback_.rest();
@@ -227,8 +227,9 @@ void HapticLoop::ask_callback(TickRecord& record, double dt_s) noexcept {
   const Eigen::Vector3d beside_N =
       finite ? record.wanted.force_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
   record.wanted =
-      record.wanted +
-      callback_.call({grip.pose, grip.motion.velocity(), dt_s, grip.buttons}, beside_N, limits_);
+      record.wanted + callback_.call({grip.pose, grip.motion.velocity(),
+                                      1e-9 * static_cast<double>(passed_ns), grip.buttons},
+                                     beside_N, limits_);
   record.called_back = true;
 }
 
@@ -272,7 +273,7 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   counters_.rejected_wrenches = safety_.rejected();
 }
 
-void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
+void HapticLoop::exchange(TickRecord& record, double dt_s, int64_t passed_ns) noexcept {
   GripCommand command;
   command.wrench = record.commanded;
   command.fresh = is_fresh(record);
@@ -291,22 +292,24 @@ void HapticLoop::exchange(TickRecord& record, double dt_s) noexcept {
     errors_in_a_row_ = 0;
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
-    return follow(dt_s);
+    return follow(passed_ns);
   }
   undo(record);
   ++counters_.exchange_errors;
   if (is_lost(fault) || ++errors_in_a_row_ >= kMaxErrors) lose();
 }
 
-/// Nobody needs to be protected from a stick that lets go of the hand.
-void HapticLoop::follow(double dt_s) noexcept {
+/// Nobody needs to be protected from a stick that lets go of the hand. However late a tick is, the
+/// strings have pulled for as long.
+void HapticLoop::follow(int64_t passed_ns) noexcept {
+  const double passed_s = 1e-9 * static_cast<double>(passed_ns);
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
   // A hand does not turn a grip until its strings tangle.
   if (grip.pose_fault == PoseFault::kTurned) brake_.release();
   if (!grip.knows_pose()) return brake_.reset();
-  brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, dt_s);
-  brake_.pull(grip.delivered, grip.at_rest, dt_s);
+  brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
+  brake_.pull(grip.delivered, grip.at_rest, passed_s);
 }
 
 /// The grip may not have received this tick, so the next one starts from the last acknowledged one.

@@ -161,11 +161,11 @@ class HapticLoop {
   void find_wanted(TickRecord& record) noexcept;
   void count_gap(const TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
-  void ask_callback(TickRecord& record, double dt_s) noexcept;
+  void ask_callback(TickRecord& record, int64_t passed_ns) noexcept;
   bool is_fresh(const TickRecord& record) const noexcept;
   void command(TickRecord& record, double dt_s) noexcept;
-  void exchange(TickRecord& record, double dt_s) noexcept;
-  void follow(double dt_s) noexcept;
+  void exchange(TickRecord& record, double dt_s, int64_t passed_ns) noexcept;
+  void follow(int64_t passed_ns) noexcept;
   void undo(TickRecord& record) noexcept;
   void publish(const TickRecord& record) noexcept;
 

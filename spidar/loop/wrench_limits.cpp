@@ -123,6 +123,8 @@ constexpr double kMean_s = 2;
 /// Added to the acceleration, m/s². A constant passes no high-pass, and keeps the numbers of a
 /// filter without input from becoming denormal, which takes long to compute with.
 constexpr double kOffset = 1e-6;
+/// In one tick: 50 ms, six periods of the high-pass.
+constexpr int kMostSteps = 50;
 
 }  // namespace
 
@@ -153,14 +155,21 @@ VibrationBudget::VibrationBudget(double grip_radius_m) noexcept
   to_acceleration_.tail<3>().setConstant(grip_radius_m > 0 ? 1 / (kMoved_kg * grip_radius_m) : 0);
 }
 
-void VibrationBudget::pass(const Wrench& strings, double dt_s, int64_t now_ns) noexcept {
+void VibrationBudget::pass(const Wrench& strings, double passed_s, int64_t now_ns) noexcept {
   if (!strings.is_finite()) return;
   Six given;
   given << strings.force_N.array(), strings.torque_Nm.array();
-  const Six weighted = high_pass_.pass(transition_.pass(given * to_acceleration_ + kOffset));
-  const double squared_m2_s4 = weighted.square().sum();
+  // A force that is held for longer has no vibration left.
+  due_s_ = std::min(due_s_ + non_negative(passed_s), kMostSteps * kTick_s);
+  double squared_m2_s4 = 0, step_s = 0;
+  for (; due_s_ > 0.5 * kTick_s; due_s_ -= kTick_s, step_s += kTick_s) {
+    squared_m2_s4 +=
+        high_pass_.pass(transition_.pass(given * to_acceleration_ + kOffset)).square().sum();
+  }
+  if (!(step_s > 0)) return;
+  squared_m2_s4 *= kTick_s / step_s;
 
-  const auto taken_ns = static_cast<int64_t>(1e9 / kRefill_m2_s4 * dt_s * squared_m2_s4);
+  const auto taken_ns = static_cast<int64_t>(1e9 / kRefill_m2_s4 * step_s * squared_m2_s4);
   full_at_ns_ = std::max(full_at_ns(), now_ns) + taken_ns;
   taken_ns_.store(taken_ns_.load(std::memory_order_relaxed) + taken_ns, std::memory_order_relaxed);
   const double empty_s = 1e-9 * static_cast<double>(full_at_ns_ - now_ns);
@@ -172,8 +181,8 @@ void VibrationBudget::pass(const Wrench& strings, double dt_s, int64_t now_ns) n
   const double least_fraction = 1e-3;
   const double passed = std::max(state_.fraction, least_fraction);
   const double whole_m2_s4 = squared_m2_s4 / (passed * passed);
-  mean_m2_s4_ += 1 / kMean_s * dt_s * (whole_m2_s4 - mean_m2_s4_);
-  most_m2_s4_ = std::max(mean_m2_s4_, most_m2_s4_ * (1 - 1 / kReturn_s * dt_s));
+  mean_m2_s4_ += 1 / kMean_s * step_s * (whole_m2_s4 - mean_m2_s4_);
+  most_m2_s4_ = std::max(mean_m2_s4_, most_m2_s4_ * (1 - 1 / kReturn_s * step_s));
   const double permitted_m2_s4 = std::max(kAlways_m2_s4, 1 / kEmptied_s * left_m2_s3);
   state_.fraction = most_m2_s4_ > permitted_m2_s4 ? std::sqrt(permitted_m2_s4 / most_m2_s4_) : 1;
 }

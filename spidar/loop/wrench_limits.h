@@ -150,8 +150,9 @@ class VibrationBudget {
   /// `grip_radius_m` converts torques to forces; 0: torques do not count.
   explicit VibrationBudget(double grip_radius_m) noexcept;
 
-  /// The strings exert `strings` until the next tick, `dt_s` later. `now_ns` rises.
-  void pass(const Wrench& strings, double dt_s, int64_t now_ns) noexcept;
+  /// The strings exert `strings` in a tick, `passed_s` after the last one. The filters run in steps
+  /// of kTick_s, however irregular the ticks are. `now_ns` rises.
+  void pass(const Wrench& strings, double passed_s, int64_t now_ns) noexcept;
 
   double fraction() const noexcept { return state_.fraction; }
   /// The state after the last pass().
@@ -184,6 +185,7 @@ class VibrationBudget {
   Six to_acceleration_;
   Section transition_;  ///< of acceleration to velocity, ISO 5349-1
   Section high_pass_;
+  double due_s_ = 0;       ///< that has passed since the filters' last step
   double mean_m2_s4_ = 0;  ///< of the unlowered vibration, at present
   double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
   State state_;

@@ -171,7 +171,10 @@ LinkFault SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& read
   impl_->advance(impl_->elapsed_ns());
   if (fault != LinkFault::kTimeout) impl_->put_out(volts);
   impl_->publish();
-  if (fault == LinkFault::kNone) impl_->read_counters(reading);
+  if (fault == LinkFault::kNone) {
+    impl_->read_counters(reading);
+    if (impl_->time == Time::kClock) reading.read_ns = impl_->last_ns;
+  }
   return fault;
 }
 

@@ -18,6 +18,7 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/late_ticks.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
@@ -48,8 +49,9 @@ class Round {
         real_(zeroed_at(believed_, zero_)),
         where_(profile + ", round with seed " + std::to_string(seed)),
         watch_(real_),
-        simulated_(real_, SimulatedDevice::Time::kFixedStep),
-        device_(simulated_) {
+        simulated_(real_, SimulatedDevice::Time::kClock, {}, [this] { return exchanged_ns_; }),
+        device_(simulated_),
+        ticks_(seed, kTick_ns) {
     limits_.max_force_N = random_.uniform(0.2, 6);
     limits_.max_torque_Nm = random_.uniform(0.01, 0.2);
     loop_ = std::make_unique<HapticLoop>(std::make_unique<StringGrip>(believed_, device_), limits_);
@@ -62,7 +64,7 @@ class Round {
   bool run(int ticks) {
     for (int i = 0; i < ticks && !watch_.failed(); ++i) {
       act();
-      tick(random_.chance(0.01) ? 1 + static_cast<int>(random_.uniform(0, 60)) : 1);
+      tick();
     }
     close();
     return !watch_.failed();
@@ -113,6 +115,7 @@ class Round {
     if (random_.chance(0.001)) {
       const int string = random_.some(real_.geometry.count);
       simulated_.set_count_error(string, random_.chance(0.5) ? 0 : random_.some(2000) - 1000);
+      miscounts_ = true;
     }
     if (fault_ticks_ > 0 && --fault_ticks_ == 0) simulated_.set_fault(LinkFault::kNone);
     if (fault_ticks_ == 0 && random_.chance(0.002)) {
@@ -144,19 +147,24 @@ class Round {
     }
   }
 
-  void tick(int passed_ms) {
-    now_ns_ += passed_ms * kMs;
+  /// The device is read while the tick runs.
+  void tick() {
+    ticks_.advance();
+    const int64_t passed_ns = ticks_.now_ns() - now_ns_;
+    now_ns_ = ticks_.now_ns();
+    exchanged_ns_ = now_ns_ + std::llround(random_.uniform(0, 1) * LateTicks::kCycle_ns);
     const long before = allocations;
-    loop_->tick(now_ns_, now_ns_);
+    loop_->tick(ticks_.deadline_ns(), now_ns_);
     EXPECT_EQ(allocations, before) << where_ << ": a tick allocates";
     SeamWatch::Tick seen;
     seen.acknowledged = device_.status() == LinkFault::kNone && !loop_->lost();
     // A device that does not answer keeps what it was told; ramps count two milliseconds at most.
-    if (!playing_ && seen.acknowledged) rest_in_ns_ -= std::min(passed_ms, 2) * kMs;
+    if (!playing_ && seen.acknowledged) rest_in_ns_ -= std::min(passed_ns, HapticLoop::kMaxStep_ns);
     seen.told_N = tensions_N(device_.volts(), real_);
-    seen.dt_s = 1e-3 * passed_ms;
+    seen.dt_s = 1e-9 * static_cast<double>(passed_ns);
     seen.size_N = size_N_;
     seen.brakes = loop_->snapshot().last.brakes;
+    seen.sees = !device_.is_tampered() && !miscounts_;
     seen.resting = !playing_ && rest_in_ns_ < 0;
     seen.felt = simulated_.felt();
     watch_.see(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");
@@ -169,7 +177,7 @@ class Round {
     loop_->begin_close();
     int ticks = 0;
     while (!loop_->released()) {
-      tick(1);
+      tick();
       ASSERT_LE(++ticks, 100) << where_;
     }
     loop_->close();
@@ -191,7 +199,10 @@ class Round {
   SafetyLimits limits_;
   std::unique_ptr<HapticLoop> loop_;
   double size_N_ = 0;
+  LateTicks ticks_;
+  bool miscounts_ = false;  ///< a counter was wrong at some time
   int64_t now_ns_ = 0;
+  int64_t exchanged_ns_ = 0;
   int64_t played_at_ns_ = 0;
   int64_t next_frame_ns_ = 0;
   bool playing_ = false;

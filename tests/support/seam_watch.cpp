@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
+#include "spidar/loop/brake_table.h"
 #include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test {
@@ -15,8 +16,8 @@ namespace {
 
 /// Tensions become volts and are read back: a quotient and two products.
 constexpr double kRounding_N = 1e-9;
-/// An exchange with the simulated device takes a millisecond of its time, however late the tick is.
-constexpr double kExchange_s = 1e-3;
+/// By so much the speed that the brake sees is wrong.
+constexpr double kSpeedError_m_s = brake::kSpeedError_m_s;
 /// Of the bounds at rest, for a zero that is wrong.
 constexpr double kZeroMargin = 1.1;
 
@@ -27,6 +28,24 @@ SeamWatch::SeamWatch(const Profile& real)
 
 double SeamWatch::force_N(const Pose& pose, const StringVector& tension_N) const {
   return (structure_matrix(real_.geometry, pose) * tension_N).head<3>().norm();
+}
+
+/// The brake lets go of a force at once and pushes against the motion. The power that the strings
+/// give rises by their pace at most, or to zero; and by what a wrong speed lets them push.
+bool SeamWatch::never_pushes(const Tick& tick, double passed_s) const {
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << tick.felt.velocity_m_s, tick.felt.angular_velocity_rad_s;
+  const StructureMatrix W = structure_matrix(real_.geometry, tick.felt.pose);
+  const double radius_m = real_.geometry.grip_radius_m();
+  double paced_W = 0;
+  for (int i = 0; i < real_.geometry.count; ++i) {
+    const double pace_N_s = TensionSlew::pace_N_s(real_.drives[static_cast<size_t>(i)]);
+    paced_W += passed_s * pace_N_s * std::abs(W.col(i).dot(motion));
+  }
+  const Eigen::Matrix<double, 6, 1> now = W * (tick.told_N - least_N_),
+                                    before = W * (told_N_ - least_N_);
+  const double wrong_W = kSpeedError_m_s * (now.head<3>().norm() + now.tail<3>().norm() / radius_m);
+  return now.dot(motion) <= std::max(0.0, before.dot(motion)) + paced_W + wrong_W + kRounding_N;
 }
 
 void SeamWatch::see(const Tick& tick, const std::string& where) {
@@ -50,6 +69,8 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
       if (!tick.brakes && !(step_N <= passed_s * TensionSlew::pace_N_s(drive) + kRounding_N))
         fail(tick, "a string changes too fast", where);
     }
+    if (tick.brakes && tick.sees && !never_pushes(tick, passed_s))
+      fail(tick, "the brake pushes the grip", where);
     told_N_ = tick.told_N;
   }
 
@@ -68,7 +89,7 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
   ++largest_.playing_ticks;
   largest_.playing_force_N = std::max(largest_.playing_force_N, force);
   stop_energy_J_ +=
-      kExchange_s *
+      tick.dt_s *
       std::max(0.0, tick.felt.wrench.force_N.dot(tick.felt.velocity_m_s) +
                         tick.felt.wrench.torque_Nm.dot(tick.felt.angular_velocity_rad_s));
 }

@@ -23,7 +23,8 @@ class SeamWatch {
     bool acknowledged = false;
     double dt_s = 0;    ///< since the tick before
     double size_N = 0;  ///< largest wrench that the limits allow, torque divided by the grip radius
-    bool brakes = false;    ///< tensions may change at once
+    bool brakes = false;    ///< tensions may change at once, but not to push
+    bool sees = true;       ///< the loop knows the motion of the real grip, so that this is judged
     bool resting = false;   ///< at least 50 ms after the last wrench that was due
     bool released = false;  ///< the motors must be off
     FeltState felt;         ///< what acts on the grip
@@ -57,6 +58,7 @@ class SeamWatch {
 
  private:
   double force_N(const Pose& pose, const StringVector& tension_N) const;
+  bool never_pushes(const Tick& tick, double passed_s) const;
   void fail(const Tick& tick, const std::string& what, const std::string& where);
 
   const Profile real_;

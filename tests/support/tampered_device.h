@@ -21,6 +21,8 @@ class TamperedDevice final : public StringDevice {
   /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
 
+  bool is_tampered() const { return stopped_ != 0; }
+
   /// Volts of the last exchange.
   const MotorVolts& volts() const { return volts_; }
   /// Of the last exchange.
@@ -40,6 +42,7 @@ class TamperedDevice final : public StringDevice {
     if (status_ != LinkFault::kNone) return status_;
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
+    last_.read_ns = read.read_ns;
     reading = last_;
     return status_;
   }
