@@ -14,6 +14,7 @@ int loop(int argc, char** argv);
 int pose(int argc, char** argv);
 int real_film(int argc, char** argv);
 int regression(int argc, char** argv);
+int released(int argc, char** argv);
 int safety(int argc, char** argv);
 int skew(int argc, char** argv);
 int tension(int argc, char** argv);

@@ -30,6 +30,8 @@ const Benchmark kBenchmarks[] = {
     {"real_film", real_film, "METHOD FILM     the motion in a film; real_films.sh makes the table"},
 #endif
     {"regression", regression, "                a figure a topic; regression.py compares them"},
+    {"released", released,
+     "[GRIPS] [SEED]  grips that are let go of: the worst that a search finds"},
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
     {"tension", tension,
