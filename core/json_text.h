@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// JSON for other programs, in which names include units.
+/// JSON for other programs, in which names include units; and JSON from outside.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spidar {
@@ -23,5 +25,16 @@ template <typename Vector>
 Json json_array(const Vector& values) {
   return std::vector<double>(values.begin(), values.end());
 }
+
+/// As it is read. Not ordered, which takes a time that grows with the square of the members.
+using ReadJson = nlohmann::json;
+
+/// Arrays and objects inside each other in JSON from outside, at most. HJIF has 12.
+constexpr size_t kMostJsonDepth = 64;
+
+/// All JSON that is not this program's own is read here: deeper or wrong JSON is refused before
+/// anything is made of it that calls itself for each level. Of equal members the last one counts.
+/// When it cannot be read, a value that is_discarded(), and `why` says why: "it is no JSON: …".
+ReadJson parse_json(std::string_view text, std::string& why);
 
 }  // namespace spidar

@@ -32,7 +32,7 @@ double seconds(size_t sample) {
 double intensity(const TrackSample& sample) {
   const double fraction = std::hypot(static_cast<double>(sample[0]), static_cast<double>(sample[1]),
                                      static_cast<double>(sample[2]));
-  return std::isfinite(fraction) ? rounded(std::min(fraction, 1.0)) : 0;
+  return std::isnan(fraction) ? 0 : rounded(std::min(fraction, 1.0));
 }
 
 std::string description(double gain) {

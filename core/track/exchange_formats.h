@@ -69,7 +69,12 @@ constexpr double kFunscriptTolerance = 0.01;
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance = kFunscriptTolerance, double gain = 1);
 
-/// What write_funscript() has noted; nothing in scripts of others.
+/// By which samples are multiplied for formats with a range of their own: a force between a
+/// thousand times the full scale and a micronewton fills it.
+constexpr double kLeastGain = 1e-3, kMostGain = 1e6;
+
+/// What write_funscript() has noted; nothing in scripts of others. Throws FunscriptError: not JSON,
+/// or a gain from which no samples can be had back.
 struct FunscriptNotes {
   size_t channel;
   double gain;

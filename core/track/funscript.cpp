@@ -2,9 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/json_text.h"
+#include "core/number_text.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
@@ -19,40 +19,53 @@ struct Action {
   double fraction;  ///< of the full scale
 };
 
-/// A number from 0 to `most`.
-double number(const Json& action, const char* name, double most, const std::string& where) {
-  const auto found = action.is_object() ? action.find(name) : action.end();
-  if (!action.is_object() || found == action.end() || !found->is_number()) {
-    throw FunscriptError("funscript: " + where + " has no number " + name);
+struct Range {
+  double least, most;
+};
+
+double number(const ReadJson& object, const char* name, Range range, const std::string& where) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  if (!object.is_object() || found == object.end() || !found->is_number()) {
+    throw FunscriptError(where + " has no number " + name);
   }
   const double value = found->get<double>();
-  if (!(value >= 0 && value <= most)) {
-    std::ostringstream text;
-    text << "funscript: " << where << "." << name << " is " << value << ", not from 0 to " << most;
-    throw FunscriptError(text.str());
+  if (!(value >= range.least && value <= range.most)) {
+    std::string text = where + "." + name + " is ";
+    text.append(NumberText(value)).append(", not from ").append(NumberText(range.least));
+    throw FunscriptError(text.append(" to ").append(NumberText(range.most)));
   }
   return value;
 }
 
-std::vector<Action> read_actions(const Json& root, size_t most_samples) {
-  const Json* const actions =
+/// Throws FunscriptError.
+ReadJson parse(const std::string& text) {
+  std::string why;
+  ReadJson root = parse_json(text, why);
+  if (root.is_discarded()) throw FunscriptError(why);
+  return root;
+}
+
+std::vector<Action> read_actions(const ReadJson& root, size_t most_samples) {
+  const ReadJson* const actions =
       root.is_object() && root.contains("actions") ? &root["actions"] : nullptr;
   if (!actions || !actions->is_array() || actions->empty()) {
-    throw FunscriptError("funscript: it has no actions");
+    throw FunscriptError("it has no actions");
   }
-  const bool inverted = root.value("inverted", Json(false)) == Json(true);
+  const bool inverted = root.value("inverted", ReadJson(false)) == ReadJson(true);
   constexpr double kPercent = 100;
   const double range =
-      root.contains("range") ? number(root, "range", kPercent, "the script") : kPercent;
+      root.contains("range") ? number(root, "range", {0, kPercent}, "the script") : kPercent;
   const double used = range > 0 ? range / kPercent : 1;
   std::vector<Action> found;
   for (size_t i = 0; i < actions->size(); ++i) {
     const std::string where = "actions[" + std::to_string(i) + "]";
-    const double at_ms = number((*actions)[i], "at", static_cast<double>(most_samples) - 1, where);
-    const double fraction = used * (number((*actions)[i], "pos", 2 * kMiddle, where) / kMiddle - 1);
+    const double at_ms =
+        number((*actions)[i], "at", {0, static_cast<double>(most_samples) - 1}, where);
+    const double fraction =
+        used * (number((*actions)[i], "pos", {0, 2 * kMiddle}, where) / kMiddle - 1);
     found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -fraction : fraction});
     if (i > 0 && found[i].at_ms <= found[i - 1].at_ms) {
-      throw FunscriptError("funscript: " + where + " is not after the one before");
+      throw FunscriptError(where + " is not after the one before");
     }
   }
   return found;
@@ -71,31 +84,24 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
   });
   samples.each([&](const TrackSample& sample) {
     const double fraction = sample[channel];
-    keyframes.add(std::isfinite(fraction) ? std::clamp(fraction, -1.0, 1.0) : 0);
+    keyframes.add(std::isnan(fraction) ? 0 : std::clamp(fraction, -1.0, 1.0));
   });
   keyframes.finish();
   write("]}\n");
 }
 
 std::optional<FunscriptNotes> read_funscript_notes(const std::string& text) {
-  const Json root = Json::parse(text, nullptr, false);
-  const auto notes = root.is_object() ? root.find(kNotesKey) : root.end();
-  if (!root.is_object() || notes == root.end() || !notes->is_object()) return std::nullopt;
-  const Json channel = notes->value(kChannelKey, Json()), gain = notes->value(kGainKey, Json());
-  if (!channel.is_number_unsigned() || !gain.is_number()) return std::nullopt;
-  const FunscriptNotes found{channel.get<size_t>(), gain.get<double>()};
-  if (found.channel >= kTrackChannels || !(found.gain > 0)) return std::nullopt;
-  return found;
+  const ReadJson root = parse(text);
+  if (!root.is_object() || !root.contains(kNotesKey)) return std::nullopt;
+  const ReadJson& notes = root[kNotesKey];
+  const double channel = number(notes, kChannelKey, {0, kTrackChannels - 1}, kNotesKey);
+  const double gain = number(notes, kGainKey, {kLeastGain, kMostGain}, kNotesKey);
+  return FunscriptNotes{static_cast<size_t>(channel), gain};
 }
 
 std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
                                         size_t most_samples) {
-  Json root;
-  try {
-    root = Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw FunscriptError(std::string("funscript: no JSON: ") + error.what());
-  }
+  const ReadJson root = parse(text);
   const std::vector<Action> actions = read_actions(root, most_samples);
   std::vector<TrackSample> samples(actions.back().at_ms + 1);
   samples[actions.front().at_ms][channel] = static_cast<float>(actions.front().fraction);

@@ -31,7 +31,7 @@ double to_steps(double value) {
 }
 
 double amplitude_of(float sample) {
-  if (!std::isfinite(sample)) return 0;
+  if (std::isnan(sample)) return 0;
   return to_steps(std::clamp(static_cast<double>(sample), -1.0, 1.0));
 }
 
@@ -102,39 +102,43 @@ void write_channel(const SampleSource& samples, const WriteText& write, size_t c
 }
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw HjifError("HJIF: " + where + " " + what);
+  throw HjifError(where + " " + what);
 }
 
-const Json& member(const Json& object, const char* name, const std::string& where) {
+const ReadJson& member(const ReadJson& object, const char* name, const std::string& where) {
   if (!object.is_object()) fail(where, "is not an object");
   const auto found = object.find(name);
   if (found == object.end()) fail(where, std::string("has no ") + name);
   return *found;
 }
 
-const Json& array(const Json& object, const char* name, const std::string& where) {
-  const Json& value = member(object, name, where);
+const ReadJson& array(const ReadJson& object, const char* name, const std::string& where) {
+  const ReadJson& value = member(object, name, where);
   if (!value.is_array()) fail(where + "." + name, "is not an array");
   return value;
 }
 
-std::string text_of(const Json& object, const char* name, const std::string& where) {
-  const Json& value = member(object, name, where);
+std::string text_of(const ReadJson& object, const char* name, const std::string& where) {
+  const ReadJson& value = member(object, name, where);
   if (!value.is_string()) fail(where + "." + name, "is not a string");
   return value.get<std::string>();
 }
 
 /// A finite number of at most ±`most`.
-double number(const Json& object, const char* name, const std::string& where, double most) {
-  const Json& value = member(object, name, where);
+double number(const ReadJson& object, const char* name, const std::string& where, double most) {
+  const ReadJson& value = member(object, name, where);
   if (!value.is_number()) fail(where + "." + name, "is not a number");
   const double result = value.get<double>();
-  if (!(std::fabs(result) <= most)) fail(where + "." + name, "is out of range");
+  if (!(std::fabs(result) <= most)) {
+    std::string what = "is ";
+    what.append(NumberText(result)).append(", must be from -").append(NumberText(most));
+    fail(where + "." + name, what.append(" to ").append(NumberText(most)));
+  }
   return result;
 }
 
 /// A time in ticks, from 0 to 2^31 − 1 as in the format.
-int64_t ticks(const Json& object, const char* name, const std::string& where) {
+int64_t ticks(const ReadJson& object, const char* name, const std::string& where) {
   const double value = number(object, name, where, INT32_MAX);
   if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is not a number of ticks");
   return static_cast<int64_t>(value);
@@ -193,10 +197,10 @@ class Curves {
   std::vector<TrackSample> samples_;
 };
 
-std::vector<Keyframe> read_keyframes(const Json& effect, const std::string& where) {
+std::vector<Keyframe> read_keyframes(const ReadJson& effect, const std::string& where) {
   const int64_t begin = ticks(effect, "position", where);
   std::vector<Keyframe> curve;
-  const Json& keyframes = array(effect, "keyframes", where);
+  const ReadJson& keyframes = array(effect, "keyframes", where);
   for (size_t k = 0; k < keyframes.size(); ++k) {
     const std::string at = where + ".keyframes[" + std::to_string(k) + "]";
     const int64_t tick = begin + ticks(keyframes[k], "relative_position", at);
@@ -206,7 +210,7 @@ std::vector<Keyframe> read_keyframes(const Json& effect, const std::string& wher
   return curve;
 }
 
-void read_channel(const Json& channel, size_t number_of_channel, Curves& curves,
+void read_channel(const ReadJson& channel, size_t number_of_channel, Curves& curves,
                   const std::string& where) {
   const double gain = number(channel, "gain", where, 1e3);
   if (channel.contains("sample_count") && channel.contains("frequency_sampling")) {
@@ -215,14 +219,14 @@ void read_channel(const Json& channel, size_t number_of_channel, Curves& curves,
       curves.reach(count, where + ".sample_count");
     }
   }
-  const Json& bands = array(channel, "bands", where);
+  const ReadJson& bands = array(channel, "bands", where);
   for (size_t b = 0; b < bands.size(); ++b) {
     const std::string band = where + ".bands[" + std::to_string(b) + "]";
     const std::string type = text_of(bands[b], "band_type", band);
     if (type != "Curve") fail(band, "is of type " + type + ": only curves are forces");
     const std::string curve = text_of(bands[b], "curve_type", band);
     if (curve != "Linear") fail(band, "is a curve of type " + curve + ", not Linear");
-    const Json& effects = array(bands[b], "effects", band);
+    const ReadJson& effects = array(bands[b], "effects", band);
     for (size_t e = 0; e < effects.size(); ++e) {
       const std::string effect = band + ".effects[" + std::to_string(e) + "]";
       curves.add(read_keyframes(effects[e], effect), number_of_channel, gain, effect);
@@ -230,10 +234,10 @@ void read_channel(const Json& channel, size_t number_of_channel, Curves& curves,
   }
 }
 
-int64_t timescale_of(const Json& root) {
+int64_t timescale_of(const ReadJson& root) {
   if (!root.contains("timescale")) return kTrackRate_Hz;
   const int64_t ticks_Hz = ticks(root, "timescale", "the file");
-  if (ticks_Hz < 1 || ticks_Hz > kMostTicks_Hz) fail("timescale", "is not from 1 to 48000");
+  if (ticks_Hz < 1 || ticks_Hz > kMostTicks_Hz) fail("timescale", "must be from 1 to 48000");
   return ticks_Hz;
 }
 
@@ -257,19 +261,16 @@ void write_hjif(const SampleSource& samples, const WriteText& write, double tole
 }
 
 std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples) {
-  Json root;
-  try {
-    root = Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw HjifError(std::string("HJIF: no JSON: ") + error.what());
-  }
+  std::string why;
+  const ReadJson root = parse_json(text, why);
+  if (root.is_discarded()) throw HjifError(why);
   Curves curves(timescale_of(root), most_samples);
   const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
-  const Json& perceptions = array(root, "perceptions", whole);
+  const ReadJson& perceptions = array(root, "perceptions", whole);
   for (size_t p = 0; p < perceptions.size(); ++p) {
     const std::string where = "perceptions[" + std::to_string(p) + "]";
     if (text_of(perceptions[p], "perception_modality", where) != "Force") continue;
-    const Json& channels = array(perceptions[p], "channels", where);
+    const ReadJson& channels = array(perceptions[p], "channels", where);
     if (channels.size() != kTrackChannels) {
       fail(where, "has " + std::to_string(channels.size()) +
                       " channels; a haptic track has 6, force x, y, z and torque x, y, z");

@@ -157,7 +157,10 @@ def read_settings(answers, kind="settings"):
     """Nothing if the study has not begun. Raises ValueError if its settings are lost. `kind`: or the "preview"."""
     path = Path(f"{answers}.{kind}.json")
     if path.exists():
-        return json.loads(path.read_text(encoding="utf-8"))
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except (ValueError, RecursionError) as error:
+            raise ValueError(f"{path}: is not as this program wrote it ({error}); put it back as it was") from error
     if kind == "preview" or read_answers(answers):
         raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
     return None

@@ -135,11 +135,16 @@ bool has_own_range(const std::string& to) {
   return ends_with(to, ".ahap") || ends_with(to, ".funscript");
 }
 
+/// So that `peak`, a fraction of the full scale, becomes 1; 1 when there is none.
+double gain_that_fills(double peak) {
+  return peak > 0 ? std::clamp(1 / peak, kLeastGain, kMostGain) : 1;
+}
+
 /// The gain with which the largest value fills the range of TO; 1 when there is none.
 double filling_gain(const std::string& to, const tracks::Summary& summary, size_t axis) {
   const double peak = ends_with(to, ".ahap") ? summary.largest_force_N / kTrackForceScale_N
                                              : summary.channels[axis].peak;
-  return peak > 0 ? 1 / peak : 1;
+  return gain_that_fills(peak);
 }
 
 /// Throws UsageError when an option changes nothing.
@@ -170,7 +175,7 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
     for (size_t i = kind * kForces; i < (kind + 1) * kForces; ++i) {
       peak = std::max(peak, summary.channels[i].peak);
     }
-    gains[kind] = options.gain.value_or(peak > 0 ? 1 / peak : 1);
+    gains[kind] = options.gain.value_or(gain_that_fills(peak));
   }
   std::vector<std::unique_ptr<PartFile>> parts;
   const auto scripts = axis_scripts(options.to, main);
@@ -194,20 +199,20 @@ TrackCondition read_axes(const std::string& from, const SampleSource::Take& take
   TrackCondition condition;
   condition.track = from;
   std::vector<TrackSample> all;
-  const auto main = read_funscript_notes(read_text(from));
+  const auto main = parse_file(from, [&] { return read_funscript_notes(read_text(from)); });
   for (const AxisScript& script : axis_scripts(from, main ? main->channel : kUsualAxis)) {
     if (!std::filesystem::exists(script.path)) {
       std::cout << script.path << ": is not there; " << tracks::channel_name(script.channel)
                 << " is at rest\n";
       continue;
     }
-    const std::string text = read_text(script.path);
-    const auto notes = read_funscript_notes(text);
+    const auto text = parse_file(script.path, [&] { return read_text(script.path); });
+    const auto notes = parse_file(script.path, [&] { return read_funscript_notes(text); });
     const size_t channel = notes ? notes->channel : script.channel;
     const double gain = notes ? notes->gain : 1;
     std::cout << script.path << ": " << tracks::channel_name(channel) << ", gain " << rounded(gain)
               << " taken back\n";
-    const std::vector<TrackSample> samples = read_funscript(text, channel);
+    const auto samples = parse_file(script.path, [&] { return read_funscript(text, channel); });
     if (all.size() < samples.size()) all.resize(samples.size());
     for (size_t i = 0; i < samples.size(); ++i) {
       all[i][channel] = static_cast<float>(samples[i][channel] / gain);

@@ -209,7 +209,7 @@ Prints what TO cannot hold.)");
     app->add_option("--gain", convert_.gain,
                     "factor for a funscript or AHAP; default: the largest value of the "
                     "track fills the range")
-        ->check(number(1e-3, 1e6))
+        ->check(number(kLeastGain, kMostGain))
         ->type_name("FACTOR");
     app->add_option("--tolerance", convert_.save.tolerance,
                     "largest error of curves, as a fraction of the full scale; default: 0.0004 for "

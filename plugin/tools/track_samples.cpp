@@ -164,11 +164,7 @@ void write_sound(const PartFile& part, const std::string& encoder, const SampleF
 }  // namespace
 
 std::string read_text(const std::string& path) {
-  try {
-    return read_regular_file(path, kMostText_bytes);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
+  return read_regular_file(path, kMostText_bytes);
 }
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -205,13 +201,13 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
     for (const TrackSample& sample : samples) take(sample);
   };
   if (ends_with(path, ".funscript")) {
-    give(read_funscript(read_text(path), funscript_axis));
+    give(parse_file(path, [&] { return read_funscript(read_text(path), funscript_axis); }));
   } else if (ends_with(path, ".ahap")) {
     throw std::runtime_error(path +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
   } else if (ends_with(path, ".hjif")) {
-    give(read_hjif(read_text(path)));
+    give(parse_file(path, [&] { return read_hjif(read_text(path)); }));
   } else {
     read_sound(path, film, take, found);
   }

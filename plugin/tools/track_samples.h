@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -90,8 +91,18 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// Of HJIF or a funscript. Throws std::runtime_error, which names the file.
+/// Of HJIF or a funscript. Throws std::runtime_error, which does not name the file.
 std::string read_text(const std::string& path);
+
+/// What `parse` returns. Its errors name the file `path`.
+template <typename Parse>
+auto parse_file(const std::string& path, const Parse& parse) {
+  try {
+    return parse();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
 
 /// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);

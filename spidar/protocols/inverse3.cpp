@@ -25,33 +25,35 @@ Eigen::Vector3d to_haply(const Eigen::Vector3d& device) noexcept {
   return {device.x(), -device.z(), device.y()};
 }
 
-Json parse(ByteView text) {
-  return Json::parse(text.data, text.data + text.size, nullptr, false);
+/// Discarded when it is none.
+ReadJson parse(ByteView text) {
+  std::string why;
+  return parse_json({reinterpret_cast<const char*>(text.data), text.size}, why);
 }
 
 /// Null when there is no such field.
-const Json* field(const Json* of, const char* name) {
+const ReadJson* field(const ReadJson* of, const char* name) {
   if (!of || !of->is_object()) return nullptr;
   const auto found = of->find(name);
   return found == of->end() ? nullptr : &*found;
 }
 
-bool read_vector(const Json* from, Eigen::Vector3d& vector) {
+bool read_vector(const ReadJson* from, Eigen::Vector3d& vector) {
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    const Json* number = field(from, kAxes[static_cast<size_t>(axis)]);
+    const ReadJson* number = field(from, kAxes[static_cast<size_t>(axis)]);
     if (!number || !number->is_number()) return false;
     vector[axis] = number->get<double>();
   }
   return vector.allFinite();
 }
 
-bool is_true(const Json* flag, bool otherwise) {
+bool is_true(const ReadJson* flag, bool otherwise) {
   return flag && flag->is_boolean() ? flag->get<bool>() : otherwise;
 }
 
 /// Goes into messages as it is.
-bool is_id(const Json* id) {
+bool is_id(const ReadJson* id) {
   if (!id || !id->is_string()) return false;
   const auto& text = id->get_ref<const std::string&>();
   return !text.empty() && text.size() <= kIdLength &&
@@ -61,23 +63,23 @@ bool is_id(const Json* id) {
 }
 
 /// In the list of Inverse3s of a message, or of commands; null if it is not there.
-const Json* device_in(const Json& message, std::string_view id) {
-  const Json* devices = field(&message, "inverse3");
+const ReadJson* device_in(const ReadJson& message, std::string_view id) {
+  const ReadJson* devices = field(&message, "inverse3");
   if (!devices || !devices->is_array()) return nullptr;
-  for (const Json& device : *devices) {
-    const Json* found = field(&device, "device_id");
+  for (const ReadJson& device : *devices) {
+    const ReadJson* found = field(&device, "device_id");
     if (id.empty() || (is_id(found) && found->get_ref<const std::string&>() == id)) return &device;
   }
   return nullptr;
 }
 
 /// The buttons of the first handle that has any; a wireless one has three, the other has one.
-uint32_t buttons_in(const Json& message) {
+uint32_t buttons_in(const ReadJson& message) {
   for (const char* kind : {"wireless_verse_grip", "verse_grip", "custom_verse_grip"}) {
-    const Json* handles = field(&message, kind);
+    const ReadJson* handles = field(&message, kind);
     if (!handles || !handles->is_array() || handles->empty()) continue;
-    const Json* state = field(&handles->front(), "state");
-    const Json* buttons = field(state, "buttons");
+    const ReadJson* state = field(&handles->front(), "state");
+    const ReadJson* buttons = field(state, "buttons");
     return (is_true(field(state, "button"), false) || is_true(field(buttons, "a"), false) ? 1U
                                                                                           : 0U) |
            (is_true(field(buttons, "b"), false) ? 2U : 0U) |
@@ -86,13 +88,13 @@ uint32_t buttons_in(const Json& message) {
   return 0;
 }
 
-Answer read_state(const Json& message, std::string_view id, State& state) {
+Answer read_state(const ReadJson& message, std::string_view id, State& state) {
   if (!message.is_object()) return Answer::kBroken;
-  const Json* device = device_in(message, id);
+  const ReadJson* device = device_in(message, id);
   if (!device) return Answer::kAbsent;
-  const Json* name = field(device, "device_id");
-  const Json* now = field(device, "state");
-  const Json* status = field(device, "status");
+  const ReadJson* name = field(device, "device_id");
+  const ReadJson* now = field(device, "state");
+  const ReadJson* status = field(device, "status");
   Eigen::Vector3d position_m;
   if (!is_id(name) || !read_vector(field(now, "cursor_position"), position_m)) {
     return Answer::kBroken;
@@ -194,8 +196,8 @@ size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
 }
 
 bool decode_force(ByteView message, std::string_view id, Eigen::Vector3d& force_N) noexcept {
-  const Json read = parse(message);
-  const Json* command = field(field(device_in(read, id), "commands"), "set_cursor_force");
+  const ReadJson read = parse(message);
+  const ReadJson* command = field(field(device_in(read, id), "commands"), "set_cursor_force");
   Eigen::Vector3d haply_N;
   if (!read_vector(field(command, "vector"), haply_N) &&
       !read_vector(field(command, "values"), haply_N)) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,34 +82,56 @@ TEST(Funscript, OnlyTheRangeIsUsed) {
 
 TEST(Funscript, ExtremesAreClipped) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const auto read = read_funscript(write_funscript({{0, 3}, {0, nan}, {0, -3}}, 1), 1);
+  const float infinite = std::numeric_limits<float>::infinity();
+  const auto read = read_funscript(write_funscript({{0, 3}, {0, nan}, {0, -infinite}}, 1), 1);
   ASSERT_EQ(read.size(), 3u);
   EXPECT_EQ(read[0][1], 1);
   EXPECT_EQ(read[1][1], 0);
   EXPECT_EQ(read[2][1], -1);
 }
 
+TEST(Funscript, AGainThatLosesItsSamplesIsRefused) {
+  const auto noted = [](const std::string& notes) {
+    return read_funscript_notes(R"({"gst-spidar":)" + notes +
+                                R"(,"actions":[{"at":0,"pos":0},{"at":9,"pos":100}]})");
+  };
+  EXPECT_EQ(noted(R"({"channel":1,"gain":0.5})")->gain, 0.5);
+  EXPECT_FALSE(read_funscript_notes(R"({"actions":[]})"));
+  for (const auto& [notes, message] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"({"channel":1,"gain":1e-300})", "gst-spidar.gain is 1e-300, not from 0.001 to 1e+06"},
+           {R"({"channel":1,"gain":-1})", "gst-spidar.gain is -1, not from 0.001 to 1e+06"},
+           {R"({"channel":6,"gain":1})", "gst-spidar.channel is 6, not from 0 to 5"},
+           {R"({"channel":1})", "gst-spidar has no number gain"},
+           {"7", "gst-spidar has no number channel"}}) {
+    try {
+      noted(notes);
+      ADD_FAILURE() << notes;
+    } catch (const FunscriptError& error) {
+      EXPECT_STREQ(error.what(), message);
+    }
+  }
+}
+
 TEST(Funscript, MistakesAreNamed) {
   const struct {
     const char *text, *message;
   } cases[] = {
-      {"", "funscript: no JSON: "},
-      {"[]", "funscript: it has no actions"},
-      {"{}", "funscript: it has no actions"},
-      {R"({"actions":7})", "funscript: it has no actions"},
-      {R"({"actions":[]})", "funscript: it has no actions"},
-      {R"({"actions":[7]})", "funscript: actions[0] has no number at"},
-      {R"({"actions":[{"at":"0","pos":0}]})", "funscript: actions[0] has no number at"},
-      {R"({"actions":[{"at":0}]})", "funscript: actions[0] has no number pos"},
-      {R"({"actions":[{"at":-1,"pos":0}]})", "funscript: actions[0].at is -1, not from 0 to"},
-      {R"({"actions":[{"at":1e300,"pos":0}]})", "funscript: actions[0].at is 1e+300, not from 0"},
-      {R"({"actions":[{"at":0,"pos":101}]})",
-       "funscript: actions[0].pos is 101, not from 0 to 100"},
+      {"", "it is no JSON: it ends too early"},
+      {"[]", "it has no actions"},
+      {"{}", "it has no actions"},
+      {R"({"actions":7})", "it has no actions"},
+      {R"({"actions":[]})", "it has no actions"},
+      {R"({"actions":[7]})", "actions[0] has no number at"},
+      {R"({"actions":[{"at":"0","pos":0}]})", "actions[0] has no number at"},
+      {R"({"actions":[{"at":0}]})", "actions[0] has no number pos"},
+      {R"({"actions":[{"at":-1,"pos":0}]})", "actions[0].at is -1, not from 0 to"},
+      {R"({"actions":[{"at":1e300,"pos":0}]})", "actions[0].at is 1e+300, not from 0"},
+      {R"({"actions":[{"at":0,"pos":101}]})", "actions[0].pos is 101, not from 0 to 100"},
       {R"({"range":101,"actions":[{"at":0,"pos":0}]})",
-       "funscript: the script.range is 101, not from 0 to 100"},
-      {R"({"range":"all","actions":[{"at":0,"pos":0}]})", "funscript: the script has no number"},
+       "the script.range is 101, not from 0 to 100"},
+      {R"({"range":"all","actions":[{"at":0,"pos":0}]})", "the script has no number"},
       {R"({"actions":[{"at":5,"pos":1},{"at":5,"pos":2}]})",
-       "funscript: actions[1] is not after the one before"},
+       "actions[1] is not after the one before"},
   };
   for (const auto& [text, message] : cases) {
     SCOPED_TRACE(text);

@@ -166,8 +166,10 @@ TEST(Hjif, SaysWhatIsWrongAndWhere) {
       {hjif(band(keyframe("10", "0") + "," + keyframe("10", "1"))), "not after"},
       {hjif(band(keyframe("-1", "0"))), "ticks"},
       {hjif(band(keyframe("0.5", "0"))), "ticks"},
-      {hjif(band(keyframe("0", "1.5"))), "amplitude_modulation is out of range"},
-      {hjif(band(keyframe("0", "1e999"))), "JSON"},
+      {hjif(band(keyframe("0", "1.5"))), "amplitude_modulation is 1.5, must be from -1 to 1"},
+      {hjif(band(keyframe("0", "1e999"))), "a number that is beyond"},
+      {R"({"a":)" + std::string(200'000, '[') + std::string(200'000, ']') + R"(,"b":1})",
+       "more than 64 deep"},
       {hjif(band(keyframe("2147483647", "1"))), "longer than a track"},
       {hjif(R"({"bands":[]})"), "channels[0] has no gain"},
   };

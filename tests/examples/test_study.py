@@ -157,6 +157,10 @@ class File(InFolder):
             with self.assertRaisesRegex(ValueError, re.escape(message)):
                 records.require_same(self.path, records.read_settings(self.path), settings | changed)
         self.assertEqual(records.read_settings(self.path, "preview"), {"a.avi": {}})
+        for wrong in (b"", b"{", b"\xff", b'{"a":' + b"[" * 100000 + b"]" * 100000 + b"}"):
+            Path(f"{self.path}.preview.json").write_bytes(wrong)
+            with self.assertRaisesRegex(ValueError, "preview.json: is not as this program wrote it"):
+                records.read_settings(self.path, "preview")
         Path(f"{self.path}.preview.json").unlink()
         with self.assertRaisesRegex(ValueError, "preview.json: is missing"):
             records.read_settings(self.path, "preview")

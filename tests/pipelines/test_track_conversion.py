@@ -124,6 +124,49 @@ class Conversion(track_case.TrackCase):
         self.assert_said("--gain is for .funscript and .ahap", "convert", "a.wav", "b.flac", "--gain",
                          "2", status=2)
 
+    def test_an_error_in_a_file_names_it_in_our_words(self):
+        deep = b'{"a":' + b"[" * 200000 + b"]" * 200000 + b',"b":1}'
+        points = b'"actions":[{"at":0,"pos":0},{"at":9,"pos":100}]}'
+        for content, why in ((b"", "it is no JSON: it ends too early"), (b'{"actions":x', "it is no JSON: line 1, column 12"),
+                             (deep, "its arrays and objects lie more than 64 deep"), (b"[1e999]", "it has a number that is beyond 1.8e308")):
+            for name in ("a.funscript", "a.hjif"):
+                self.path(name).write_bytes(content)
+                for command in (["info"], ["check"], ["convert", "b.wav"], ["convert", "b.wav", "--axis", "all"]):
+                    if name != "a.hjif" or "--axis" not in command:
+                        self.assert_said(f"{name}: {why}", command[0], name, *command[1:])
+        self.path("a.funscript").write_bytes(b'{"gst-spidar":{"channel":1,"gain":1e-300},' + points)
+        self.assert_said("a.funscript: gst-spidar.gain is 1e-300, not from 0.001 to 1e+06",
+                         "convert", "a.funscript", "b.wav", "--axis", "all")
+        # A gain that fills the range is one that is read back.
+        self.make_track(sample=lambda ms: (0, 1e-9 * ms, 0, 0, 0, 0))
+        self.assertIn("gain 1e+06", self.spidartrack("convert", "a.wav", "b.funscript", "--axis", "all"))
+        self.spidartrack("convert", "b.funscript", "c.wav", "--axis", "all")
+        self.assertLessEqual(difference(self.samples("a.wav"), self.samples("c.wav")), 1e-6)
+
+    def test_numbers_of_64_bits_that_are_none_of_32_are_rest(self):
+        self.make_track(count=10)
+        self.path("a.wav").write_bytes(track_case.chunk(b"RIFF", b"WAVE" + track_case.chunk(
+            b"fmt ", struct.pack("<HHIIHH", 3, 6, 1000, 48000, 48, 64)) + track_case.MARK + track_case.chunk(
+                b"data", struct.pack("<60d", *[1e300 if i == 7 else .1 for i in range(60)]))))
+        self.assertEqual(json.loads(self.spidartrack("info", "--json", "a.wav"))["not_finite"], 1)
+        self.spidartrack("convert", "a.wav", "b.wav")
+        read = self.samples("b.wav")
+        self.assertEqual(read[1], (0,) * 6)
+        self.assertTrue(all(math.isfinite(value) for sample in read for value in sample))
+
+    def test_a_wild_time_of_a_picture_is_none(self):
+        self.make_film("film.avi")
+        self.spidartrack("record", "film.avi", "--format", "wav")
+        whole = self.path("film.avi.haptic.wav").read_bytes()
+        picture = re.search(rb"HAPTIC_FILM=(-?\d+):([0-9a-f]{16})", whole)
+        for time in (b"9000000000000000000", b"-9223372036854775808"):
+            mark = track_case.chunk(b"LIST", b"INFO" + track_case.chunk(
+                b"ICMT", b"HAPTIC_FULL_SCALE=10 N, 1 N m\nHAPTIC_FILM=" + time + b":" + picture.group(2) + b"\0"))
+            self.make_track("film.avi.haptic.wav")
+            content = self.path("film.avi.haptic.wav").read_bytes()
+            self.path("film.avi.haptic.wav").write_bytes(track_case.chunk(b"RIFF", content[8:].replace(track_case.MARK, mark)))
+            self.assertNotIn("of another film", self.spidartrack("info", "film.avi"))
+
     def test_an_option_that_changes_nothing_is_an_error(self):
         self.make_track()
         for options, why in ((("b.wav", "--axis", "fy"), "--axis is for .funscript, not for"),
