@@ -29,18 +29,20 @@ class TrackThinner {
   bool add(TrackSample& sample) noexcept {
     if (group_ == 1) return true;
     for (size_t i = 0; i < kTrackChannels; ++i) {
-      sum_[i] = (filled_ == 0 ? 0 : sum_[i]) + sample[i];
+      sum_[i] = (filled_ == 0 ? 0 : sum_[i]) + static_cast<double>(sample[i]);
     }
     if (++filled_ < group_) return false;
     filled_ = 0;
-    for (size_t i = 0; i < kTrackChannels; ++i) sample[i] = sum_[i] / static_cast<float>(group_);
+    for (size_t i = 0; i < kTrackChannels; ++i) {
+      sample[i] = static_cast<float>(sum_[i] / static_cast<double>(group_));
+    }
     return true;
   }
 
  private:
   size_t group_ = 1;
   size_t filled_ = 0;
-  TrackSample sum_{};
+  std::array<double, kTrackChannels> sum_{};  ///< of floats, so that it is finite if they are
 };
 
 /// Goes through blocks in the order of their times and interpolates linearly between samples; never

@@ -127,9 +127,10 @@ TrackSample Input::sample(size_t i, double gain) {
   bool finite = true, beyond = false;
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     const double value = doubles_[i * kTrackChannels + channel];
-    finite = finite && std::isfinite(value);
-    beyond = beyond || std::fabs(value) > 1;
     sample[channel] = static_cast<float>(gain * value);
+    // A number of 64 bits may be too large for one of 32.
+    finite = finite && std::isfinite(sample[channel]);
+    beyond = beyond || std::fabs(value) > 1;
   }
   ++samples_;
   if (finite && beyond) ++faults_.beyond_full;

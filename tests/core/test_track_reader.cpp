@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -125,6 +126,20 @@ TEST(TrackThinner, GivesMeansOfAsManySamplesAsComeInAMillisecond) {
   }
   thinner.begin(1001);
   EXPECT_EQ(thinner.group(), 2u);
+}
+
+TEST(TrackThinner, TheMeanOfTheLargestNumbersIsFinite) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  TrackThinner thinner;
+  for (const int rate_Hz : {2000, 3000, 7000, 8000}) {
+    thinner.begin(rate_Hz);
+    TrackSample sample;
+    do {
+      sample = {kMost, -kMost};
+    } while (!thinner.add(sample));
+    EXPECT_EQ(sample[0], kMost) << rate_Hz;
+    EXPECT_EQ(sample[1], -kMost) << rate_Hz;
+  }
 }
 
 }  // namespace
