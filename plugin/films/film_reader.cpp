@@ -50,6 +50,7 @@ size_t floor_to_power(size_t size) {
   return power;
 }
 
+constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};  // a wild timestamp is later
 constexpr size_t kDigits = 16;  // of a hash: two films share one of 256 pictures once in 10^14
 
 }  // namespace
@@ -114,7 +115,8 @@ FilmFingerprint parse_fingerprint(const std::string& text) {
   fingerprint.time_ns = std::strtoll(text.c_str(), &end, 10);
   if (end == text.c_str() || *end != ':') return {};
   fingerprint.hash = end + 1;
-  const bool is_hash = fingerprint.hash.size() == kDigits &&
+  const bool is_time = fingerprint.time_ns > -kLongest_ns && fingerprint.time_ns < kLongest_ns;
+  const bool is_hash = is_time && fingerprint.hash.size() == kDigits &&
                        fingerprint.hash.find_first_not_of("0123456789abcdef") == std::string::npos;
   return is_hash ? fingerprint : FilmFingerprint();
 }

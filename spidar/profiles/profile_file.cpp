@@ -156,6 +156,8 @@ constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
 // Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
 constexpr double kMaxDac_V = 60;
+// Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
+constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
 // Steps of the D/A in the range of a string, at least: coarser ones are a mistaken unit. Those of
@@ -163,6 +165,8 @@ constexpr int kMaxDacBits = 16;
 constexpr double kMinSteps = 16;
 // No string of a device for a hand pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
+// What pulls less moves no grip.
+constexpr double kMinTension_N = 0.1;
 // No limit bounds what the strings exert at rest: off the centre about the pull of one of them.
 constexpr double kMaxRest_N = kAnyForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
@@ -313,9 +317,10 @@ void check_drive(const TomlField& in, size_t i, const Profile& profile) {
                              as_text(kMaxRest_N) +
                              " N: at rest the strings pull with it, and no limit bounds that");
   }
-  if (drive.max_tension_N > kMaxTension_N) {
-    in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N must be at most " +
-                             as_text(kMaxTension_N) + " N; the unit is newtons");
+  if (drive.max_tension_N > kMaxTension_N || drive.max_tension_N < kMinTension_N) {
+    in["max_tension_N"].fail(string + as_text(drive.max_tension_N) + " N must be at least " +
+                             as_text(kMinTension_N) + " N and at most " + as_text(kMaxTension_N) +
+                             " N; the unit is newtons");
   }
   const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
   if (!(needed_V <= dac_max_V)) {
@@ -458,6 +463,10 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
   const TomlField dac_max = root["dac_max_V"];
   profile.dac_max_V = at_most(dac_max, dac_max.positive(), kMaxDac_V, "volts");
+  if (profile.dac_max_V < kMinDac_V) {
+    dac_max.fail("is " + as_text(profile.dac_max_V) + ", must be at least " + as_text(kMinDac_V) +
+                 "; the unit is volts");
+  }
   profile.drive_lag_known = root.has("drive_lag_s");
   if (profile.drive_lag_known) {
     const TomlField lag = root["drive_lag_s"];
