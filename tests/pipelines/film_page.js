@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Runs the scripts of a page that spidartrack export has made on what a browser would give them:
 // node film_page.js PAGE TIME... . Prints as JSON what is shown and felt at each time, in seconds,
-// of a film that is 800 x 480 pixels large, and after a pause.
+// of a film that is 800 x 480 pixels large, and after a pause. PAGE_BROWSER names another browser than one with a gamepad.
 "use strict";
 const fs = require("fs");
 const vm = require("vm");
@@ -39,6 +39,16 @@ const page = {
   requestAnimationFrame(call) { next = call; },
   setInterval(call) { every = call; },
 };
+const others = {
+  firefox: { getGamepads: () => [{ id: "A Pad", vibrationActuator: null, hapticActuators: [] }] },
+  policy: { getGamepads() { throw new Error("disallowed by permissions policy"); }, vibrate: page.navigator.vibrate },
+  insecure: { vibrate: page.navigator.vibrate },
+  iphone: { getGamepads: () => [] },
+};
+const other = process.env.PAGE_BROWSER;
+if (other) page.navigator = others[other];
+page.isSecureContext = other !== "insecure";
+if (other === "iphone") delete parts.stage.requestFullscreen;
 vm.runInNewContext(script, page);
 
 const moments = process.argv.slice(3).map((time) => {
@@ -67,4 +77,4 @@ const begins_s = playedFrom(() => { poster_s = film.currentTime; });
 const sought_s = playedFrom(() => { film.currentTime = poster_s / 2; });
 console.log(JSON.stringify({
   poster_s, begins_s, sought_s, moments, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
-  most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));
+  about: parts.pad.textContent, wide: !parts.wide.hidden, most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));

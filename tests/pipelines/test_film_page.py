@@ -5,6 +5,7 @@ film, as far as these are installed."""
 import base64
 import json
 import math
+import os
 import pathlib
 import random
 import re
@@ -68,9 +69,10 @@ class FilmPage(track_case.TrackCase):
         self.assertLess(self.path(page).stat().st_size, MOST_BYTES)
         return float(found.group(2)) + .005  # as it is rounded
 
-    def run_page(self, *times_s, page="page.html"):
+    def run_page(self, *times_s, page="page.html", browser=""):
         """What film_page.js prints."""
-        said = self.run_in_folder(["node", str(FILM_PAGE_JS), str(self.path(page)), *map(str, times_s)])
+        said = self.run_in_folder(["node", str(FILM_PAGE_JS), str(self.path(page)), *map(str, times_s)],
+                                  env=dict(os.environ, PAGE_BROWSER=browser))
         return json.loads(said.splitlines()[-1])  # after warnings of node's own
 
     def assert_shows(self, samples, tolerance_N):
@@ -156,6 +158,36 @@ class FilmPage(track_case.TrackCase):
                          "max-force=1", status=2)
         self.assert_said("exclude each other", "export", "film.avi", "a.html", "--track", "other.wav", "--", "max-force=1",
                          status=2)
+
+    @track_case.needs("node")
+    def test_a_browser_that_vibrates_nothing_says_why(self):
+        self.make_film()
+        self.make_track("film.avi.haptic.wav")
+        self.export("film.avi")
+        for browser, about in (("firefox", "A Pad (this browser cannot vibrate it; Chromium may)"),
+                               ("policy", "the page around this one allows no gamepads; a telephone vibrates by itself"),
+                               ("insecure", "gamepads need https, or a page that is opened as a file; a telephone"),
+                               ("iphone", "this browser vibrates no telephone (no iPhone does)")):
+            with self.subTest(browser):
+                shown = self.run_page(.15, browser=browser)
+                self.assertIn(about, shown["about"])
+                self.assertEqual(shown["wide"], browser != "iphone")
+                self.assertEqual(shown["moments"][0]["vibrated_ms"] != [], browser in ("policy", "insecure"))
+
+    @track_case.needs("ffmpeg")
+    def test_a_film_too_large_for_a_page_is_refused(self):
+        self.run_in_folder("ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=64x48:rate=25:duration=1 -c:v libvpx film.webm")
+        with open(self.path("film.webm"), "r+b") as film:
+            film.truncate(1 << 29)  # sparse
+        self.make_track("film.webm.haptic.wav")
+        self.assert_said("film.webm: has 536 MB, which is too large for a page: browsers do not hold more than 268 MB",
+                         "export", "film.webm", "page.html", "--embed")
+
+    @track_case.needs("ffmpeg")
+    def test_what_safari_plays_in_part_is_not_copied(self):
+        for name, encoder in (("vp9.mp4", "libvpx-vp9"), ("av1.webm", "libaom-av1 -cpu-used 8")):
+            self.run_in_folder(f"ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=64x48:rate=25:duration=1 -c:v {encoder} {name}")
+            self.assertIn("; not every browser plays it: its picture is ", self.spidartrack("export", name, name + ".html"))
 
     @track_case.needs("node")
     def test_a_pause_ends_the_vibration_once(self):
