@@ -90,13 +90,16 @@ constexpr const char* kHelp =
 
 Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
 what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
-felt is drawn over the video. With --follow, what VLC, mpv (with its package mpv-mpris) or another
-player plays that NAME is called by on the session bus (MPRIS) is felt; without NAME, the player
-that plays. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
+felt is shown. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
 preset=NAME stands for those of a preset: paper, film or gentle.
+
+  --follow [NAME]  feel the film that another player plays: VLC, mpv with its package mpv-mpris, or any
+                   that tells over the session bus (MPRIS) where it is. NAME is what it is called there;
+                   without NAME, the one that plays is followed, and waited for
 
   spidar-feel film.mp4
   spidar-feel totem film.mp4
+  spidar-feel --follow vlc
   spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
 )";
 

@@ -204,6 +204,9 @@ class FilmReader {
     if (ended && !times_ns_.empty()) {
       film_.end_ns = last_ns_ + (last_length_ns_ > 0 ? last_length_ns_ : film_.frame_ns);
     }
+    // A file that nothing parses comes in pieces, of which only the first has a time.
+    film_.is_still = ended && streams_ == 1 &&
+                     (film_.packets.size() == 1 || (is_cover_ && times_ns_.size() <= 1));
     return std::move(film_);
   }
 
@@ -223,6 +226,7 @@ class FilmReader {
     if (content_of_stream(pad) != StreamContent::kVideo) return nullptr;
     const Ref<GstCaps> caps(caps_of(pad));
     const std::lock_guard<std::mutex> lock(mutex_);
+    ++streams_;
     // A cover may come before the film.
     if (sink_ && (!is_cover_ || is_picture(caps.get()))) return nullptr;
     is_cover_ = is_picture(caps.get());
@@ -276,6 +280,7 @@ class FilmReader {
   FilePipeline file_;
   GstElement* const parser_;
   GstElement* sink_ = nullptr;  ///< of the pictures
+  int streams_ = 0;             ///< of pictures
   bool is_cover_ = false;       ///< they may be a single one, beside those of the film
   PacketFraming framing_;
   std::mutex mutex_;

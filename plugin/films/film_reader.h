@@ -68,6 +68,7 @@ struct Film {
   int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not state it
   int64_t frame_ns = 0;     ///< longest time between two pictures at the beginning
   bool has_track = false;   ///< a haptic track is inside the film
+  bool is_still = false;    ///< one picture is all that there is of it, as in a cover
 };
 
 /// Reads the beginning and the end of the first video stream of `path`: some megabytes, a short

@@ -2,15 +2,24 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/follow/follow.h"
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <map>
 #include <memory>
-#include <stdexcept>
+#include <optional>
+#include <set>
+#include <unistd.h>
 #include <utility>
 
 #include <glib-unix.h>
 
+#include "plugin/follow/film_plan.h"
+#include "plugin/follow/film_thread.h"
 #include "plugin/follow/followed_film.h"
 #include "plugin/follow/mpris_player.h"
+#include "plugin/follow/player_choice.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
@@ -18,16 +27,33 @@
 namespace spidar::follow {
 namespace {
 
+/// Everything here is called in the main loop, and nothing waits but end().
 class Follower {
  public:
   Follower(GDBusConnection* bus, std::string name, std::vector<std::string> properties)
-      : bus_(bus), name_(std::move(name)), properties_(std::move(properties)) {}
+      : bus_(bus),
+        name_(std::move(name)),
+        thread_(std::make_unique<FilmThread>(std::move(properties))) {
+    timer_ = g_timeout_add(kTick_ms, tick, this);
+  }
+  /// After end().
+  ~Follower() {
+    g_cancellable_cancel(ended_.get());
+    g_source_remove(timer_);
+  }
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
 
-  void run(GMainLoop* loop) {
-    const guint timer = g_timeout_add(kTick_ms, tick, this);
-    g_main_loop_run(loop);
-    g_source_remove(timer);
-    film_.reset();
+  /// False when a file, a network or a device holds something up for longer than kEnd. The process
+  /// then has to end as it is; its guardian sets the motors to zero.
+  bool end() {
+    stopped_ = true;
+    const int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kEnd).count();
+    if (!thread_->end(kEnd)) return false;
+    while (looking_ > 0 && monotonic_now_ns() < until_ns) {
+      g_main_context_iteration(nullptr, TRUE);  // the timer goes on
+    }
+    return looking_ == 0;
   }
 
  private:
@@ -37,138 +63,318 @@ class Follower {
   /// A player that tells no other position for so long stands still: it loads, or is stopped. VLC
   /// tells one each 0.37 s.
   static constexpr int64_t kStandstill_ns = 1'000'000'000;
+  /// One that stands still for so long is said to.
+  static constexpr int64_t kLost_ns = 3'000'000'000;
   /// An answer takes a millisecond, and some tens of them where the machine is busy.
   static constexpr int64_t kNoAnswer_ns = 300'000'000;
+  /// So long, a player that is paused is not followed while others have yet to say that they play.
+  static constexpr int64_t kSettle_ns = 1'000'000'000;
+  /// So long, files that are being read and what is felt may take to end.
+  static constexpr std::chrono::milliseconds kEnd{2000};
 
   static gboolean tick(gpointer user) {
     auto& self = *static_cast<Follower*>(user);
-    if (self.is_gone_) self.let_go();
+    if (self.stopped_) return G_SOURCE_CONTINUE;
     const int64_t now_ns = monotonic_now_ns();
-    if (self.player_) {
-      self.follow(now_ns);
-    } else if (now_ns - self.searched_ns_ >= kSearch_ns) {
-      self.search(now_ns);
-    }
+    if (now_ns - self.searched_ns_ >= kSearch_ns && !self.is_searching_) self.search(now_ns);
+    self.forget_gone();
+    self.judge_position(now_ns);
+    self.choose(now_ns);
+    self.aim(now_ns);
     return G_SOURCE_CONTINUE;
   }
 
+  // --- players ----------------------------------------------------------------------------------
+
   void search(int64_t now_ns) {
     searched_ns_ = now_ns;
-    for (const std::string& found : list_players(bus_, name_)) {
-      const auto state = ask_state(bus_, found);
-      // Browsers play pages.
-      const bool plays = state && state->status == PlayerState::Status::kPlaying &&
-                         g_str_has_prefix(state->uri.c_str(), "file:");
-      if (plays || (state && !name_.empty())) return take(found);
-    }
-    if (std::exchange(has_said_that_it_waits_, true)) return;
-    tell(name_.empty()
-             ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
-             : "waits for a player that is called " + name_ +
-                   " in MPRIS; mpv needs the package mpv-mpris");
+    is_searching_ = true;
+    list_players(bus_, name_, ended_.get(),
+                 [this](const std::optional<std::vector<std::string>>& found) {
+                   is_searching_ = false;
+                   if (!found) return tell_once("the session bus does not answer");
+                   has_searched_ = true;
+                   for (const std::string& each : *found) add(each);
+                 });
   }
 
-  void take(const std::string& found) {
-    tell("follows " + short_name(found));
-    has_said_that_it_waits_ = is_gone_ = false;
-    state_ = {};
-    position_ns_ = 0;
-    filter_ = PositionFilter();
-    player_ = std::make_unique<Player>(
-        bus_, found,
-        Player::Told{[this](const PlayerState& state) { take_state(state); },
+  void add(const std::string& bus_name) {
+    std::unique_ptr<Player>& player = players_[bus_name];
+    if (player) return;
+    player = std::make_unique<Player>(
+        bus_, bus_name,
+        Player::Told{[this](Player& told) { take_state(told); },
                      [this](int64_t now_ns, int64_t position_ns) {
                        filter_.tell(now_ns, position_ns);
+                       has_moved_ = has_moved_ || (!is_beginning_ && position_ns > position_ns_);
                        take_position(now_ns, position_ns);
                      },
                      [this](int64_t now_ns, int64_t position_ns) {
                        filter_.tell_jump(now_ns, position_ns);
                        take_position(now_ns, position_ns);
-                     },
-                     [this] {
-                       if (film_) film_->rest(position_ns_);
-                       is_gone_ = true;
                      }});
   }
 
-  /// Not in a callback of the player, which ends here.
-  void let_go() {
-    is_gone_ = false;
-    tell(short_name(player_->bus_name()) + " has ended");
-    film_.reset();
-    uri_.clear();
-    player_.reset();
+  /// Not in a callback of a player, which ends here.
+  void forget_gone() {
+    for (auto i = players_.begin(); i != players_.end();) {
+      if (!i->second->is_gone()) {
+        ++i;
+        continue;
+      }
+      if (i->second.get() == player_) {
+        gone_ = PlayerView();
+        gone_->name = short_name(i->first);
+        follow(nullptr);
+      }
+      i = players_.erase(i);
+    }
   }
 
-  void take_state(const PlayerState& state) {
-    const bool plays = state.status == PlayerState::Status::kPlaying;
-    const bool begins = plays && state_.status != state.status;
+  void take_state(Player& told) {
+    if (&told != player_) return;
+    const PlayerState state = *told.state();
+    const bool plays = state.status == PlayerStatus::kPlaying;
     if (plays && filter_.has_begun() && state.rate != state_.rate) {
       filter_.change_rate(monotonic_now_ns(), state.rate);
     }
-    state_ = state;
-    if (begins) is_beginning_ = true;
-    if (begins && state.uri.empty()) {
-      tell(short_name(player_->bus_name()) + " does not say which file it plays");
-    }
+    const bool begins = plays && state_.status != state.status;
+    if (state.uri != state_.uri) has_moved_ = false;
+    if (begins || (plays && state.uri != state_.uri)) begin();
     if (!plays) {
       is_beginning_ = false;
       filter_ = PositionFilter();
-      if (film_) film_->rest(position_ns_);
     }
-    const bool stopped = state.status == PlayerState::Status::kStopped;
-    if (stopped || state.uri != uri_) change_film(stopped ? "" : state.uri);
+    state_ = state;
+  }
+
+  /// The next position that it tells is one of a playback that begins.
+  void begin() {
+    is_beginning_ = is_placed_ = true;
+    began_ns_ = monotonic_now_ns();
+    filter_ = PositionFilter();
   }
 
   void take_position(int64_t now_ns, int64_t position_ns) {
     position_ns_ = position_ns;
-    if (!std::exchange(is_beginning_, false)) return;
-    filter_.reset(now_ns, position_ns, state_.rate);
+    if (std::exchange(is_beginning_, false)) filter_.reset(now_ns, position_ns, state_.rate);
   }
 
-  void change_film(const std::string& uri) {
-    uri_ = uri;
-    film_.reset();
-    if (uri.empty()) return;
-    try {
-      film_ = std::make_unique<FollowedFilm>(uri, properties_);
-    } catch (const std::runtime_error& error) {
-      tell(uri + ": " + error.what());
-    }
-    is_beginning_ = state_.status == PlayerState::Status::kPlaying;
+  // --- films ------------------------------------------------------------------------------------
+
+  /// What is known of an address: null while it is being looked at.
+  std::shared_ptr<const FilmPlan> plan_of(const std::string& address) {
+    const auto [found, is_new] = plans_.emplace(address, nullptr);
+    if (is_new) look_at(address);
+    return found->second;
   }
 
-  void follow(int64_t now_ns) {
-    if (!film_) return;
-    if (!film_->check()) {
-      tell("without force until the next film: " + uri_);
-      return film_.reset();
+  void look_at(const std::string& address) {
+    ++looking_;
+    struct Look {
+      std::string address;
+      const std::atomic<bool>* stopped;
+      FilmPlan plan;
+    };
+    const auto look = [](GTask* task, gpointer, gpointer data, GCancellable*) {
+      auto& asked = *static_cast<Look*>(data);
+      asked.plan = plan_film(asked.address, asked.stopped);
+      g_task_return_boolean(task, TRUE);
+    };
+    const auto looked = [](GObject*, GAsyncResult* result, gpointer user) {
+      auto& self = *static_cast<Follower*>(user);
+      auto& found = *static_cast<Look*>(g_task_get_task_data(G_TASK(result)));
+      --self.looking_;
+      const auto plan = self.plans_.find(found.address);
+      if (plan == self.plans_.end()) return;
+      plan->second = std::make_shared<const FilmPlan>(std::move(found.plan));
+    };
+    GTask* const task = g_task_new(nullptr, nullptr, looked, this);
+    g_task_set_task_data(task, new Look{address, &stopped_, {}},
+                         [](gpointer data) { delete static_cast<Look*>(data); });
+    g_task_run_in_thread(task, look);
+    g_object_unref(task);
+  }
+
+  // --- the choice -------------------------------------------------------------------------------
+
+  PlayerView view_of(const std::string& bus_name, const Player& player) {
+    PlayerView view;
+    view.name = short_name(bus_name);
+    if (!player.state()) return view;
+    view.status = player.state()->status;
+    view.is_placed = &player != player_ || is_placed_;
+    const std::string& uri = player.state()->uri;
+    if (view.status == PlayerStatus::kStopped || uri.empty()) return view;
+    // Browsers play pages.
+    if (name_.empty() && path_of(uri).empty()) return view;
+    used_.insert(uri);
+    const auto plan = plan_of(uri);
+    if (!plan) {
+      view.film = PlayerView::Film::kUnknown;
+    } else if (plan->refused.empty()) {
+      view.film = PlayerView::Film::kMoving;
     }
-    const bool stands =
-        now_ns - filter_.newest_ns() > kStandstill_ns || player_->silent_ns() > kNoAnswer_ns;
-    if (state_.status != PlayerState::Status::kPlaying || stands) return film_->rest(position_ns_);
-    if (!filter_.has_begun()) return;
-    film_->follow(now_ns, filter_.position_at(now_ns) - lead_ns(), state_.rate);
+    return view;
+  }
+
+  void choose(int64_t now_ns) {
+    if (!has_searched_) return;
+    if (began_to_choose_ns_ == 0) began_to_choose_ns_ = now_ns;
+    std::vector<PlayerView> views;
+    std::vector<Player*> players;
+    std::optional<size_t> followed;
+    bool is_settled = true;
+    used_.clear();
+    for (const auto& [bus_name, player] : players_) {
+      if (player.get() == player_) followed = players.size();
+      players.push_back(player.get());
+      views.push_back(view_of(bus_name, *player));
+      is_settled = is_settled && player->state() && views.back().film != PlayerView::Film::kUnknown;
+    }
+    forget_films();
+    const std::optional<size_t> next = choose_player(views, followed, !name_.empty());
+    const bool is_paused = next && views[*next].status != PlayerStatus::kPlaying;
+    is_settled = is_settled || now_ns - began_to_choose_ns_ > kSettle_ns;
+    const bool is_changed = next != followed || gone_;
+    if (is_changed && (is_settled || (next && !is_paused))) {
+      const PlayerView* const last = gone_ ? &*gone_ : followed ? &views[*followed] : nullptr;
+      tell(say_choice(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
+      gone_.reset();
+      follow(next ? players[*next] : nullptr);
+    }
+    if (!player_ && is_settled) say_why_none(views, players);
+  }
+
+  /// Of files that nobody plays any more, so that one that has changed is looked at again.
+  void forget_films() {
+    for (auto i = plans_.begin(); i != plans_.end();) {
+      i = i->second && used_.count(i->first) == 0 ? plans_.erase(i) : std::next(i);
+    }
+  }
+
+  void follow(Player* next) {
+    if (player_) player_->watch(false);
+    player_ = next;
+    state_ = {};
+    position_ns_ = 0;
+    is_beginning_ = has_moved_ = false;
+    is_placed_ = true;
+    filter_ = PositionFilter();
+    if (!player_) return;
+    player_->watch(true);
+    take_state(*player_);
+  }
+
+  // --- what is said -----------------------------------------------------------------------------
+
+  void tell_once(const std::string& text) {
+    if (said_.insert(text).second) tell(text);
+  }
+
+  void say_why_none(const std::vector<PlayerView>& views, const std::vector<Player*>& players) {
+    for (size_t i = 0; i < views.size(); ++i) {
+      if (views[i].status != PlayerStatus::kPlaying) continue;
+      if (repeats_another(views[i].name) && name_.empty()) continue;
+      const std::string& uri = players[i]->state()->uri;
+      if (uri.empty()) {
+        tell_once(views[i].name + " does not say which file it plays");
+        continue;
+      }
+      const auto plan = plans_.find(uri);
+      if (plan == plans_.end()) {
+        const bool is_web = g_str_has_prefix(uri.c_str(), "http");
+        tell_once(views[i].name + " plays " + uri + ", which is no file of this machine" +
+                  (is_web ? "; it is followed with spidar-feel --follow " + views[i].name : ""));
+      } else if (plan->second) {
+        tell_once(views[i].name + " plays " + plan->second->name + ": " + plan->second->refused +
+                  "; without force until the next film");
+      }
+    }
+    tell_once(name_.empty()
+                  ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
+                  : "waits for a player that is called " + name_ +
+                        " in MPRIS and plays a film; mpv needs the package mpv-mpris");
+  }
+
+  /// Says so when the player does not tell where it is, or what is not felt.
+  void judge_position(int64_t now_ns) {
+    if (!player_ || state_.status != PlayerStatus::kPlaying) return;
+    const std::string name = short_name(player_->bus_name());
+    constexpr const char* kHelp =
+        ", so nothing of it is felt; VLC and mpv tell it, and spidar-feel FILM plays by itself";
+    const int64_t moved_ns = std::max(filter_.newest_ns(), began_ns_);
+    if (filter_.runs_backwards()) {
+      tell_once(name + " plays backwards, which is not felt: play it forwards");
+      is_placed_ = false;
+    } else if (!player_->has_position()) {
+      tell_once(name + " does not tell where it is in its film" + kHelp);
+      is_placed_ = false;
+    } else if (now_ns - moved_ns > kLost_ns) {
+      char at[32];
+      std::snprintf(at, sizeof at, "%.1f s", 1e-9 * static_cast<double>(position_ns_));
+      tell_once(name + " says that it plays, and that it stands at " + at + kHelp);
+      is_placed_ = false;
+    } else if (!is_placed_ && filter_.newest_ns() > began_ns_) {
+      is_placed_ = true;
+    }
+  }
+
+  // --- the goal ---------------------------------------------------------------------------------
+
+  void aim(int64_t now_ns) {
+    FilmGoal goal;
+    if (player_ && state_.status != PlayerStatus::kStopped) {
+      const auto plan = plans_.find(state_.uri);
+      if (plan != plans_.end() && plan->second && plan->second->refused.empty()) {
+        goal.plan = plan->second;
+      }
+    }
+    if (goal.plan) {
+      if (!goal.plan->remark.empty()) tell_once(goal.plan->remark);
+      const bool stands = now_ns - std::max(filter_.newest_ns(), began_ns_) > kStandstill_ns ||
+                          player_->silent_ns() > kNoAnswer_ns || filter_.runs_backwards();
+      const bool plays = state_.status == PlayerStatus::kPlaying;
+      goal.plays = plays && has_moved_ && !stands;
+      goal.rate = state_.rate;
+      goal.at_ns = now_ns;
+      if (!goal.plays) goal.position_ns = position_ns_;
+      if (goal.plays && filter_.has_begun()) {
+        goal.position_ns = filter_.position_at(now_ns) - lead_ns(*goal.plan);
+      }
+    }
+    thread_->aim(std::move(goal));
   }
 
   /// mpv tells the position of the picture that it shows next.
-  int64_t lead_ns() const {
-    return short_name(player_->bus_name()) == "mpv" ? film_->frame_ns() : 0;
+  int64_t lead_ns(const FilmPlan& plan) const {
+    return short_name(player_->bus_name()) == "mpv" ? plan.frame_ns : 0;
   }
 
   GDBusConnection* const bus_;
   const std::string name_;
-  const std::vector<std::string> properties_;
+  const Ref<GCancellable> ended_{g_cancellable_new()};
+  guint timer_ = 0;
+  std::atomic<bool> stopped_{false};
   int64_t searched_ns_ = 0;
-  bool has_said_that_it_waits_ = false;
-  std::unique_ptr<Player> player_;
-  bool is_gone_ = false;
+  bool is_searching_ = false, has_searched_ = false;
+  int64_t began_to_choose_ns_ = 0;
+  std::map<std::string, std::unique_ptr<Player>> players_;  ///< by their bus names
+  std::map<std::string, std::shared_ptr<const FilmPlan>> plans_;
+  std::set<std::string> used_;  ///< of these: what players play
+  int looking_ = 0;             ///< at so many files
+  std::set<std::string> said_;
+  // The player that is followed.
+  Player* player_ = nullptr;
+  std::optional<PlayerView> gone_;  ///< it was followed, and its end is to be said
   PlayerState state_;
-  std::string uri_;
-  std::unique_ptr<FollowedFilm> film_;
   int64_t position_ns_ = 0;    ///< the newest that it told
   bool is_beginning_ = false;  ///< the next position begins a playback
+  bool has_moved_ = false;     ///< forwards, in this film
+  bool is_placed_ = true;      ///< it tells where it is
+  int64_t began_ns_ = 0;       ///< to play
   PositionFilter filter_;
+  std::unique_ptr<FilmThread> thread_;
 };
 
 gboolean quit(gpointer loop) {
@@ -181,21 +387,69 @@ void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
   quit(loop);
 }
 
+/// Null, and why in `error`, after kAnswer_ms at the latest, or when `loop` is quit meanwhile.
+Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
+  struct Call {
+    GMainLoop* loop;
+    Ref<GDBusConnection> bus;
+    std::string error;
+    bool is_waited_for = true;
+  };
+  // The answer may come later.
+  auto* const call = new std::shared_ptr<Call>(new Call{loop, nullptr, "", true});
+  const std::shared_ptr<Call> kept = *call;
+  const auto take = [](GObject*, GAsyncResult* result, gpointer user) {
+    const std::unique_ptr<std::shared_ptr<Call>> own(static_cast<std::shared_ptr<Call>*>(user));
+    Call& answered = **own;
+    GError* failed = nullptr;
+    answered.bus.reset(g_bus_get_finish(result, &failed));
+    if (failed) answered.error = failed->message;
+    g_clear_error(&failed);
+    if (answered.is_waited_for) g_main_loop_quit(answered.loop);
+  };
+  constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that is started for this needs a moment
+  kept->error = "it does not answer";
+  const guint timer = g_timeout_add(kLimit_ms, quit, loop);
+  g_bus_get(G_BUS_TYPE_SESSION, nullptr, take, call);
+  g_main_loop_run(loop);
+  g_source_remove(timer);
+  kept->is_waited_for = false;
+  error = kept->error;
+  return std::move(kept->bus);
+}
+
 }  // namespace
 
 int run(const std::string& name, const std::vector<std::string>& properties) {
-  GError* error = nullptr;
-  const Ref<GDBusConnection> bus(g_bus_get_sync(G_BUS_TYPE_SESSION, nullptr, &error));
-  if (!bus) {
-    tell(std::string("there is no session bus, by which players are followed: ") + error->message);
-    g_clear_error(&error);
-    return 1;
-  }
-  g_dbus_connection_set_exit_on_close(bus.get(), FALSE);
   GMainLoop* const loop = g_main_loop_new(nullptr, FALSE);
-  g_signal_connect(bus.get(), "closed", G_CALLBACK(lose_bus), loop);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) g_unix_signal_add(number, quit, loop);
-  Follower(bus.get(), name, properties).run(loop);
+  static bool is_interrupted = false;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    g_unix_signal_add(
+        number,
+        [](gpointer user) {
+          is_interrupted = true;
+          return quit(user);
+        },
+        loop);
+  }
+  std::string error;
+  const Ref<GDBusConnection> bus = connect(loop, error);
+  bool has_ended = bus != nullptr;
+  if (bus) {
+    g_dbus_connection_set_exit_on_close(bus.get(), FALSE);
+    g_signal_connect(bus.get(), "closed", G_CALLBACK(lose_bus), loop);
+    Follower* const follower = new Follower(bus.get(), name, properties);
+    if (!is_interrupted) g_main_loop_run(loop);
+    has_ended = follower->end();
+    if (has_ended) delete follower;
+  } else if (!is_interrupted) {
+    tell("there is no session bus, by which players are followed: " + error);
+  }
+  // Threads that something holds up still run.
+  if (!has_ended) {
+    std::fflush(nullptr);
+    _exit(bus || is_interrupted ? 0 : 1);
+  }
   g_main_loop_unref(loop);
   return 0;
 }

@@ -9,12 +9,9 @@
 
 #include <gst/pbutils/pbutils.h>
 
-#include "plugin/films/film_reader.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/open_track.h"
-#include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::follow {
@@ -28,22 +25,6 @@ constexpr int64_t kSettles_ns = 1'000'000'000;
 constexpr int64_t kNear_ns = 500'000'000;
 /// It takes a picture, at most.
 constexpr GstClockTime kLongestPause = 200 * GST_MSECOND;
-
-struct FilmTrack {
-  std::string path;  ///< empty: the film has none
-  int64_t later_ns = 0;
-};
-
-/// Throws std::runtime_error when there is one that is not that of the film.
-FilmTrack track_of(const std::string& path, const Film& film) {
-  const std::string beside = find_sidecar(path);
-  if (beside.empty()) return {film.has_track ? path : "", 0};
-  const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(beside);
-  const int64_t end_ns = track->duration_ns() ? *track->duration_ns() : tracks::find_end(*track);
-  const FilmMatch match = match_film(film, end_ns, track->notes());
-  if (!match.mismatch.empty()) throw std::runtime_error(beside + ": " + match.mismatch);
-  return {beside, match.later_ns};
-}
 
 GstElement* parse(const char* line) {
   GError* error = nullptr;
@@ -63,17 +44,167 @@ void link_track(GstElement*, GstPad* pad, gpointer decode) {
   }
 }
 
-void print_missing(GstMessage* message) {
-  if (!gst_is_missing_plugin_message(message)) return;
-  gchar* const what = gst_missing_plugin_message_get_description(message);
-  tell(std::string("not installed for GStreamer: ") + what +
-       "; Debian has most decoders in gstreamer1.0-libav");
-  g_free(what);
+/// The value of the last `name`=VALUE; null if there is none.
+const char* value_of(const std::vector<std::string>& properties, const std::string& name) {
+  const char* value = nullptr;
+  for (const std::string& property : properties) {
+    if (property.rfind(name + "=", 0) == 0) value = property.c_str() + name.size() + 1;
+  }
+  return value;
 }
 
-/// Prints the text of a message, if it is for people.
-void print(GstMessage* message) {
+bool has_display() {
+  const auto is_set = [](const char* name) {
+    const char* const value = g_getenv(name);
+    return value && *value;
+  };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+/// How sure it is that a player shows this stream: a cover comes last, and a stream that the film
+/// marks as its own first.
+int choice_of(GstPad* pad, bool is_picture) {
+  GstEvent* const start = gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0);
+  auto flags = GST_STREAM_FLAG_NONE;
+  if (start) {
+    gst_event_parse_stream_flags(start, &flags);
+    gst_event_unref(start);
+  }
+  const int marked = (flags & GST_STREAM_FLAG_SELECT) != 0     ? 1
+                     : (flags & GST_STREAM_FLAG_UNSELECT) != 0 ? -1
+                                                               : 0;
+  return (is_picture ? 0 : 10) + marked;
+}
+
+void give_base_time(const GValue* element, gpointer base) {
+  gst_element_set_base_time(GST_ELEMENT(g_value_get_object(element)),
+                            *static_cast<GstClockTime*>(base));
+}
+
+}  // namespace
+
+FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>& properties)
+    : plan_(plan), properties_(properties), pipeline_(nullptr, [](GstElement* pipeline) {
+        gst_element_set_state(pipeline, GST_STATE_NULL);
+        gst_object_unref(pipeline);
+      }) {
+  const char* const window = value_of(properties_, "debug-window");
+  GValue wanted = G_VALUE_INIT;
+  g_value_init(&wanted, G_TYPE_BOOLEAN);
+  const bool is_wanted =
+      window && gst_value_deserialize(&wanted, window) && g_value_get_boolean(&wanted);
+  build(is_wanted);
+  check();  // which device that is
+  if (is_simulated_ && !window && has_display()) build(true);
+  gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
+}
+
+void FollowedFilm::build(bool has_window) {
+  if (!plan_.track.empty() && !has_window) {
+    build_track();
+  } else {
+    build_film();
+    if (has_window) g_object_set(felt_, "debug-window", TRUE, nullptr);
+    if (!plan_.track.empty()) g_object_set(felt_, "track", plan_.track.c_str(), nullptr);
+  }
+  set_properties();
+  // The base time is set by hand.
+  gst_element_set_start_time(pipeline_.get(), GST_CLOCK_TIME_NONE);
+  const Ref<GstClock> clock(gst_system_clock_obtain());
+  gst_pipeline_use_clock(GST_PIPELINE(pipeline_.get()), clock.get());
+  gst_element_set_state(pipeline_.get(), GST_STATE_READY);
+}
+
+FollowedFilm::~FollowedFilm() {
+  pause();
+}
+
+void FollowedFilm::build_track() {
+  pipeline_.reset(
+      parse("filesrc name=source ! parsebin name=parse decodebin name=decode ! audioconvert "
+            "dithering=none noise-shaping=none ! spidarsink name=felt"));
+  GstBin* const bin = GST_BIN(pipeline_.get());
+  const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));
+  const Ref<GstElement> parser(gst_bin_get_by_name(bin, "parse"));
+  const Ref<GstElement> decoder(gst_bin_get_by_name(bin, "decode"));
+  const Ref<GstElement> felt(gst_bin_get_by_name(bin, "felt"));
+  felt_ = sink_ = felt.get();
+  g_object_set(source.get(), "location", plan_.track.c_str(), nullptr);
+  g_object_set(felt_, "ts-offset", plan_.later_ns, "accept-unmarked", TRUE, nullptr);
+  g_signal_connect(parser.get(), "pad-added", G_CALLBACK(link_track), decoder.get());
+  begins_ = "the haptic track " + plan_.track + " is felt";
+}
+
+void FollowedFilm::build_film() {
+  pipeline_.reset(parse(
+      // With any feature of its memory: decoders of FFmpeg name interlaced pictures beside others.
+      "uridecodebin name=source caps=video/x-raw(ANY) expose-all-streams=false videoconvert "
+      "name=convert ! spidarmotion name=felt ! queue max-size-buffers=3 ! fakesink name=sink "
+      "sync=true qos=true"));
+  GstBin* const bin = GST_BIN(pipeline_.get());
+  const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));
+  const Ref<GstElement> felt(gst_bin_get_by_name(bin, "felt"));
+  const Ref<GstElement> sink(gst_bin_get_by_name(bin, "sink"));
+  felt_ = felt.get();
+  sink_ = sink.get();
+  g_object_set(source.get(), "uri", plan_.uri.c_str(), nullptr);
+  g_signal_connect(source.get(), "autoplug-continue", G_CALLBACK(look), this);
+  g_signal_connect(source.get(), "no-more-pads", G_CALLBACK(choose_stream), this);
+  begins_ = plan_.track.empty() ? plan_.name + " is analysed"
+                                : "the haptic track " + plan_.track + " is felt";
+}
+
+gboolean FollowedFilm::look(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {
+  auto& self = *static_cast<FollowedFilm*>(user);
+  g_autofree gchar* id = is_picture(caps) ? gst_pad_get_stream_id(pad) : nullptr;
+  const std::lock_guard<std::mutex> lock(self.mutex_);
+  if (id) self.pictures_.insert(id);
+  return TRUE;
+}
+
+/// All streams are known.
+void FollowedFilm::choose_stream(GstElement* decoder, gpointer user) {
+  auto& self = *static_cast<FollowedFilm*>(user);
+  const Ref<GstElement> convert(gst_bin_get_by_name(GST_BIN(self.pipeline_.get()), "convert"));
+  const Ref<GstPad> into(gst_element_get_static_pad(convert.get(), "sink"));
+  if (gst_pad_is_linked(into.get())) return;
+  GstPad* chosen = nullptr;
+  int best = 0;
+  for (GList* i = decoder->srcpads; i; i = i->next) {
+    auto* const pad = static_cast<GstPad*>(i->data);
+    if (content_of(pad) != StreamContent::kVideo) continue;
+    g_autofree gchar* id = gst_pad_get_stream_id(pad);
+    const std::lock_guard<std::mutex> lock(self.mutex_);
+    const int choice = choice_of(pad, id && self.pictures_.count(id) > 0);
+    if (chosen && choice <= best) continue;
+    chosen = pad;
+    best = choice;
+  }
+  if (chosen && gst_pad_link(chosen, into.get()) == GST_PAD_LINK_OK) return;
+  GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("there are no pictures in it"), (nullptr));
+}
+
+void FollowedFilm::set_properties() {
+  std::string others;
+  for (const std::string& property : properties_) {
+    const size_t end = property.find('=');
+    const std::string name = property.substr(0, end), value = property.substr(end + 1);
+    if (name == "preset" && GST_IS_PRESET(felt_)) {
+      gst_preset_load_preset(GST_PRESET(felt_), value.c_str());
+    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(felt_), name.c_str())) {
+      gst_util_set_object_arg(G_OBJECT(felt_), name.c_str(), value.c_str());
+    } else if (name != "debug-window") {
+      others += (others.empty() ? "" : ", ") + name;
+    }
+  }
+  // Of spidarmotion, which looks at pictures.
+  if (others.empty()) return;
+  begins_ += "; it is played as it is, so these have no effect: " + others;
+}
+
+void FollowedFilm::print(GstMessage* message) {
   GError* error = nullptr;
+  std::string text;
   switch (GST_MESSAGE_TYPE(message)) {
     case GST_MESSAGE_ERROR:
       gst_message_parse_error(message, &error, nullptr);
@@ -85,106 +216,26 @@ void print(GstMessage* message) {
       gst_message_parse_info(message, &error, nullptr);
       break;
     default:
-      return print_missing(message);
+      if (!gst_is_missing_plugin_message(message)) return;
+      g_autofree gchar* what = gst_missing_plugin_message_get_description(message);
+      text = std::string("not installed for GStreamer: ") + what +
+             "; Debian has most decoders in gstreamer1.0-libav";
   }
-  tell(error->message);
+  if (error) text = error->message;
   g_clear_error(&error);
-}
-
-void give_base_time(const GValue* element, gpointer base) {
-  gst_element_set_base_time(GST_ELEMENT(g_value_get_object(element)),
-                            *static_cast<GstClockTime*>(base));
-}
-
-}  // namespace
-
-FollowedFilm::FollowedFilm(const std::string& uri, const std::vector<std::string>& properties)
-    : pipeline_(nullptr, [](GstElement* pipeline) {
-        gst_element_set_state(pipeline, GST_STATE_NULL);
-        gst_object_unref(pipeline);
-      }) {
-  gchar* const name = g_filename_from_uri(uri.c_str(), nullptr, nullptr);
-  const std::string path = name ? name : "";
-  g_free(name);
-  FilmTrack track;
-  try {
-    if (!path.empty()) {
-      const Film film = read_film(path);
-      frame_ns_ = film.frame_ns;
-      track = track_of(path, film);
-    }
-  } catch (const std::runtime_error& error) {
-    tell(std::string(error.what()) + "; the film is analysed");
-  }
-  if (track.path.empty()) {
-    build_film(uri);
-  } else {
-    build_track(track.path, track.later_ns);
-  }
-  set_properties(properties);
-  // The base time is set by hand.
-  gst_element_set_start_time(pipeline_.get(), GST_CLOCK_TIME_NONE);
-  const Ref<GstClock> clock(gst_system_clock_obtain());
-  gst_pipeline_use_clock(GST_PIPELINE(pipeline_.get()), clock.get());
-  gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
-}
-
-FollowedFilm::~FollowedFilm() {
-  pause();
-}
-
-void FollowedFilm::build_track(const std::string& path, int64_t later_ns) {
-  pipeline_.reset(
-      parse("filesrc name=source ! parsebin name=parse decodebin name=decode ! audioconvert "
-            "dithering=none noise-shaping=none ! spidarsink name=felt"));
-  GstBin* const bin = GST_BIN(pipeline_.get());
-  const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));
-  const Ref<GstElement> parser(gst_bin_get_by_name(bin, "parse"));
-  const Ref<GstElement> decoder(gst_bin_get_by_name(bin, "decode"));
-  const Ref<GstElement> felt(gst_bin_get_by_name(bin, "felt"));
-  felt_ = sink_ = felt.get();
-  g_object_set(source.get(), "location", path.c_str(), nullptr);
-  g_object_set(felt_, "ts-offset", later_ns, "accept-unmarked", TRUE, nullptr);
-  g_signal_connect(parser.get(), "pad-added", G_CALLBACK(link_track), decoder.get());
-  tell("the haptic track " + path + " is felt");
-}
-
-void FollowedFilm::build_film(const std::string& uri) {
-  pipeline_.reset(parse(
-      // With any feature of its memory: decoders of FFmpeg name interlaced pictures beside others.
-      "uridecodebin name=source caps=video/x-raw(ANY) expose-all-streams=false ! videoconvert ! "
-      "spidarmotion name=felt ! queue max-size-buffers=3 ! fakesink name=sink sync=true qos=true"));
-  GstBin* const bin = GST_BIN(pipeline_.get());
-  const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));
-  const Ref<GstElement> felt(gst_bin_get_by_name(bin, "felt"));
-  const Ref<GstElement> sink(gst_bin_get_by_name(bin, "sink"));
-  felt_ = felt.get();
-  sink_ = sink.get();
-  g_object_set(source.get(), "uri", uri.c_str(), nullptr);
-  tell(uri + " is analysed");
-}
-
-void FollowedFilm::set_properties(const std::vector<std::string>& properties) {
-  std::string others;
-  for (const std::string& property : properties) {
-    const size_t end = property.find('=');
-    const std::string name = property.substr(0, end), value = property.substr(end + 1);
-    if (name == "preset" && GST_IS_PRESET(felt_)) {
-      gst_preset_load_preset(GST_PRESET(felt_), value.c_str());
-    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(felt_), name.c_str())) {
-      gst_util_set_object_arg(G_OBJECT(felt_), name.c_str(), value.c_str());
-    } else {
-      others += (others.empty() ? "" : ", ") + name;
-    }
-  }
-  // Of spidarmotion, which looks at pictures.
-  if (!others.empty()) tell("a track is played as it is, so these have no effect: " + others);
+  if (said_.insert(text).second) tell(text);
 }
 
 bool FollowedFilm::check() {
   const Ref<GstBus> bus(gst_element_get_bus(pipeline_.get()));
   while (GstMessage* const message = gst_bus_pop(bus.get())) {
-    print(message);
+    if (!failed_) print(message);  // of one fault, elements say several things
+    const GstStructure* const told = gst_message_get_structure(message);
+    gboolean simulated = FALSE;
+    if (told && gst_structure_has_name(told, "spidar-device") &&
+        gst_structure_get_boolean(told, "simulated", &simulated)) {
+      is_simulated_ = simulated != FALSE;
+    }
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE) read_segment();
     gst_message_unref(message);
@@ -239,6 +290,8 @@ void FollowedFilm::pause() {
 }
 
 void FollowedFilm::play(int64_t now_ns, int64_t position_ns) {
+  if (!begins_.empty()) tell(begins_);
+  begins_.clear();
   set_base_time(now_ns - running_at(position_ns));
   playing_ = true;
   checked_ns_ = now_ns;
@@ -279,9 +332,10 @@ void FollowedFilm::follow(int64_t now_ns, int64_t position_ns, double rate) {
   if (shift_ns != 0) set_base_time(base_ns_ - std::llround(static_cast<double>(shift_ns) / rate_));
 }
 
-void FollowedFilm::rest(int64_t position_ns) {
+void FollowedFilm::rest(std::optional<int64_t> position_ns) {
   pause();
-  if (ready_ && std::abs(position_ns - paused_at_ns_) > kNear_ns) seek(position_ns, rate_);
+  if (!ready_ || !position_ns) return;
+  if (std::abs(*position_ns - paused_at_ns_) > kNear_ns) seek(*position_ns, rate_);
 }
 
 }  // namespace spidar::follow

@@ -5,43 +5,53 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <glib.h>
 #include <gst/gst.h>
 
+#include "plugin/follow/film_plan.h"
+
 namespace spidar::follow {
 
-/// What is said to people.
+/// What is said to people. Any thread.
 inline void tell(const std::string& text) {
   g_printerr("spidar-feel: %s\n", text.c_str());
 }
 
-/// Its haptic track, or the film once more. One thread. Times are of CLOCK_MONOTONIC.
+/// Its haptic track, or the film once more. One thread, which may be held up by files, networks and
+/// devices. Times are of CLOCK_MONOTONIC.
 class FollowedFilm {
  public:
-  /// `properties` are of spidarmotion, NAME=VALUE. Opens the device, and begins at rest. Throws
+  /// `properties` are of spidarmotion, NAME=VALUE. Opens the device, and begins at rest. Without a
+  /// device, the debug window shows what would be felt, where there is a display. Throws
   /// std::runtime_error, which says what is wrong.
-  FollowedFilm(const std::string& uri, const std::vector<std::string>& properties);
+  FollowedFilm(const FilmPlan& plan, const std::vector<std::string>& properties);
   ~FollowedFilm();
   FollowedFilm(const FollowedFilm&) = delete;
   FollowedFilm& operator=(const FollowedFilm&) = delete;
 
-  /// Between two pictures; 0 if it is not known.
-  int64_t frame_ns() const { return frame_ns_; }
-  /// Prints what the pipeline has to say. False when it has failed.
+  /// Prints what the pipeline has to say, once. False when it has failed.
   bool check();
   /// The player plays at `rate` and is at this position. Small errors are corrected slowly, large
   /// ones by a seek.
   void follow(int64_t now_ns, int64_t position_ns, double rate);
-  /// The player rests at this position.
-  void rest(int64_t position_ns);
+  /// The player rests, at this position if it is known.
+  void rest(std::optional<int64_t> position_ns);
 
  private:
-  void build_track(const std::string& path, int64_t later_ns);
-  void build_film(const std::string& uri);
-  void set_properties(const std::vector<std::string>& properties);
+  void build(bool has_window);
+  void build_track();
+  void build_film();
+  void set_properties();
+  static gboolean look(GstElement*, GstPad* pad, GstCaps* caps, gpointer self);
+  static void choose_stream(GstElement* decoder, gpointer self);
+  /// Prints the text of a message, if it is for people.
+  void print(GstMessage* message);
   void pause();
   void seek(int64_t position_ns, double rate);
   void play(int64_t now_ns, int64_t position_ns);
@@ -51,10 +61,16 @@ class FollowedFilm {
   int64_t position_at(int64_t now_ns) const;
   int64_t running_at(int64_t position_ns) const;
 
+  const FilmPlan plan_;
+  const std::vector<std::string> properties_;
+  std::mutex mutex_;                ///< of what the streaming threads find
+  std::set<std::string> pictures_;  ///< streams of pictures that are files otherwise, as covers are
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
   GstElement* sink_ = nullptr;  ///< that waits for the clock
-  int64_t frame_ns_ = 0;
+  std::string begins_;          ///< to be said when it plays for the first time
+  std::set<std::string> said_;
+  bool is_simulated_ = false;  ///< no device renders it
   double rate_ = 1;
   bool ready_ = false;  ///< prerolled
   bool playing_ = false;

@@ -3,6 +3,7 @@
 #include "plugin/follow/mpris_player.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "spidar/realtime/monotonic.h"
@@ -27,6 +28,7 @@ struct Answer {
   Variant reply;
   bool is_cancelled = false;  ///< whoever asked is destroyed
   bool is_gone = false;       ///< whoever was asked
+  bool is_refused = false;    ///< it has answered with an error
 };
 
 Answer finish(GObject* bus, GAsyncResult* result) {
@@ -38,14 +40,9 @@ Answer finish(GObject* bus, GAsyncResult* result) {
   answer.is_cancelled = g_error_matches(found, G_IO_ERROR, G_IO_ERROR_CANCELLED);
   answer.is_gone = g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NAME_HAS_NO_OWNER) ||
                    g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_SERVICE_UNKNOWN);
+  answer.is_refused = !answer.is_gone && g_dbus_error_is_remote_error(found) &&
+                      !g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NO_REPLY);
   return answer;
-}
-
-Variant call_now(GDBusConnection* bus, const char* name, const char* path, const char* interface,
-                 const char* method, GVariant* parameters, int limit_ms) {
-  return Variant(g_dbus_connection_call_sync(bus, name, path, interface, method, parameters,
-                                             nullptr, G_DBUS_CALL_FLAGS_NO_AUTO_START, limit_ms,
-                                             nullptr, nullptr));
 }
 
 GVariant* all_of_player() {
@@ -57,8 +54,8 @@ PlayerState state_of(GVariant* properties) {
   PlayerState state;
   const gchar* text = nullptr;
   if (g_variant_lookup(properties, "PlaybackStatus", "&s", &text)) {
-    if (g_str_equal(text, "Playing")) state.status = PlayerState::Status::kPlaying;
-    if (g_str_equal(text, "Paused")) state.status = PlayerState::Status::kPaused;
+    if (g_str_equal(text, "Playing")) state.status = PlayerStatus::kPlaying;
+    if (g_str_equal(text, "Paused")) state.status = PlayerStatus::kPaused;
   }
   // As far as mpv goes; what is not a rate counts as that of ordinary playback.
   constexpr double kLeast = 0.01, kMost = 100;
@@ -92,31 +89,35 @@ std::string short_name(const std::string& bus_name) {
   return name.substr(0, instance);
 }
 
-std::vector<std::string> list_players(GDBusConnection* bus, const std::string& name) {
-  constexpr int kLimit_ms = 1000;
-  std::vector<std::string> found;
-  const Variant reply =
-      call_now(bus, kBus, "/org/freedesktop/DBus", kBus, "ListNames", nullptr, kLimit_ms);
-  if (!reply || !g_variant_is_of_type(reply.get(), G_VARIANT_TYPE("(as)"))) return found;
-  GVariantIter* names = nullptr;
-  g_variant_get(reply.get(), "(as)", &names);
-  const std::string wanted = kPrefix + name;
-  for (const gchar* each = nullptr; g_variant_iter_next(names, "&s", &each);) {
-    const std::string player = each;
-    const bool is_wanted = name.empty()
-                               ? g_str_has_prefix(each, kPrefix)
-                               : player == wanted || g_str_has_prefix(each, (wanted + ".").c_str());
-    if (is_wanted) found.push_back(player);
-  }
-  g_variant_iter_free(names);
-  return found;
-}
-
-std::optional<PlayerState> ask_state(GDBusConnection* bus, const std::string& bus_name) {
-  constexpr int kLimit_ms = 200;
-  return state_in(
-      call_now(bus, bus_name.c_str(), kPath, kProperties, "GetAll", all_of_player(), kLimit_ms)
-          .get());
+void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
+                  TakeNames take) {
+  struct Question {
+    std::string name;
+    TakeNames take;
+  };
+  const auto answered = [](GObject* source, GAsyncResult* result, gpointer user) {
+    const std::unique_ptr<Question> question(static_cast<Question*>(user));
+    const Answer answer = finish(source, result);
+    if (answer.is_cancelled) return;
+    if (!answer.reply || !g_variant_is_of_type(answer.reply.get(), G_VARIANT_TYPE("(as)"))) {
+      return question->take(std::nullopt);
+    }
+    std::vector<std::string> found;
+    GVariantIter* names = nullptr;
+    g_variant_get(answer.reply.get(), "(as)", &names);
+    const std::string wanted = kPrefix + question->name;
+    for (const gchar* each = nullptr; g_variant_iter_next(names, "&s", &each);) {
+      const bool is_wanted = question->name.empty()
+                                 ? g_str_has_prefix(each, kPrefix)
+                                 : each == wanted || g_str_has_prefix(each, (wanted + ".").c_str());
+      if (is_wanted) found.emplace_back(each);
+    }
+    g_variant_iter_free(names);
+    question->take(std::move(found));
+  };
+  g_dbus_connection_call(bus, kBus, "/org/freedesktop/DBus", kBus, "ListNames", nullptr, nullptr,
+                         G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended, answered,
+                         new Question{name, std::move(take)});
 }
 
 Player::Player(GDBusConnection* bus, const std::string& bus_name, Told told)
@@ -131,7 +132,7 @@ Player::Player(GDBusConnection* bus, const std::string& bus_name, Told told)
   subscribe(bus_name_.c_str(), kPlayer, "Seeked", kPath, nullptr, take_signal);
   subscribe(kBus, kBus, "NameOwnerChanged", nullptr, bus_name_.c_str(), take_owner);
   timer_ = g_timeout_add(kPoll_ms, poll, this);
-  ask_state_now();
+  ask_state();
 }
 
 Player::~Player() {
@@ -141,20 +142,25 @@ Player::~Player() {
   g_object_unref(ended_);
 }
 
+void Player::watch(bool wanted) {
+  is_watched_ = wanted;
+}
+
 int64_t Player::silent_ns() const {
   return asked_ns_ == 0 ? 0 : monotonic_now_ns() - asked_ns_;
 }
 
 gboolean Player::poll(gpointer user) {
   auto& self = *static_cast<Player*>(user);
-  if (self.asked_ns_ == 0) self.ask_position();
-  if (monotonic_now_ns() - self.state_asked_ns_ > kAskState_ns) self.ask_state_now();
+  if (self.is_gone_) return G_SOURCE_CONTINUE;
+  if (self.is_watched_ && self.asked_ns_ == 0) self.ask_position();
+  if (monotonic_now_ns() - self.state_asked_ns_ > kAskState_ns) self.ask_state();
   return G_SOURCE_CONTINUE;
 }
 
 void Player::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
   g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kProperties, method, parameters, nullptr,
-                         G_DBUS_CALL_FLAGS_NO_AUTO_START, -1, ended_, take, this);
+                         G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, take, this);
 }
 
 void Player::ask_position() {
@@ -162,7 +168,10 @@ void Player::ask_position() {
   ask("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
 }
 
-void Player::ask_state_now() {
+/// One question at a time, however many changes a player tells of.
+void Player::ask_state() {
+  state_changed_ = state_waits_;
+  if (std::exchange(state_waits_, true)) return;
   state_asked_ns_ = monotonic_now_ns();
   ask("GetAll", all_of_player(), take_state);
 }
@@ -174,13 +183,18 @@ void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   self.asked_ns_ = 0;
   // It ended before its end was listened for.
-  if (answer.is_gone) return self.told_.gone();
+  self.is_gone_ = self.is_gone_ || answer.is_gone;
   GVariant* const reply = answer.reply.get();
-  if (!reply || !g_variant_is_of_type(reply, G_VARIANT_TYPE("(v)"))) return;
+  if (!reply) {
+    if (answer.is_refused) self.has_position_ = false;
+    return;
+  }
+  if (!g_variant_is_of_type(reply, G_VARIANT_TYPE("(v)"))) return;
   GVariant* inner = nullptr;
   g_variant_get(reply, "(v)", &inner);
   const Variant position(inner);
-  if (g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64)) {
+  self.has_position_ = g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64) != FALSE;
+  if (self.has_position_ && self.is_watched_) {
     self.told_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));
   }
 }
@@ -188,17 +202,22 @@ void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
 void Player::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
-  if (const auto state = state_in(answer.reply.get())) {
-    static_cast<Player*>(user)->told_.state(*state);
-  }
+  auto& self = *static_cast<Player*>(user);
+  self.state_waits_ = false;
+  self.is_gone_ = self.is_gone_ || answer.is_gone;
+  if (std::exchange(self.state_changed_, false)) self.ask_state();
+  auto state = state_in(answer.reply.get());
+  if (!state) return;
+  self.state_ = std::move(state);
+  self.told_.state(self);
 }
 
 void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
                          const gchar* name, GVariant* parameters, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   if (!g_str_equal(name, "Seeked")) {
-    self.ask_state_now();  // what changed is only a part
-  } else if (g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
+    self.ask_state();  // what changed is only a part
+  } else if (self.is_watched_ && g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
     gint64 position_us = 0;
     g_variant_get(parameters, "(x)", &position_us);
     self.told_.jump(monotonic_now_ns(), ns_of(position_us));
@@ -207,9 +226,10 @@ void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gch
 
 void Player::take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
                         GVariant* parameters, gpointer user) {
-  const gchar* owner = nullptr;
-  g_variant_get(parameters, "(&s&s&s)", nullptr, nullptr, &owner);
-  if (*owner == '\0') static_cast<Player*>(user)->told_.gone();
+  const gchar* before = nullptr;
+  g_variant_get(parameters, "(&s&s&s)", nullptr, &before, nullptr);
+  // One that gets the name while nobody has it is new, and is asked.
+  if (*before != '\0') static_cast<Player*>(user)->is_gone_ = true;
 }
 
 }  // namespace spidar::follow

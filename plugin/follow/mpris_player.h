@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec).
+/// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec). No
+/// call waits, and each has a deadline.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <gio/gio.h>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "plugin/follow/player_choice.h"
+
 namespace spidar::follow {
 
 struct PlayerState {
-  enum class Status { kStopped, kPaused, kPlaying };
-  Status status = Status::kStopped;
+  PlayerStatus status = PlayerStatus::kStopped;
   double rate = 1;
   std::string uri;  ///< of what it plays; empty if it does not say
 };
 
+/// An answer takes a millisecond, and some tens of them where the machine is busy. Who has not
+/// answered by then is asked again.
+constexpr int kAnswer_ms = 1000;
+
 /// What a player is called by people: "vlc" of org.mpris.MediaPlayer2.vlc.instance7.
 std::string short_name(const std::string& bus_name);
 
-/// Bus names of the players that there are; of those called `name`, unless that is empty. Waits for
-/// the bus, for a second at most.
-std::vector<std::string> list_players(GDBusConnection* bus, const std::string& name);
-/// Waits for the player, for 0.2 s at most; nothing if it does not answer.
-std::optional<PlayerState> ask_state(GDBusConnection* bus, const std::string& bus_name);
+/// Asks for the bus names of the players that there are; of those called `name`, unless that is
+/// empty. `take` gets them in the main loop, or nothing when the bus does not answer, and nothing
+/// at all once `ended` is cancelled.
+using TakeNames = std::function<void(std::optional<std::vector<std::string>>)>;
+void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
+                  TakeNames take);
 
-/// Follows one. All callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
+/// One of them. Callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
 class Player {
  public:
   struct Told {
-    std::function<void(const PlayerState&)> state;
+    std::function<void(Player&)> state;  ///< it has told one
+    /// Of one that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
-    std::function<void()> gone;
   };
   Player(GDBusConnection* bus, const std::string& bus_name, Told told);
   ~Player();
@@ -43,6 +49,14 @@ class Player {
   Player& operator=(const Player&) = delete;
 
   const std::string& bus_name() const { return bus_name_; }
+  /// Nothing before it has answered.
+  const std::optional<PlayerState>& state() const { return state_; }
+  /// It has ended, or another program has its name.
+  bool is_gone() const { return is_gone_; }
+  /// Whether it is asked for its position.
+  void watch(bool wanted);
+  /// False when it has answered that it has none.
+  bool has_position() const { return has_position_; }
   /// For how long a question has waited for its answer.
   int64_t silent_ns() const;
 
@@ -60,7 +74,7 @@ class Player {
                          GVariant* parameters, gpointer self);
   void ask(const char* method, GVariant* parameters, GAsyncReadyCallback take);
   void ask_position();
-  void ask_state_now();
+  void ask_state();
 
   GDBusConnection* const bus_;
   const std::string bus_name_;
@@ -68,8 +82,14 @@ class Player {
   GCancellable* const ended_;
   std::vector<guint> signals_;
   guint timer_ = 0;
+  std::optional<PlayerState> state_;
+  bool is_gone_ = false;
+  bool is_watched_ = false;
+  bool has_position_ = true;
   int64_t asked_ns_ = 0;  ///< the position; 0: no question waits
   int64_t state_asked_ns_ = 0;
+  bool state_waits_ = false;    ///< a question for the state has no answer yet
+  bool state_changed_ = false;  ///< since it was asked
 };
 
 }  // namespace spidar::follow

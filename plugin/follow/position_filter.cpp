@@ -45,6 +45,7 @@ void PositionFilter::reset_after_jump(int64_t now_ns, int64_t position_ns) {
 
 void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
   if (!has_begun() || position_ns == position_ns_) return;
+  backward_ = position_ns < position_ns_ ? backward_ + 1 : 0;
   position_ns_ = position_ns;
   newest_ns_ = now_ns;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
@@ -61,6 +62,7 @@ void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
 
 void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
   if (!has_begun()) return;
+  backward_ = 0;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
   if (std::abs(late_ns) > kLatest_ns) return reset_after_jump(now_ns, position_ns);
   is_goal_ = true;  // it may have stopped for a moment

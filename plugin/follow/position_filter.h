@@ -18,6 +18,9 @@ class PositionFilter {
   static constexpr size_t kKept = 8;
   /// More than any player was seen to be late: such a position is one after a jump.
   static constexpr int64_t kLatest_ns = 150'000'000;
+  /// So many positions in a row, each before the last, are no jumps of a person's: VLC tells three
+  /// in a second.
+  static constexpr int kBackward = 3;
 
   /// It plays at `rate` from this position on; what it told before counts no more.
   void reset(int64_t now_ns, int64_t position_ns, double rate);
@@ -29,6 +32,8 @@ class PositionFilter {
   void tell_jump(int64_t now_ns, int64_t position_ns);
 
   bool has_begun() const { return count_ > 0; }
+  /// Whether each of the newest positions was before the one before, without a jump.
+  bool runs_backwards() const { return backward_ >= kBackward; }
   /// When it told the newest position; 0 before.
   int64_t newest_ns() const { return newest_ns_; }
   /// After reset().
@@ -46,6 +51,7 @@ class PositionFilter {
   double rate_ = 1;
   int64_t position_ns_ = 0;  ///< the newest that it told
   int64_t newest_ns_ = 0;
+  int backward_ = 0;      ///< positions in a row, each before the last
   bool jumped_ = false;   ///< the newest was too late for one of this playback
   bool is_goal_ = false;  ///< what is known counts until the next position
 };

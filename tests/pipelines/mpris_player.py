@@ -14,10 +14,17 @@ from gi.repository import Gio, GLib
 
 PLAYER = "org.mpris.MediaPlayer2.Player"
 PATH = "/org/mpris/MediaPlayer2"
-INTERFACE = Gio.DBusNodeInfo.new_for_xml(f"""<node><interface name="{PLAYER}">
-  <property name="PlaybackStatus" type="s" access="read"/><property name="Rate" type="d" access="read"/>
-  <property name="Metadata" type="a{{sv}}" access="read"/><property name="Position" type="x" access="read"/>
-  <signal name="Seeked"><arg name="Position" type="x"/></signal></interface></node>""").interfaces[0]
+
+
+def interface(has_position=True):
+    position = '<property name="Position" type="x" access="read"/>' if has_position else ""
+    return Gio.DBusNodeInfo.new_for_xml(f"""<node><interface name="{PLAYER}">
+      <property name="PlaybackStatus" type="s" access="read"/><property name="Rate" type="d" access="read"/>
+      <property name="Metadata" type="a{{sv}}" access="read"/>{position}
+      <signal name="Seeked"><arg name="Position" type="x"/></signal></interface></node>""").interfaces[0]
+
+
+INTERFACE = interface()
 
 
 class Bus:
@@ -40,6 +47,7 @@ class Bus:
 
 class MockPlayer:
     """Stopped at first. `delay` is how late it is in telling its position, in seconds."""
+    interface = INTERFACE
 
     def __init__(self, bus, name):
         self.status, self.rate, self.uri, self.delay = "Stopped", 1.0, "", 0
@@ -56,7 +64,7 @@ class MockPlayer:
         self.context.push_thread_default()
         flags = Gio.DBusConnectionFlags.AUTHENTICATION_CLIENT | Gio.DBusConnectionFlags.MESSAGE_BUS_CONNECTION
         self.connection = Gio.DBusConnection.new_for_address_sync(address, flags)
-        self.connection.register_object(PATH, INTERFACE, None, self.get, None)
+        self.connection.register_object(PATH, self.interface, None, self.get, None)
         self.connection.call_sync("org.freedesktop.DBus", "/org/freedesktop/DBus", "org.freedesktop.DBus", "RequestName",
                                   GLib.Variant("(su)", ("org.mpris.MediaPlayer2." + name, 4)), None, 0, -1)
         ready.set()

@@ -5,15 +5,18 @@ the position, so that each tick of the loop tells which position is felt."""
 
 import csv
 import os
+import shutil
 import signal
+import socket
 import statistics
 import subprocess
+import threading
 import time
 import unittest
 
 import bus_case
 import track_case
-from mpris_player import Bus, MockPlayer
+from mpris_player import Bus, MockPlayer, interface
 
 FEEL = os.environ["SPIDAR_FEEL"]
 LENGTH_S = 60
@@ -46,11 +49,11 @@ class FollowCase(track_case.TrackCase):
                  "avimux ! filesink location=film.avi")
         write_track(self.path("film.avi.haptic.wav"))
 
-    def follow(self, *words, properties=()):
+    def follow(self, *words, properties=(), **variables):
+        variables = {"DISPLAY": "", "WAYLAND_DISPLAY": "", "DBUS_SESSION_BUS_ADDRESS": self.bus.address} | variables
         with open(self.log, "w", encoding="utf-8") as log:
             process = subprocess.Popen([FEEL, "device=sim", f"haptic-trace={self.trace}", *properties, "--follow", *words],
-                                       stdout=log, stderr=log, cwd=self.folder,
-                                       env=dict(os.environ, DBUS_SESSION_BUS_ADDRESS=self.bus.address))
+                                       stdout=log, stderr=log, cwd=self.folder, env=os.environ | variables)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
@@ -110,12 +113,21 @@ class FollowCase(track_case.TrackCase):
         self.assertTrue(ticks)
         self.assertEqual(max(force for _, force in ticks), 0, self.said())
 
-    def play(self, *words, name="mock", properties=()):
+    def expect_ended(self, process, number=signal.SIGINT):
+        """It ends by the signal; the test has a limit."""
+        process.send_signal(number)
+        self.assertEqual(process.wait(), 0, self.said())
+
+    def plays(self, name, uri=None, kind=MockPlayer):
+        player = kind(self.bus, name)
+        player.change("Playing", uri=uri or self.film.as_uri(), position_s=2)
+        return player
+
+    def play(self, *words, name="mock", properties=(), least_N=FORCE_N, **variables):
         """A player that plays, and is felt."""
-        player = MockPlayer(self.bus, name)
-        player.change("Playing", uri=self.film.as_uri(), position_s=2)
-        process = self.follow(*words, properties=properties)
-        self.wait_until(lambda: process.poll() is not None or self.force_N() > FORCE_N)
+        player = self.plays(name)
+        process = self.follow(*words, properties=properties, **variables)
+        self.wait_until(lambda: process.poll() is not None or self.force_N() > least_N)
         self.assertIsNone(process.poll(), self.said())
         return player, process
 
@@ -145,8 +157,7 @@ class Follow(FollowCase):
         self.wait_until(lambda: "mock has ended" in self.said())
         self.assertEqual([force for now_s, _, force, _ in bus_case.read_trace(self.trace) if now_s > died_s + BUSY_S
                           and force], [])
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(), 0)
+        self.expect_ended(process)
 
     def expect_followed_through_seeks(self, player):
         for position_s in (30, 12):
@@ -195,10 +206,7 @@ class Follow(FollowCase):
         self.assertRegex(self.said(), "film.avi.haptic.wav: .*; the film is analysed")
 
     def play_analysed(self):
-        player = MockPlayer(self.bus, "mock")
-        player.change("Playing", uri=self.film.as_uri(), position_s=2)
-        process = self.follow()
-        self.wait_until(lambda: self.force_N() > .1)
+        player, process = self.play(least_N=.1)
         self.assertIn("is analysed", self.said())
         return player, process
 
@@ -236,35 +244,205 @@ class Follow(FollowCase):
 
 
 class Which(FollowCase):
+    def wait_for(self, sentence):
+        self.wait_until(lambda: sentence + "\n" in self.said())
+
     def test_without_a_player_it_waits_and_takes_the_one_that_plays(self):
         process = self.follow()
-        self.wait_until(lambda: "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris" in self.said())
+        self.wait_for("waits for a player that plays a file: VLC, or mpv with the package mpv-mpris")
         paused = MockPlayer(self.bus, "paused")
         paused.change("Paused", uri=self.film.as_uri())
-        plays = MockPlayer(self.bus, "plays.instance12")
-        plays.change("Playing", uri=self.film.as_uri(), position_s=2)
-        self.wait_until(lambda: "follows plays\n" in self.said())
+        self.wait_for("paused is paused in a film: follows paused")
+        plays = self.plays("plays.instance12")
+        self.wait_for("paused is paused, and plays plays: follows plays")
         plays.die()
-        self.wait_until(lambda: "plays has ended" in self.said())
+        self.wait_for("plays has ended, and paused is paused in a film: follows paused")
         paused.change("Playing")
-        self.wait_until(lambda: "follows paused\n" in self.said())
+        self.wait_until(lambda: self.force_N() > FORCE_N)
+        paused.die()
+        self.wait_for("paused has ended; waits for a player that plays a film")
         self.assertIsNone(process.poll())
 
     def test_the_one_that_is_named_is_taken(self):
         for name in ("first", "second"):
-            MockPlayer(self.bus, name).change("Playing", uri=self.film.as_uri())
+            self.plays(name)
         self.follow("second")
-        self.wait_until(lambda: "follows second\n" in self.said())
+        self.wait_for("follows second")
 
-    def test_a_film_that_cannot_be_read_is_named(self):
-        MockPlayer(self.bus, "mock").change("Playing", uri=self.path("nothing.avi").as_uri())
+    def test_of_several_of_a_name_the_one_that_plays_is_felt(self):
+        MockPlayer(self.bus, "vlc").change("Paused", uri=self.film.as_uri(), position_s=40)
+        second = self.plays("vlc.instance7")
+        self.follow("vlc")
+        self.expect_found(second)
+
+    def test_when_it_is_paused_another_that_plays_is_felt(self):
+        first, _ = self.play(name="first")
+        second = MockPlayer(self.bus, "second")
+        second.change("Paused", uri=self.film.as_uri(), position_s=20)
+        first.change("Paused")
+        second.change("Playing")
+        self.wait_for("first is paused, and second plays: follows second")
+        self.expect_found(second)
+        # While it plays, the other may begin and stop again.
+        first.change("Playing")
+        time.sleep(.5)
+        self.assertEqual(self.said().count("follows"), 2, self.said())
+        second.change("Stopped")
+        self.wait_for("second has stopped, and first plays: follows first")
+        self.expect_found(first)
+
+    def test_a_player_that_repeats_another_is_not_taken(self):
+        mock = self.plays("mock")
+        self.plays("playerctld")
         self.follow()
-        self.wait_until(lambda: "without force until the next film" in self.said())
-        self.assertIn("nothing.avi", self.said())
+        self.expect_found(mock)
+        mock.die()
+        self.wait_for("mock has ended; waits for a player that plays a film")
+
+    def test_players_that_do_not_answer_hold_nothing_up(self):
+        class Silent(MockPlayer):
+            def get(self, *_):
+                return threading.Event().wait()
+        for number in range(30):
+            Silent(self.bus, f"a{number:02}")
+        _, process = self.play(name="z")
+        self.assertEqual(self.said().count("follows z"), 1)
+        self.expect_ended(process)
 
     def test_without_a_bus_it_ends(self):
         said = self.run_in_folder(f"DBUS_SESSION_BUS_ADDRESS=unix:path=/nowhere {FEEL} --follow", 1)
         self.assertIn("there is no session bus, by which players are followed", said)
+
+    def test_a_bus_that_says_nothing_is_not_waited_for_for_ever(self):
+        with socket.socket(socket.AF_UNIX) as silent:
+            silent.bind(str(self.path("bus")))
+            silent.listen()
+            said = self.run_in_folder(f"DBUS_SESSION_BUS_ADDRESS=unix:path={self.path('bus')} {FEEL} --follow", 1)
+        self.assertIn("there is no session bus, by which players are followed: it does not answer", said)
+
+
+class WhatIsPlayed(FollowCase):
+    def expect_refused(self, uri, sentence):
+        """And then the next film is felt."""
+        player = self.plays("mock", uri)
+        process = self.follow("mock")
+        self.wait_until(lambda: sentence in self.said())
+        for wrong in ("is analysed", "is felt", "plug-in"):
+            self.assertNotIn(wrong, self.said())
+        player.change(uri=self.film.as_uri(), position_s=2)
+        self.wait_until(lambda: self.force_N() > FORCE_N)
+        self.assertEqual(self.said().count(sentence), 1, self.said())
+        self.expect_ended(process, signal.SIGTERM)
+
+    def test_a_song_has_no_pictures(self):
+        self.gst("audiotestsrc num-buffers=50 ! flacenc ! filesink location=song.flac")
+        self.expect_refused(self.path("song.flac").as_uri(), f"mock plays {self.path('song.flac')}: there are no pictures in it; "
+                                                             "without force until the next film")
+
+    def test_a_picture_is_no_film(self):
+        self.gst("videotestsrc num-buffers=1 ! jpegenc ! filesink location=cover.jpg")
+        self.expect_refused(self.path("cover.jpg").as_uri(), "cover.jpg: it is a single picture, in which nothing moves;")
+
+    def test_a_film_that_cannot_be_read_is_named(self):
+        self.expect_refused(self.path("nothing.avi").as_uri(), "nothing.avi: there is no such file; without force until the next")
+
+    def test_a_fifo_is_not_opened(self):
+        os.mkfifo(self.path("pipe.avi"))
+        self.expect_refused(self.path("pipe.avi").as_uri(), "pipe.avi: it is not a regular file;")
+
+    def test_other_schemes_are_not_opened(self):
+        self.expect_refused("testbin://", "mock plays testbin://: only files of this machine, http and https are followed;")
+
+    def test_the_stream_that_players_show_is_felt_and_not_a_cover(self):
+        self.path("film.avi.haptic.wav").unlink()
+        self.gst("videotestsrc num-buffers=1 ! video/x-raw,width=200,height=300 ! jpegenc ! m. videotestsrc pattern=smpte "
+                 "horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,framerate=25/1 ! theoraenc ! m. "
+                 "matroskamux name=m ! filesink location=film.mkv")
+        self.plays("mock", self.path("film.mkv").as_uri())
+        self.follow()
+        self.wait_until(lambda: self.force_N() > .1)
+
+    def test_an_address_that_is_not_escaped_names_its_file(self):
+        for name in ("50% of #3.avi", "a%20b.avi"):
+            with self.subTest(name=name):
+                for end in (".avi", ".avi.haptic.wav"):
+                    shutil.copy(self.path("film" + end), self.path(name[:-4] + end))
+                player = self.plays("mock", "file://" + str(self.path(name)))
+                process = self.follow()
+                self.wait_until(lambda: self.force_N() > FORCE_N)
+                self.assertIn(f"the haptic track {self.path(name)}.haptic.wav is felt\n", self.said())
+                self.expect_ended(process)
+                player.die()
+                self.trace.unlink()
+
+
+class WhereItIs(FollowCase):
+    def expect_said(self, player, sentence):
+        """Once, and nothing is felt until it tells where it is."""
+        process = self.follow()
+        self.wait_until(lambda: sentence in self.said())
+        self.assertNotIn("is felt\n", self.said())
+        time.sleep(1)
+        self.assertEqual(self.said().count(sentence), 1, self.said())
+        self.assertEqual(self.force_N(), 0)
+        player.die()
+        self.expect_ended(process)
+
+    def test_a_player_without_a_position_is_named(self):
+        class Lost(MockPlayer):
+            interface = interface(has_position=False)
+        self.expect_said(self.plays("mock", kind=Lost), "mock does not tell where it is in its film, so nothing of it is felt;")
+
+    def test_a_player_that_stands_at_its_beginning_is_named(self):
+        player = self.plays("mock")
+        player.position_s = lambda _now_s=None: 0.0
+        self.expect_said(player, "mock says that it plays, and that it stands at 0.0 s, so nothing of it is felt;")
+
+    def test_a_player_that_plays_backwards_is_named(self):
+        player = self.plays("mock")
+        begin_s = time.monotonic()
+        player.position_s = lambda _now_s=None: 1e4 - (time.monotonic() - begin_s)
+        self.expect_said(player, "mock plays backwards, which is not felt")
+
+    def test_another_that_tells_where_it_is_is_followed(self):
+        class Lost(MockPlayer):
+            interface = interface(has_position=False)
+        self.plays("lost", kind=Lost)
+        self.follow()
+        self.wait_until(lambda: "lost does not tell" in self.said())
+        told = self.plays("told")
+        self.wait_until(lambda: "lost does not tell where it is in its film, and told plays: follows told\n" in self.said())
+        self.expect_found(told)
+
+
+class Seen(FollowCase):
+    def setUp(self):
+        super().setUp()
+        self.window = self.path("window.sh")
+        self.window.write_text(f"#!/bin/sh\ntouch {self.path('opened')}\nexec cat >/dev/null\n", encoding="ascii")
+        self.window.chmod(0o755)
+        self.screen = {"DISPLAY": ":7", "SPIDAR_WINDOW": str(self.window)}
+
+    def test_without_a_device_the_window_opens(self):
+        for track in ("with its track", "analysed"):
+            with self.subTest(track):
+                player, process = self.play(least_N=.1, **self.screen)
+                self.wait_until(self.path("opened").exists)
+                if track == "with its track":
+                    self.assertIn("film.avi.haptic.wav is felt\n", self.said())
+                    self.expect_found(player)
+                self.expect_ended(process)
+                player.die()
+                self.path("opened").unlink()
+                self.trace.unlink()
+                self.path("film.avi.haptic.wav").unlink(missing_ok=True)
+                self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,"
+                         "framerate=25/1 ! jpegenc ! avimux ! filesink location=film.avi")
+
+    def test_debug_window_false_prevents_it(self):
+        self.play(properties=["debug-window=false"], **self.screen)
+        time.sleep(.5)
+        self.assertFalse(self.path("opened").exists())
 
 
 if __name__ == "__main__":

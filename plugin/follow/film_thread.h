@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Opens, plays and closes what is felt in a thread of its own: a file, a network or a device that
+/// does not answer holds up that thread, and not the main loop.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "plugin/follow/film_plan.h"
+
+namespace spidar::follow {
+
+/// Where a player is in which film.
+struct FilmGoal {
+  std::shared_ptr<const FilmPlan> plan;  ///< null: nothing is felt
+  bool plays = false;                    ///< false: the force rests
+  double rate = 1;
+  int64_t at_ns = 0;                   ///< CLOCK_MONOTONIC
+  std::optional<int64_t> position_ns;  ///< at that time, if it is known
+};
+
+class FilmThread {
+ public:
+  /// `properties` are of spidarmotion, NAME=VALUE.
+  explicit FilmThread(std::vector<std::string> properties);
+  /// After end().
+  ~FilmThread();
+  FilmThread(const FilmThread&) = delete;
+  FilmThread& operator=(const FilmThread&) = delete;
+
+  /// To be called every some ten milliseconds: the force rests when no goal has come for 0.3 s.
+  void aim(FilmGoal goal);
+  /// Closes what is open. False if that takes longer than `limit`; the thread then still runs, and
+  /// the process has to end without its destructor.
+  bool end(std::chrono::milliseconds limit);
+
+ private:
+  void run();
+
+  const std::vector<std::string> properties_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  FilmGoal goal_;
+  bool ends_ = false, has_ended_ = false;
+  std::thread thread_;
+};
+
+}  // namespace spidar::follow
