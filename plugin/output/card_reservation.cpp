@@ -2,8 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/output/card_reservation.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace spidar {
 namespace {
@@ -24,6 +26,50 @@ std::string bus_address() {
   return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";
 }
 
+/// Null, and why in `error`, when the bus has not answered in `limit_ms`: it may accept a
+/// connection and say nothing. In a context of its own: there may be no main loop, or this may be
+/// its thread.
+Ref<GDBusConnection> connect(const std::string& address, int limit_ms, std::string& error) {
+  struct Answer {
+    bool is_there = false;
+    Ref<GDBusConnection> bus;
+    std::string error;
+  };
+  constexpr auto kFlags =
+      static_cast<GDBusConnectionFlags>(G_DBUS_CONNECTION_FLAGS_AUTHENTICATION_CLIENT |
+                                        G_DBUS_CONNECTION_FLAGS_MESSAGE_BUS_CONNECTION);
+  const auto take = [](GObject*, GAsyncResult* result, gpointer user) {
+    const std::unique_ptr<std::shared_ptr<Answer>> own(static_cast<std::shared_ptr<Answer>*>(user));
+    Answer& answer = **own;
+    g_autoptr(GError) failed = nullptr;
+    answer.bus.reset(g_dbus_connection_new_for_address_finish(result, &failed));
+    if (failed) answer.error = failed->message;
+    answer.is_there = true;
+  };
+  const auto ring = [](gpointer is_late) -> gboolean {
+    *static_cast<bool*>(is_late) = true;
+    return G_SOURCE_REMOVE;
+  };
+  g_autoptr(GMainContext) context = g_main_context_new();
+  g_autoptr(GCancellable) cancelled = g_cancellable_new();
+  g_autoptr(GSource) alarm = g_timeout_source_new(static_cast<guint>(limit_ms));
+  bool is_late = false;
+  // GIO cannot cancel every step of a connection, so its answer may come when nobody waits.
+  const auto answer = std::make_shared<Answer>();
+  g_main_context_push_thread_default(context);
+  g_source_set_callback(alarm, ring, &is_late, nullptr);
+  g_source_attach(alarm, context);
+  // A connection of its own does not end the process when the bus ends.
+  g_dbus_connection_new_for_address(address.c_str(), kFlags, nullptr, cancelled, take,
+                                    new std::shared_ptr<Answer>(answer));
+  while (!answer->is_there && !is_late) g_main_context_iteration(context, TRUE);
+  g_source_destroy(alarm);
+  g_cancellable_cancel(cancelled);
+  g_main_context_pop_thread_default(context);
+  error = answer->is_there ? answer->error : "the session bus does not answer";
+  return std::move(answer->bus);
+}
+
 std::string numbered(std::string name, int card) {
   name += std::to_string(card);
   return name;
@@ -33,14 +79,22 @@ std::string numbered(std::string name, int card) {
 
 CardReservation::CardReservation(int card)
     : name_(numbered("org.freedesktop.ReserveDevice1.Audio", card)),
-      path_(numbered("/org/freedesktop/ReserveDevice1/Audio", card)) {}
+      path_(numbered("/org/freedesktop/ReserveDevice1/Audio", card)),
+      until_us_(g_get_monotonic_time() + gint64{1000} * kPatience_ms) {}
+
+int CardReservation::left_ms() const {
+  const gint64 left_us = until_us_ - g_get_monotonic_time();
+  return static_cast<int>(std::clamp<gint64>(left_us / 1000, 1, kPatience_ms));
+}
 
 CardReservation::~CardReservation() {
   if (!bus_) return;
+  constexpr gint64 kGoodbye_us = 500'000;
+  until_us_ = g_get_monotonic_time() + kGoodbye_us;
   std::string refused;
   call(kBus, "/org/freedesktop/DBus", kBus, "ReleaseName", g_variant_new("(s)", name_.c_str()),
        "(u)", refused);
-  g_dbus_connection_close_sync(bus_.get(), nullptr, nullptr);
+  g_dbus_connection_close(bus_.get(), nullptr, nullptr, nullptr);  // does not wait
 }
 
 std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& refused) {
@@ -48,17 +102,8 @@ std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& re
   const std::string address = bus_address();
   if (address.empty()) return nullptr;
   std::unique_ptr<CardReservation> taken(new CardReservation(card));
-  g_autoptr(GError) error = nullptr;
-  // A connection of its own does not end the process when the bus ends.
-  taken->bus_.reset(g_dbus_connection_new_for_address_sync(
-      address.c_str(),
-      static_cast<GDBusConnectionFlags>(G_DBUS_CONNECTION_FLAGS_AUTHENTICATION_CLIENT |
-                                        G_DBUS_CONNECTION_FLAGS_MESSAGE_BUS_CONNECTION),
-      nullptr, nullptr, &error));
-  if (!taken->bus_) {
-    refused = error->message;
-    return nullptr;
-  }
+  taken->bus_ = connect(address, taken->left_ms(), refused);
+  if (!taken->bus_) return nullptr;
   // It may still be called while the reservation is destroyed.
   g_dbus_connection_add_filter(taken->bus_.get(), answer, new std::string(taken->path_),
                                [](gpointer path) { delete static_cast<std::string*>(path); });
@@ -94,7 +139,7 @@ Ref<GVariant> CardReservation::call(const char* to, const char* path, const char
   g_autoptr(GError) error = nullptr;
   Ref<GVariant> result(g_dbus_connection_call_sync(
       bus_.get(), to, path, interface, method, arguments, G_VARIANT_TYPE(result_type),
-      G_DBUS_CALL_FLAGS_NO_AUTO_START, kPatience_ms, nullptr, &error));
+      G_DBUS_CALL_FLAGS_NO_AUTO_START, left_ms(), nullptr, &error));
   if (!result) refused = error->message;
   return result;
 }

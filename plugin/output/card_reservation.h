@@ -16,7 +16,7 @@ namespace spidar {
 /// Needs no main loop.
 class CardReservation {
  public:
-  /// How long whoever has the card may take to give it away.
+  /// How long the bus and whoever has the card may take in all to give it away.
   static constexpr int kPatience_ms = 3000;
 
   /// `card` is ALSA's number. Null, and why in `refused`, if the card was not given away; null
@@ -29,6 +29,8 @@ class CardReservation {
  private:
   explicit CardReservation(int card);
 
+  /// Of what is waited for.
+  int left_ms() const;
   bool request_name(guint32 flags, std::string& refused) const;
   bool is_given_away(std::string& refused) const;
   Ref<GVariant> call(const char* to, const char* path, const char* interface, const char* method,
@@ -37,6 +39,7 @@ class CardReservation {
                               gpointer path);
 
   const std::string name_, path_;
+  gint64 until_us_;  ///< g_get_monotonic_time(), when waiting ends
   Ref<GDBusConnection> bus_;
 };
 

@@ -2,13 +2,18 @@
 // Copyright 2026 the gst-spidar authors
 /// A sound card is asked for on a bus of its own, where another one has it, or nobody.
 #include <atomic>
+#include <cstring>
 #include <gio/gio.h>
 #include <memory>
 #include <string>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "plugin/output/card_reservation.h"
+#include "tests/support/temporary_folder.h"
 
 namespace spidar::test::card_reservation_test {
 namespace {
@@ -157,17 +162,62 @@ TEST_F(CardReservations, WhoAsksForItIsAnswered) {
   EXPECT_FALSE(other_->call(kName, kPath, kInterface, "Nonsense", nullptr));
 }
 
-TEST(CardReservation, WithoutABusThereIsNobodyToAsk) {
+/// Why a card is not taken with the bus at another address.
+std::string why_refused(const std::string& address) {
   const std::string before =
       g_getenv("DBUS_SESSION_BUS_ADDRESS") ? g_getenv("DBUS_SESSION_BUS_ADDRESS") : "";
-  g_setenv("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere", TRUE);
+  g_setenv("DBUS_SESSION_BUS_ADDRESS", address.c_str(), TRUE);
   std::string refused;
   EXPECT_FALSE(CardReservation::take(3, refused));
-  EXPECT_NE(refused, "");
   if (before.empty())
     g_unsetenv("DBUS_SESSION_BUS_ADDRESS");
   else
     g_setenv("DBUS_SESSION_BUS_ADDRESS", before.c_str(), TRUE);
+  return refused;
+}
+
+TEST(CardReservation, WithoutABusThereIsNobodyToAsk) {
+  EXPECT_NE(why_refused("unix:path=/nowhere"), "");
+}
+
+/// The kernel connects whoever calls before it is accepted; nobody reads what is then said.
+TEST(CardReservation, ABusThatSaysNothingIsNotWaitedForForEver) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "bus").string();
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(path.size(), sizeof address.sun_path);
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  const int silent = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(silent, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(silent, 8), 0);
+  EXPECT_EQ(why_refused("unix:path=" + path), "the session bus does not answer");
+  close(silent);
+}
+
+GDBusMessage* swallow(GDBusConnection*, GDBusMessage* message, gboolean incoming, gpointer) {
+  if (!incoming) return message;
+  g_object_unref(message);
+  return nullptr;
+}
+
+gboolean keep_silent(GDBusServer*, GDBusConnection* connection, gpointer) {
+  g_dbus_connection_add_filter(static_cast<GDBusConnection*>(g_object_ref(connection)), swallow,
+                               nullptr, nullptr);
+  return TRUE;
+}
+
+TEST(CardReservation, ABusThatOnlyConnectsIsNotWaitedForForEver) {
+  const TemporaryFolder folder;
+  g_autofree gchar* guid = g_dbus_generate_guid();
+  const std::string path = "unix:path=" + (folder.path / "bus").string();
+  const Ref<GDBusServer> server(g_dbus_server_new_sync(
+      path.c_str(), G_DBUS_SERVER_FLAGS_RUN_IN_THREAD, guid, nullptr, nullptr, nullptr));
+  ASSERT_TRUE(server);
+  g_signal_connect(server.get(), "new-connection", G_CALLBACK(keep_silent), nullptr);
+  g_dbus_server_start(server.get());
+  EXPECT_EQ(why_refused(path), "the session bus does not answer");
+  g_dbus_server_stop(server.get());
 }
 
 }  // namespace
