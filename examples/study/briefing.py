@@ -2,6 +2,9 @@
 # Copyright 2026 the gst-spidar authors
 """What is asked on the terminal: before a participant may hold the grip, after each clip, and at the end."""
 
+import sys
+import termios
+
 from records import append_row, read_rows, utc_now
 from trials import STEPS
 
@@ -33,6 +36,9 @@ class TakesNoPart(Exception):
 
 
 def read_line(prompt):
+    """What was typed on a terminal before `prompt` is there is no answer to it; what a pipe has was not typed."""
+    if sys.stdin.isatty():
+        termios.tcflush(sys.stdin, termios.TCIFLUSH)
     try:
         return input(prompt)
     except (EOFError, KeyboardInterrupt):

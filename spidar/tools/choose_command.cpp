@@ -25,6 +25,7 @@ bool is_line_there() {
 /// The counts when the person has pressed Enter. False when interrupted.
 bool read_when_there(selftest::StringHold& hold, const std::string& question,
                      EncoderScale::Counts& counts) {
+  forget_typed_ahead();
   std::cerr << question << " and press Enter.\n";
   const bool whole = hold.stay(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
     counts = reading.count;

@@ -135,6 +135,10 @@ auto in_real_time(const Work& work) {
   return result.get();
 }
 
+/// Call it before a question is printed: what was typed on a terminal before is no answer to it.
+/// What comes through a pipe is not typed, and stays.
+void forget_typed_ahead();
+
 /// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
 bool confirm(const std::string& question);
 

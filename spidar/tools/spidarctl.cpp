@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <termios.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -121,11 +122,16 @@ selftest::Pace every_millisecond() {
   };
 }
 
+void forget_typed_ahead() {
+  tcflush(STDIN_FILENO, TCIFLUSH);  // fails, and does nothing, where there is no terminal
+}
+
 bool confirm(const std::string& question) {
   if (isatty(STDIN_FILENO) == 0) {
     throw UsageError(
         "there is no terminal to ask for confirmation; use --yes to continue without it");
   }
+  forget_typed_ahead();
   std::cerr << question << " [y/N] " << std::flush;
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");

@@ -9,6 +9,8 @@
 import contextlib
 import io
 import math
+import os
+import pty
 import random
 import re
 import statistics
@@ -432,6 +434,24 @@ class Terminal(unittest.TestCase):
                 with self.assertRaises(briefing.Stopped):
                     briefing.ask("How real?")
         self.assertIn("How real?\n  1 bad  2 poor  3 average  4 good  5 very good", out.getvalue())
+
+
+class TypedAhead(unittest.TestCase):
+    def test_what_was_typed_before_a_question_is_no_answer(self):
+        script = f"import sys; sys.path.insert(0, {FOLDER!r}); import briefing; input(); print(briefing.is_yes('Consent?'))"
+        process, terminal = pty.fork()
+        if process == 0:
+            os.execl(sys.executable, sys.executable, "-c", script)
+        os.write(terminal, b"begin\nyes\nyes\n")
+        printed = b""
+        with contextlib.suppress(OSError):  # its end
+            while part := os.read(terminal, 256):
+                printed += part
+                if printed.endswith(b"yes or no > "):
+                    os.write(terminal, b"no\n")
+        os.close(terminal)
+        self.assertEqual(os.waitpid(process, 0)[1], 0)
+        self.assertEqual(printed.split()[-1], b"False", printed)
 
 
 class Briefing(InFolder):

@@ -7,9 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <pty.h>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +82,40 @@ TEST(Spidarctl, WrongUsageIsNamed) {
     EXPECT_EQ(outcome.status, 2);
     expect_contains(outcome.text, message);
   }
+}
+
+/// What a program on a terminal prints until `sentence`, or its end.
+std::string read_until(int terminal, const std::string& sentence) {
+  std::string text;
+  std::array<char, 256> part{};
+  while (text.find(sentence) == std::string::npos) {
+    const ssize_t length = read(terminal, part.data(), part.size());
+    if (length <= 0) break;  // EIO: it has ended
+    text.append(part.data(), static_cast<size_t>(length));
+  }
+  return text;
+}
+
+/// A motor starts only by an answer to a question that somebody has seen.
+TEST(Spidarctl, WhatWasTypedBeforeAQuestionIsNoAnswer) {
+  int terminal = -1;
+  const pid_t process = forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(process, 0);
+  if (process == 0) {
+    // The shell starts the program when the first line is there.
+    execl("/bin/sh", "sh", "-c", "read line; " SPIDARCTL " pull sim 1 1 0.1", nullptr);
+    _exit(127);
+  }
+  const std::string_view typed = "\ny\nyes\n";
+  ASSERT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
+  expect_contains(read_until(terminal, "[y/N] "), "Pull string 1 of sim");
+  ASSERT_EQ(write(terminal, "n\n", 2), 2);
+  expect_contains(read_until(terminal, "nothing was pulled"), "nothing was pulled");
+  read_until(terminal, "its end");
+  int status = 0;
+  ASSERT_EQ(waitpid(process, &status, 0), process);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  close(terminal);
 }
 
 /// A terminal obeys control characters, whoever has printed them.
