@@ -87,11 +87,12 @@ constexpr const char* kHelp =
     R"(usage: spidar-feel [PROPERTY=VALUE... --] FILM...
        spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
        spidar-feel [PROPERTY=VALUE...] --follow [NAME]
+       spidar-feel --properties
 
 Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
 what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
-felt is shown. PROPERTY is one of spidarmotion: gst-inspect-1.0 spidarmotion lists them.
-preset=NAME stands for those of a preset: paper, film or gentle.
+felt is shown. PROPERTY is one of spidarmotion: --properties lists them, and gst-inspect-1.0 spidarmotion
+explains them. preset=NAME stands for those of a preset: paper, film or gentle.
 
   --follow [NAME]  feel the film that another player plays: VLC, mpv with its package mpv-mpris, or any
                    that tells over the session bus (MPRIS) where it is. NAME is what it is called there;
@@ -229,6 +230,36 @@ void check(const std::vector<std::string>& properties) {
   }
 }
 
+/// NAME={VALUE,…} for each property with a choice of values, else NAME=.
+void list_properties() {
+  const auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
+  if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
+  guint count = 0;
+  GParamSpec** const all =
+      g_object_class_list_properties(G_OBJECT_GET_CLASS(element.get()), &count);
+  for (guint i = 0; i < count; ++i) {
+    const GParamSpec* const property = all[i];
+    const bool is_own = property->owner_type == G_OBJECT_TYPE(element.get());
+    if (!is_own || (property->flags & G_PARAM_WRITABLE) == 0) continue;
+    std::string values;
+    if (G_IS_PARAM_SPEC_BOOLEAN(property)) values = "true,false";
+    if (G_IS_PARAM_SPEC_ENUM(property)) {
+      const GEnumClass* const kinds = G_PARAM_SPEC_ENUM(property)->enum_class;
+      for (guint k = 0; k < kinds->n_values; ++k) {
+        values += (k == 0 ? "" : ",") + std::string(kinds->values[k].value_nick);
+      }
+    }
+    if (!values.empty()) values = "{" + values + "}";
+    std::printf("%s=%s\n", property->name, values.c_str());
+  }
+  g_free(all);
+  gchar** const presets = gst_preset_get_preset_names(GST_PRESET(element.get()));
+  gchar* const names = g_strjoinv(",", presets);
+  std::printf("preset={%s}\n", names);
+  g_free(names);
+  g_strfreev(presets);
+}
+
 void set_environment(const std::vector<std::string>& properties) {
   std::string lines;
   for (const std::string& property : properties) lines += property + "\n";
@@ -318,6 +349,11 @@ void warn_of_nothing_felt(const Options& options) {
 
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
+  if (argc == 2 && std::strcmp(argv[1], "--properties") == 0) {
+    find_plugins();
+    list_properties();
+    return spidar::tools::status_after_printing("spidar-feel", 0);
+  }
   Options options = parse(argc, argv);
   if (device_of(options).empty()) {
     options.properties.insert(options.properties.begin(), "device=auto");

@@ -2,8 +2,10 @@
 # Copyright 2026 the gst-spidar authors
 """What bash completes after the programs, from their --help."""
 import os
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 SCRIPT = sys.argv.pop(1)
@@ -29,11 +31,25 @@ class Completion(unittest.TestCase):
 
     def test_options_of_the_command(self):
         self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "convert", "--to"), ["--tolerance"])
-        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "info", "a.flac", "--"), ["--help", "--json"])
+        self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "info", "a.flac", "--"), ["--folder", "--help", "--json"])
         self.assertEqual(completed(PROGRAMS["SPIDAR_FEEL"], "--f"), ["--follow"])
 
     def test_values_of_an_option(self):
         self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "convert", "--axis", "f"), ["fx", "fy", "fz"])
+
+    def test_properties(self):
+        feel = PROGRAMS["SPIDAR_FEEL"]
+        self.assertEqual(completed(feel, "max-f"), ["max-force="])
+        self.assertEqual(completed(feel, "max-force", "=", "2", "contr"), ["controller="])
+        self.assertEqual(completed(feel, "controller", "=", "a"), ["adaptive"])
+        self.assertEqual(completed(feel, "debug-window", "="), ["true", "false"])
+        self.assertIn("preset=gentle", completed(feel, "preset=g"))  # as zsh divides words
+        with tempfile.TemporaryDirectory() as folder:
+            before = os.getcwd()
+            os.chdir(folder)
+            self.addCleanup(os.chdir, before)
+            pathlib.Path("max-film.mp4").touch()
+            self.assertEqual(completed(feel, "max-f"), [])  # bash completes the file
 
     def test_devices(self):
         self.assertIn("sim", completed(PROGRAMS["SPIDARCTL"], "monitor", "s"))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# What bash completes after spidarctl, spidartrack and spidar-feel. All words come from their --help, so that there is
-# no second list of them; files are completed where no word fits.
+# What bash completes after spidarctl, spidartrack and spidar-feel. All words come from the programs, so that there is no
+# second list of them; files are completed where no word fits.
 # shellcheck shell=bash
 
 _gst_spidar() {
@@ -9,18 +9,33 @@ _gst_spidar() {
     local command=() help words=""
     if [[ $program != *spidar-feel ]] && ((COMP_CWORD > 1)); then command=("${COMP_WORDS[1]}"); fi
     help=$("$program" "${command[@]}" --help 2>/dev/null)
-    if [[ $word == -* ]]; then
+    # Bash takes the = of NAME=VALUE for a word of its own, zsh does not.
+    local property="" front=""
+    if [[ $before == = ]]; then
+        property=${COMP_WORDS[COMP_CWORD - 2]}
+    elif [[ $word == = ]]; then
+        property=$before word=""
+    elif [[ $word == *=* ]]; then
+        property=${word%%=*} front=$property=
+    fi
+    if [[ $program == *spidar-feel && -n $property ]]; then
+        words=$("$program" --properties 2>/dev/null | sed -nE "s/^$property=\{(.*)\}$/\1/p" | tr , '\n' | sed "s/^/$front/")
+    elif [[ $word == -* ]]; then
         words=$(grep -oE -- '--[a-z][a-z-]*' <<<"$help" | sort -u)
     elif [[ $before == --* ]]; then
         # --axis CHANNEL:{fx,fy,fz}
         words=$(sed -nE "s/^ *(-[a-z],)?$before .*\{(.*)\}.*/\2/p" <<<"$help" | tr , ' ')
-    elif ((COMP_CWORD == 1)); then
+    elif ((COMP_CWORD == 1)) && [[ $program != *spidar-feel ]]; then
         words=$(sed -nE '/^Subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p' <<<"$help")
     elif ((COMP_CWORD == 2)) && grep -q '^  DEVICE ' <<<"$help"; then
         words=$("$program" list --json 2>/dev/null | sed -nE 's/^ *"device": "(.*)",?$/\1/p')
+    elif [[ $program == *spidar-feel && -z $(compgen -f -- "$word") ]]; then
+        words=$("$program" --properties 2>/dev/null | sed 's/=.*/=/')
     fi
     # shellcheck disable=SC2207  # zsh has no mapfile, and no word has a space
     COMPREPLY=($(compgen -W "$words" -- "$word"))
+    # The value follows at once. There is no completion to change where a test calls this.
+    if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2>/dev/null; fi
     # Bash takes what is before a colon for a word of its own.
     if type __ltrimcolon_completions >/dev/null 2>&1; then __ltrimcolon_completions "$word"; fi
 }
