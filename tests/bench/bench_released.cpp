@@ -5,7 +5,7 @@
 // cross-entropy method (Rubinstein 1999) draws generations of grips, and moves the distribution of
 // their parameters towards the worst tenth. Simulated time, so that the results are the same on
 // every machine.
-//   spidar-bench released [GRIPS] [SEED]     100,000 grips
+//   spidar-bench released [GRIPS] [SEED] [CASE]     100,000 grips, or those of one case
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -244,7 +244,7 @@ Searched search(const Profile& profile, const Case& what, int grips, uint64_t se
 int spidar::bench::released(int argc, char** argv) {
   const int grips = argc > 0 ? std::atoi(argv[0]) : 100'000;
   const uint64_t seed = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
-  if (grips <= 0) throw std::invalid_argument("usage: spidar-bench released [GRIPS] [SEED]");
+  if (grips <= 0) throw std::invalid_argument("usage: spidar-bench released [GRIPS] [SEED] [CASE]");
   const std::vector<std::string> names = list_profiles();
   std::vector<Profile> profiles;
   for (const std::string& name : names) profiles.push_back(load_profile(name));
@@ -252,6 +252,7 @@ int spidar::bench::released(int argc, char** argv) {
   std::printf("%zu profiles, %d grips in each case, seed %llu\n", profiles.size(), each,
               static_cast<unsigned long long>(seed));
   for (const Case& what : kCases) {
+    if (argc > 2 && std::string(what.name) != argv[2]) continue;
     const auto threads = std::max<size_t>(1, std::thread::hardware_concurrency());
     std::vector<std::future<std::vector<Searched>>> parts;
     for (size_t part = 0; part < threads; ++part) {

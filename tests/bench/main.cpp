@@ -31,7 +31,7 @@ const Benchmark kBenchmarks[] = {
 #endif
     {"regression", regression, "                a figure a topic; regression.py compares them"},
     {"released", released,
-     "[GRIPS] [SEED]  grips that are let go of: the worst that a search finds"},
+     "[GRIPS] [SEED] [CASE]  the worst that a search finds of grips that are let go of"},
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
     {"tension", tension,
