@@ -21,10 +21,13 @@ constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any 
 // --- Fading and damping
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it; 0.59: 1.006 m/s
 constexpr double kFadeTo_m_s = 1.0;      // no force along it: kReleased_J of 100 g
+constexpr double kNoRise_m_s = 0.55;     // 0.5: a hand of 300 N/m notices it
 constexpr double kHeavyFrom_m_s = 0.45;  // no film of 3 N moves a hand of 300 N/m faster
 constexpr double kHeavyTo_m_s = 0.57;    // kReleased_J of 300 g, 0.577
 constexpr double kLightWork_J = 0.012;   // 0.008: a hand of 300 N/m notices it, at 2 Hz
 constexpr double kHeavyWork_J = 0.026;   // half of kReleased_J, for lags and the return
+constexpr double kLightSwing_J = 0.016;  // stored in a hand of 300 N/m that 3 N push: 15 mJ, …
+constexpr double kHeavySwing_J = 0.03;   // … and that throw 300 g: with the reversed film, 70 mJ
 constexpr double kSpeedError_m_s = 0.1;  // by lag and noise: 0.2: a hand of 300 N/m notices it
 constexpr double kDamping_1_s = 150;     // by the mass: stable up to π/2 / delay, 157 for 10 ms
 constexpr double kEarlier_m_s = 0.3;     // by so much for a grip that has stored energy: else 1.09

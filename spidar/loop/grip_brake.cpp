@@ -95,7 +95,7 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
     gone_m_.setZero();
     pulled_N_.setZero();
     film_N_.setZero();
-    withstood_s_ = loose_s_ = 0;
+    withstood_s_ = loose_s_ = swung_J_ = 0;
     located_ = true;
   }
   const double fraction = fraction_passed(dt_s, kYieldTime_s);
@@ -106,6 +106,8 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
   balanced_ = is_balanced(way_m);
   loose_s_ = has_yielded() || thrown || balanced_ ? kStored_s : loose_s_ - dt_s;
   film_N_ += fraction * (strings_N_ - rest_N_ - film_N_);
+  swung_J_ =
+      std::max(0.5 * film_N_.dot(gone_m_), (1 - fraction_passed(dt_s, kStored_s)) * swung_J_);
   // Not by all that pulls: where the strings at rest balance the film, that is nothing.
   const double force_N = film_N_.norm();
   if (force_N < kFirmForce_N) return;
@@ -168,7 +170,9 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
 /// rest have stored on its way back: a film may add what is left of kReleased_J.
 FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy =
-      std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0);
+      std::clamp(std::max((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J),
+                          (swung_J_ - kLightSwing_J) / (kHeavySwing_J - kLightSwing_J)),
+                 0.0, 1.0);
   const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
   // What moves faster than the strings have thrown the lightest grip, a hand moves.
   const double least_m_s = std::max(speed_m_s - kSpeedError_m_s, 1e-3);
@@ -201,13 +205,22 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   left_ = {faded(fraction_ * wanted.force_N, then_.linear_m_s, 1, band_),
            left_at(then_.linear_m_s.norm(), band_) *
                faded(fraction_ * wanted.torque_Nm, then_.angular_rad_s, radius_m_, band_)};
+  if (then_.linear_m_s.norm() > kNoRise_m_s) {
+    left_.force_N = without_excess(left_.force_N, not_risen_N(), then_.linear_m_s);
+  }
   return left_;
+}
+
+/// What the film's part of the strings has at most, so that a force along the motion does not rise.
+Eigen::Vector3d GripBrake::not_risen_N() const noexcept {
+  const Eigen::Vector3d film_N = strings_N_ - rest_N_;
+  return film_N.dot(then_.linear_m_s) > 0 ? film_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 bool GripBrake::acts() const noexcept {
   const double speed_m_s =
       std::max(then_.linear_m_s.norm(), radius_m_ * then_.angular_rad_s.norm());
-  return resting_s_ > 0 || left_at(speed_m_s, band_) < 1;
+  return resting_s_ > 0 || then_.linear_m_s.norm() > kNoRise_m_s || left_at(speed_m_s, band_) < 1;
 }
 
 Wrench GripBrake::cut(const Wrench& slewed, bool fresh) const noexcept {

@@ -22,8 +22,10 @@ struct FadeBand {
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
 ///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
 ///   fades out, because the damper needs the strings. Both speeds are lower for a grip to which the
-///   strings have given more energy than a light one has at them: it is heavy, or in a hand. They
-///   are those of the time at which the force acts, foreseen by the present acceleration.
+///   strings have given more energy than a light one has at them: it is heavy, or in a hand; and
+///   for one in a hand that swings back after a film has bent it. They are those of the time at
+///   which the force acts, foreseen by the present acceleration. Above kNoRise_m_s, a force along
+///   the velocity does not rise.
 /// - A damper acts above the lower speed. Its damping follows the mass, which is twice that energy
 ///   by the square of the speed. There is none while the strings have given less than the lightest
 ///   grip has at its speed: then a hand moves it, and is not to feel it.
@@ -86,6 +88,7 @@ class GripBrake {
 
  private:
   FadeBand band_at(double speed_m_s) const noexcept;
+  Eigen::Vector3d not_risen_N() const noexcept;
   bool is_released(const GripMotion& motion) const noexcept;
   bool is_withstood() const noexcept;
   bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
@@ -114,7 +117,8 @@ class GripBrake {
   Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();  ///< by all tensions, …
   Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();    ///< … by those above the rest's
   double stored_J_ = 0;                                 ///< what the strings at rest give back
-  double work_J_ = 0;  ///< what the strings have given the grip since it was last at rest
+  double swung_J_ = 0;  ///< what a hand that gave way to the film gives back, fading
+  double work_J_ = 0;   ///< what the strings have given the grip since it was last at rest
   // Of the last apply().
   GripVelocity then_;  ///< when its force will act
   FadeBand band_;

@@ -38,7 +38,15 @@ struct Push {
   Eigen::Vector3d towards = Eigen::Vector3d::UnitX();
   double rate_Hz = 0;
   int held_ms = 0;
-  double times_limit = 1;  ///< what the film wants
+  double times_limit = 1;      ///< what the film wants
+  double duty = 0, phase = 0;  ///< of a square wave; 0: a cosine
+  double torque_Nm = 0;        ///< about the same axis
+
+  double wave(double time_s) const {
+    const double turns = rate_Hz * time_s + phase;
+    if (duty > 0) return turns - std::floor(turns) < duty ? 1 : -1;
+    return std::cos(2 * M_PI * turns);
+  }
 };
 
 Push random_push(double force_N, RandomMotion& random) {
@@ -53,7 +61,7 @@ Push random_push(double force_N, RandomMotion& random) {
 /// The largest speed after a hand has let go.
 double thrown_m_s(const Profile& profile, const GripModel& hand, const Push& push) {
   constexpr int kReleased_ms = 2200;  // the force rests for a second, and returns within another
-  constexpr int64_t kFrame_ns = 20 * kTick_ns;
+  constexpr int64_t kFrame_ns = 4 * kTick_ns;
 
   LetGoDevice device(profile, hand, released(profile, hand.mass_kg));
   SafetyLimits limits;
@@ -71,10 +79,11 @@ double thrown_m_s(const Profile& profile, const GripModel& hand, const Push& pus
   loop->set_playback_clock({now_ns, 0, 1, true});
   double fastest_m_s = 0;
   for (int ms = 0; ms < push.held_ms + kReleased_ms; ++ms) {
-    for (; next_ns <= now_ns - begun_ns + kFrame_ns; next_ns += kFrame_ns) {
-      const double wave = std::cos(2 * M_PI * push.rate_Hz * 1e-9 * static_cast<double>(next_ns));
-      const double wanted_N = push.times_limit * push.force_N * wave;
-      loop->schedule({next_ns, 2 * kFrame_ns, {wanted_N * push.towards, {0, 0, 0}}});
+    for (; next_ns <= now_ns - begun_ns + 20 * kTick_ns; next_ns += kFrame_ns) {
+      const double wave = push.times_limit * push.wave(1e-9 * static_cast<double>(next_ns));
+      loop->schedule({next_ns,
+                      2 * kFrame_ns,
+                      {wave * push.force_N * push.towards, wave * push.torque_Nm * push.towards}});
     }
     if (ms == push.held_ms) device.let_go();
     tick();
@@ -140,6 +149,33 @@ TEST(LetGo, WhatTheStringsAtRestStoreCounts) {
     const double speed_m_s = thrown_m_s(profile, hand, grip.push);
     EXPECT_LE(0.5 * grip.mass_kg * speed_m_s * speed_m_s, kReleased_J)
         << grip.profile << ", " << grip.push.force_N << " N, " << grip.mass_kg << " kg";
+  }
+}
+
+// A film bends a hand, turns round, and the hand lets go as it swings back, with 37 to 48 mJ that
+// are its own. The force of the film rose along the motion, and made them 64 and 66.
+TEST(LetGo, AForceDoesNotRiseAlongTheSwingOfAHand) {
+  const struct {
+    const char* profile;
+    double mass_kg, stiffness_N_m;
+    Push push;
+  } grips[] = {
+      {"spidar-g645", 0.272, 548, {9.9, {-0.09, 0.06, 0.99}, 0.84, 200, 1, 0.42, 0.925, 0.07}},
+      {"spidar-g6x3-v1-r", 0.284, 772, {10.2, {-0.68, 0.66, 0.33}, 3.88, 1108, 1, 0.63, 0.863, 0}},
+  };
+  for (const auto& grip : grips) {
+    const Profile profile = load_profile(grip.profile);
+    const GripModel hand = held(profile, grip.mass_kg, grip.stiffness_N_m);
+    double most_J = 0;
+    // The moment counts: the worst of a swing.
+    for (int ms = -60; ms <= 60; ms += 5) {
+      Push push = grip.push;
+      push.held_ms += ms;
+      const double speed_m_s = thrown_m_s(profile, hand, push);
+      most_J = std::max(most_J, 0.5 * grip.mass_kg * speed_m_s * speed_m_s);
+    }
+    std::printf("%s: %.1f mJ\n", grip.profile, 1e3 * most_J);
+    EXPECT_LE(most_J, kReleased_J) << grip.profile;
   }
 }
 
