@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "core/default_limits.h"
+
 namespace spidar {
 
 /// How a force follows from a speed.
@@ -12,7 +14,7 @@ enum class ControlLaw { kLinear, kNonlinear, kAdaptive };
 
 struct ControllerSettings {
   ControlLaw law = ControlLaw::kNonlinear;
-  double max_force_N = 3.0;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
+  double max_force_N = kDefaultForce_N;  ///< Fmax of eq. 12 and 15, finite and ≥ 0
   /// α of eq. 15, per px/s of the reference frame, finite and ≥ 0. The default was chosen on 50
   /// clips (docs/feeling.md, What can be told apart).
   double alpha_s_px = 0.0025;

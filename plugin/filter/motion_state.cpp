@@ -41,7 +41,8 @@ std::string MotionState::open(const MotionProperties& properties) {
            "each frame asks for";
   }
   const std::string trace_error =
-      output.open(properties.device, properties.profile, properties.haptic_trace);
+      output.open(properties.device, properties.profile, properties.analyzer.controller.max_force_N,
+                  properties.haptic_trace);
   HapticLoop* const loop = &output.session()->loop();
   schedule.connect(loop);
   track_samples.connect(loop);

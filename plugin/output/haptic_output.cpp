@@ -139,15 +139,15 @@ void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
 }
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
-                               const std::string& haptic_trace) {
+                               double max_force_N, const std::string& haptic_trace) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     chosen_.clear();
   }
-  if (device != kAutoDevice) return open_named(device, profile_name, haptic_trace);
+  if (device != kAutoDevice) return open_named(device, profile_name, max_force_N, haptic_trace);
   std::string refused;
   const auto choose = [&](const AutoDevice& found, const std::string& profile) {
-    const std::string trace_error = open_named(found.device, profile, haptic_trace);
+    const std::string trace_error = open_named(found.device, profile, max_force_N, haptic_trace);
     const std::lock_guard<std::mutex> lock(mutex_);
     chosen_ = found.why + " (device=auto)" + refused;
     return trace_error;
@@ -170,7 +170,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
 }
 
 std::string HapticOutput::open_named(const std::string& device, const std::string& profile_name,
-                                     const std::string& haptic_trace) {
+                                     double max_force_N, const std::string& haptic_trace) {
   Profile profile = profile_for(device, profile_name);
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
@@ -198,14 +198,12 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
         refreshed_();
       },
       now_ ? now_ : monotonic_now, now_user_, settings.threaded);
-  double max_force_N = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const Grip& grip = session->grip();
-    most_force_N_ = std::max(kAnyForce_N, grip.abilities().largest_force_N);
+    most_force_N_ = std::max(kDefaultForce_N, grip.abilities().largest_force_N);
     most_force_of_ = grip.traits().has_strings ? profile.name : device;
     said_too_much_ = false;
-    max_force_N = limits_.max_force_N;
     profile_ = profile;
     profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
     reservation_ = std::move(reservation);
@@ -233,9 +231,8 @@ void HapticOutput::set_max_force(double max_force_N) {
   double most_N = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    limits_.max_force_N = max_force_N;
     if (!session_) return;
-    SafetyLimits limits = limits_;
+    SafetyLimits limits;
     limits.max_force_N = std::min(max_force_N, most_force_N_);
     session_->loop().set_limits(limits);
     if (!(max_force_N > most_force_N_) || said_too_much_) return;

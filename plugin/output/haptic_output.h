@@ -36,8 +36,8 @@ class HapticOutput {
   /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the one that
   /// the device has without. Throws ProfileError, DeviceError, std::runtime_error, and NoProfile
   /// for a board without one, whose motors may get no force; then it stays closed. Empty, or why
-  /// the haptic trace cannot be written: the device works without it.
-  std::string open(const std::string& device, const std::string& profile,
+  /// the haptic trace cannot be written: the device works without it. See set_max_force().
+  std::string open(const std::string& device, const std::string& profile, double max_force_N,
                    const std::string& haptic_trace);
   /// Which device "auto" became, and why; empty when another one was asked for. State changes.
   const std::string& chosen() const { return chosen_; }
@@ -46,8 +46,8 @@ class HapticOutput {
 
   /// Where playback is.
   PlaybackFollower& follower() { return follower_; }
-  /// Holds with the next tick of the haptic loop. No more than the device can give in every
-  /// direction, which is reported once for each device that is opened.
+  /// Of the device that is open, from the next tick of the haptic loop on. No more than the device
+  /// can give in every direction, which is reported once for each device that is opened.
   void set_max_force(double max_force_N);
 
   /// Null while closed. Opened and closed by state changes only.
@@ -67,7 +67,7 @@ class HapticOutput {
   void describe(GstStructure* structure) const;
 
  private:
-  std::string open_named(const std::string& device, const std::string& profile,
+  std::string open_named(const std::string& device, const std::string& profile, double max_force_N,
                          const std::string& haptic_trace);
 
   GstElement* const element_;
@@ -80,7 +80,6 @@ class HapticOutput {
   SimulatedDevice* simulated_ = nullptr;  ///< of the session, if it is one
   Profile profile_;
   std::string chosen_;
-  SafetyLimits limits_;        ///< as they were set
   double most_force_N_ = 0;    ///< that the device can give
   std::string most_force_of_;  ///< the profile that this is of, or the device
   bool said_too_much_ = false;

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "core/default_limits.h"
 #include "plugin/frame/frame_report.h"
 
 namespace spidar {
@@ -46,9 +47,9 @@ Rgb direction_color(const Eigen::Vector2d& direction, double saturation);
 
 /// Drawing parameters of a scene.
 struct ArrowStyle {
-  double scale = 4;          ///< arrow length / displacement, > 0
-  double height_px = 480;    ///< height of the picture; line widths scale with it
-  double max_force_N = 3.0;  ///< force whose arrow is a fifth of height_px long
+  double scale = 4;                      ///< arrow length / displacement, > 0
+  double height_px = 480;                ///< height of the picture; line widths scale with it
+  double max_force_N = kDefaultForce_N;  ///< force whose arrow is a fifth of height_px long
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the force
   Orientation turn;                                     ///< of what is drawn, before it is shown
 };

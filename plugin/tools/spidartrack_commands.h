@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "core/default_limits.h"
 #include "plugin/films/part_file.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
@@ -22,7 +23,7 @@ struct InfoOptions {
 /// The limits are those of spidarsink by default.
 struct CheckOptions {
   std::string track;
-  double max_force_N = 3, max_torque_Nm = 0.1;
+  double max_force_N = kDefaultForce_N, max_torque_Nm = kDefaultTorque_Nm;
 };
 
 /// ConvertOptions::axis of six funscripts.

@@ -35,6 +35,7 @@
 #include <gst/base/gstbasesink.h>
 #include <gst/gst.h>
 
+#include "core/default_limits.h"
 #include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
 #include "plugin/films/stream_content.h"
@@ -74,7 +75,7 @@ inline GstFlowReturn wait_until(GstBaseSink* sink, GstMiniObject* object, gint64
 struct SinkProperties {
   std::string device = "sim";
   std::string profile;  ///< empty: that of the device's board
-  double max_force_N = 3;
+  double max_force_N = kDefaultForce_N;
   double gain = 1;
   bool mute = false;
   bool post_messages = true;
@@ -366,8 +367,8 @@ static bool open_device(GstSpidarSink* self) {
   SinkState& state = *self->state;
   return state.warnings.open(
       state.output, properties.device, properties.on_device_error, [&state, &properties] {
-        const std::string trace_error =
-            state.output.open(properties.device, properties.profile, properties.haptic_trace);
+        const std::string trace_error = state.output.open(
+            properties.device, properties.profile, properties.max_force_N, properties.haptic_trace);
         state.queue.connect(&state.output.session()->loop());
         return trace_error;
       });

@@ -39,6 +39,9 @@ spidar::MotionKind kind_of(FeltMotion motion) {
   throw std::invalid_argument("there is no such motion");
 }
 
+// Its header is installed and includes none of these.
+static_assert(MotionSettings{}.max_force_N == spidar::kDefaultForce_N);
+
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   spidar::AnalyzerSettings result;
   result.controller.law = law_of(settings.controller);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/default_limits.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
 #include "spidar/device.h"
@@ -42,9 +43,9 @@ constexpr double non_negative(double x) noexcept {
 
 /// A limit that is negative or not a number counts as zero.
 struct SafetyLimits {
-  double max_force_N = 3.0;     ///< of the total force
-  double max_torque_Nm = 0.1;   ///< of the total torque
-  double max_slew_N_s = 300.0;  ///< full default force in 10 ms
+  double max_force_N = kDefaultForce_N;      ///< of the total force
+  double max_torque_Nm = kDefaultTorque_Nm;  ///< of the total torque
+  double max_slew_N_s = 300.0;               ///< full default force in 10 ms
   double max_slew_Nm_s = 10.0;
   double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
 };

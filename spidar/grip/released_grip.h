@@ -25,7 +25,7 @@ constexpr double kNoticed_s = 3e-3;
 /// average, for the lag of the drives: to kReleased_m_s if the grip is one of kLightestGrip_kg.
 /// What any device takes, it takes with slow drives, too: at 3 N and 40 ms, 34 g get 1.4 m/s.
 constexpr double released_force_N(double drive_lag_s) noexcept {
-  return std::max(kAnyForce_N, kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s));
+  return std::max(kDefaultForce_N, kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s));
 }
 
 }  // namespace spidar

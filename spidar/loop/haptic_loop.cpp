@@ -3,6 +3,7 @@
 #include "spidar/loop/haptic_loop.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/force/motion_rendering.h"
@@ -24,23 +25,16 @@ bool has_wanted(const TickRecord& record) noexcept {
   return has_frame(record) || record.contact.has_surface || record.called_back;
 }
 
+/// Whoever sets a limit, a grip that is let go must not be thrown.
+double most_force_N(const GripTraits& traits) noexcept {
+  return traits.can_fly ? released_force_N(traits.drive_lag_s)
+                        : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
-    : grip_(std::move(grip)),
-      shared_limits_(limits),
-      set_limits_(bounded(limits)),
-      limits_(set_limits_),
-      limits_before_(set_limits_) {}
-
-/// Whoever sets a limit, a grip that is let go must not be thrown.
-SafetyLimits HapticLoop::bounded(SafetyLimits limits) const noexcept {
-  const GripTraits& traits = grip_->traits();
-  if (traits.can_fly) {
-    limits.max_force_N = std::min(limits.max_force_N, released_force_N(traits.drive_lag_s));
-  }
-  return limits;
-}
+    : grip_(std::move(grip)), limits_(limits, most_force_N(grip_->traits())) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -73,13 +67,13 @@ bool HapticLoop::reopen() noexcept {
 
 void HapticLoop::refuse(const std::string& reason) {
   const bool again = reason == std::exchange(newest_refusal_, reason);
-  const std::lock_guard<std::mutex> lock(refusal_mutex_);
-  refusal_ = again ? reason : "";
+  Text text{};
+  if (again) reason.copy(text.data(), text.size() - 1);
+  refusal_.store(text);
 }
 
 std::string HapticLoop::refusal() const {
-  const std::lock_guard<std::mutex> lock(refusal_mutex_);
-  return refusal_;
+  return refusal_.load().data();
 }
 
 /// Starts from zero after the grip was opened.
@@ -109,7 +103,7 @@ void HapticLoop::close() noexcept {
   if (state_ == DeviceState::kClosed) return;
   grip_->close();
   state_ = DeviceState::kClosed;
-  LoopSnapshot closed{{}, counters_, limits_};
+  LoopSnapshot closed{{}, counters_, limits_.in_effect()};
   closed.last.motor_heat = grip_->reading().motor_heat;
   closed.last.tick = counters_.ticks;
   closed.last.monotonic_ns = last_now_ns_;
@@ -134,12 +128,15 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
 
   // Keeps the values of the last tick while the writer is updating them.
   shared_clock_.try_load(clock_);
-  if (SafetyLimits limits; shared_limits_.try_load(limits)) set_limits_ = bounded(limits);
   const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
-  follow_limits(dt_s);
+  const bool is_open = state_ != DeviceState::kLost && state_ != DeviceState::kClosed;
+  if (is_open) {
+    limits_.fall(safety_.last(), exerted_, dt_s);
+  } else {
+    limits_.restart();
+  }
   find_wanted(record);
   grip_->pass(1e-9 * static_cast<double>(passed_ns));
-  const bool is_open = state_ != DeviceState::kLost && state_ != DeviceState::kClosed;
   if (is_open) {
     grip_->check_age(now_ns);
     touch(record, passed_ns);
@@ -150,8 +147,8 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;
-  record.max_force_N = limits_.max_force_N;
-  record.max_torque_Nm = limits_.max_torque_Nm;
+  record.max_force_N = limits_.in_effect().max_force_N;
+  record.max_torque_Nm = limits_.in_effect().max_torque_Nm;
   record.device = state_;
   record.held = brake_.held();
   static_cast<GripReport&>(record) = grip_->reading();
@@ -161,14 +158,6 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     record.tension_N.setZero();
   }
   publish(record);
-}
-
-/// A device that was lost or closed starts from zero, within any limit.
-void HapticLoop::follow_limits(double dt_s) noexcept {
-  limits_before_ = limits_;
-  const bool off = state_ == DeviceState::kLost || state_ == DeviceState::kClosed;
-  limits_ = off ? set_limits_
-                : limits_in_effect(set_limits_, limits_before_, safety_.last(), exerted_, dt_s);
 }
 
 void HapticLoop::find_wanted(TickRecord& record) noexcept {
@@ -207,7 +196,8 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   // max-force may be 0, but the contact needs a limit above that; the safety chain then lets
   // nothing through.
   constexpr double kLeast_N = 1e-3;
-  touch_.set_limits(std::max(kLeast_N, limits_.max_force_N), limits_.max_slew_N_s);
+  touch_.set_limits(std::max(kLeast_N, limits_.in_effect().max_force_N),
+                    limits_.in_effect().max_slew_N_s);
   const bool finite = has_frame(record) && record.wanted.is_finite();
   touch_.set_beside(finite ? record.wanted.force_N : Eigen::Vector3d::Zero());
   record.contact = touch_.tick(*mailbox, record.running_ns, grip_->reading().pose.position_m,
@@ -229,7 +219,7 @@ void HapticLoop::ask_callback(TickRecord& record, int64_t passed_ns) noexcept {
   record.wanted =
       record.wanted + callback_.call({grip.pose, grip.motion.velocity(),
                                       1e-9 * static_cast<double>(passed_ns), grip.buttons},
-                                     beside_N, limits_);
+                                     beside_N, limits_.in_effect());
   record.called_back = true;
 }
 
@@ -237,7 +227,7 @@ void HapticLoop::ask_callback(TickRecord& record, int64_t passed_ns) noexcept {
 /// the state of this tick.
 bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
   return has_wanted(record) && grip_->reading().knows_pose() && state_ != DeviceState::kClosing &&
-         (set_limits_.max_force_N > 0 || set_limits_.max_torque_Nm > 0);
+         (limits_.as_set().max_force_N > 0 || limits_.as_set().max_torque_Nm > 0);
 }
 
 void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
@@ -254,22 +244,21 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
   const GripReading& grip = grip_->reading();
   // A fraction of what exceeds a limit might be all that the limit allows.
   const Wrench wanted =
-      record.wanted.is_finite() ? limit_total(record.wanted, set_limits_) : record.wanted;
+      record.wanted.is_finite() ? limit_total(record.wanted, limits_.as_set()) : record.wanted;
   const Wrench allowed = vibration_.fraction() * wanted;
   const bool fresh = is_fresh(record), can_fly = grip_->traits().can_fly;
   const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
-  record.commanded = safety_.apply(left, fresh, dt_s, set_limits_);
+  // Both fall by the same steps, but for rounding.
+  record.commanded =
+      limit_total(safety_.apply(left, fresh, dt_s, limits_.as_set()), limits_.in_effect());
   record.brakes = can_fly && brake_.acts();
   if (record.brakes) {
     Wrench cut = brake_.cut(record.commanded, fresh);
     // What is across the motion and what is against it may be too much together.
-    if (fresh) cut = limit_total(cut, limits_);
+    if (fresh) cut = limit_total(cut, limits_.in_effect());
     safety_.continue_from(cut);
-    record.commanded = fresh ? limit_total(cut + brake_.damper(), limits_) : cut;
+    record.commanded = fresh ? limit_total(cut + brake_.damper(), limits_.in_effect()) : cut;
   }
-  // A force that turns aside falls by less than its step.
-  limits_.max_force_N = std::max(limits_.max_force_N, record.commanded.force_N.norm());
-  limits_.max_torque_Nm = std::max(limits_.max_torque_Nm, record.commanded.torque_Nm.norm());
   counters_.rejected_wrenches = safety_.rejected();
 }
 
@@ -278,7 +267,7 @@ void HapticLoop::exchange(TickRecord& record, double dt_s, int64_t passed_ns) no
   command.wrench = record.commanded;
   command.fresh = is_fresh(record);
   command.power = power_;
-  command.limits = limits_;
+  command.limits = limits_.in_effect();
   command.brakes = record.brakes;
   command.dt_s = dt_s;
   command.now_ns = record.monotonic_ns;
@@ -315,7 +304,7 @@ void HapticLoop::follow(int64_t passed_ns) noexcept {
 /// The grip may not have received this tick, so the next one starts from the last acknowledged one.
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
-  limits_ = limits_before_;
+  limits_.undo();
   record.commanded = safety_.last();
   record.acknowledged = false;
   power_ = acknowledged_power_;
@@ -324,7 +313,7 @@ void HapticLoop::undo(TickRecord& record) noexcept {
 void HapticLoop::publish(const TickRecord& record) noexcept {
   records_.push(record);
   forces_.push({record.monotonic_ns, record.wanted.force_N, record.delivered.force_N});
-  LoopSnapshot snapshot{record, counters_, limits_};
+  LoopSnapshot snapshot{record, counters_, limits_.in_effect()};
   snapshot.untrusted_ns = untrusted_ns_;
   snapshot.unfelt_ns = unfelt_ns_;
   snapshot.vibration = vibration_.state();

@@ -3,15 +3,16 @@
 /// The 1 ms cycle: time → wrench → vibration budget → brake → limits → grip → pose.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "spidar/grip/grip.h"
+#include "spidar/loop/force_limits.h"
 #include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"
 #include "spidar/loop/loop_time.h"
@@ -102,7 +103,7 @@ class HapticLoop {
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
   /// One caller at a time. From the next tick on, the force approaches another total limit at the
   /// slew limit. No more than released_force_N() is given to a grip that can fly.
-  void set_limits(const SafetyLimits& limits) noexcept { shared_limits_.store(limits); }
+  void set_limits(const SafetyLimits& limits) noexcept { limits_.set(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
 
@@ -156,8 +157,6 @@ class HapticLoop {
   void energise() noexcept;
   void lose() noexcept;
   void refuse(const std::string& reason);
-  SafetyLimits bounded(SafetyLimits limits) const noexcept;
-  void follow_limits(double dt_s) noexcept;
   void find_wanted(TickRecord& record) noexcept;
   void count_gap(const TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
@@ -178,14 +177,13 @@ class HapticLoop {
   std::atomic<touch::Mailbox*> touch_mailbox_{nullptr};
   WrenchCallback callback_;
   Seqlock<PlaybackClock> shared_clock_;
-  Seqlock<SafetyLimits> shared_limits_;
+  ForceLimits limits_;
   Seqlock<LoopSnapshot> snapshot_;
+  using Text = std::array<char, 512>;
+  Seqlock<Text> refusal_{Text{}};  ///< ends with zeros
   // Loop thread only.
   PlaybackClock clock_;
-  SafetyLimits set_limits_;     ///< bounded() of those that were set
-  SafetyLimits limits_;         ///< in effect, see limits_in_effect()
-  SafetyLimits limits_before_;  ///< in effect before this tick
-  Wrench exerted_;              ///< delivered by the last acknowledged command
+  Wrench exerted_;  ///< delivered by the last acknowledged command
   touch::Rendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};
@@ -202,9 +200,7 @@ class HapticLoop {
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;
   LoopCounters counters_;
-  std::string newest_refusal_;        ///< of the latest reopen()
-  mutable std::mutex refusal_mutex_;  ///< locked only while the device is lost
-  std::string refusal_;
+  std::string newest_refusal_;  ///< of the latest reopen()
 };
 
 }  // namespace spidar

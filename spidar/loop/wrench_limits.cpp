@@ -38,34 +38,21 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
           shorten(wanted.torque_Nm, non_negative(limits.max_torque_Nm))};
 }
 
-namespace {
-
-double limit_in_effect(double set, double before, double exerted, double step) {
-  return std::max(non_negative(set), std::min(before, exerted) - step);
-}
-
-}  // namespace
-
-SafetyLimits limits_in_effect(const SafetyLimits& set, const SafetyLimits& before,
-                              const Wrench& commanded, const Wrench& delivered,
-                              double dt_s) noexcept {
-  SafetyLimits limits = set;
-  limits.max_force_N = limit_in_effect(set.max_force_N, before.max_force_N,
-                                       std::max(commanded.force_N.norm(), delivered.force_N.norm()),
-                                       non_negative(set.max_slew_N_s * dt_s));
-  limits.max_torque_Nm =
-      limit_in_effect(set.max_torque_Nm, before.max_torque_Nm,
-                      std::max(commanded.torque_Nm.norm(), delivered.torque_Nm.norm()),
-                      non_negative(set.max_slew_Nm_s * dt_s));
-  return limits;
-}
-
 // The total limits are balls: on a straight line to a point within them, the distance to them never
 // grows, and what is within them stays there.
 Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept {
-  last_.force_N = approach(last_.force_N, wanted.force_N, non_negative(limits.max_slew_N_s * dt_s));
-  last_.torque_Nm =
-      approach(last_.torque_Nm, wanted.torque_Nm, non_negative(limits.max_slew_Nm_s * dt_s));
+  const auto step = [dt_s](Eigen::Vector3d& last, const Eigen::Vector3d& to, double max,
+                           double max_slew) {
+    double left = non_negative(max_slew * dt_s);
+    const double above = last.norm() - non_negative(max);
+    if (above > 0) {
+      last = shorten(last, last.norm() - std::min(above, left));
+      left = std::max(0.0, left - above);
+    }
+    last = approach(last, to, left);
+  };
+  step(last_.force_N, wanted.force_N, limits.max_force_N, limits.max_slew_N_s);
+  step(last_.torque_Nm, wanted.torque_Nm, limits.max_torque_Nm, limits.max_slew_Nm_s);
   return last_;
 }
 

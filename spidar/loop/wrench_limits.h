@@ -30,17 +30,9 @@ class FiniteCheck {
 /// not finite becomes zero.
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
-/// The total limits in effect when `set` is wanted and `before` was in effect `dt_s` ago. A limit
-/// that is raised takes effect at once; the force approaches it at the slew limit. A limit that is
-/// lowered falls at the slew limit from what the hand gets, which is the larger one of `commanded`
-/// and `delivered`, until it is as low as wanted. It does not stop at what the strings exert at
-/// rest, which is a part of `delivered` that no limit lowers.
-SafetyLimits limits_in_effect(const SafetyLimits& set, const SafetyLimits& before,
-                              const Wrench& commanded, const Wrench& delivered,
-                              double dt_s) noexcept;
-
-/// Bounds the change of force and torque per second. A result that exceeds the total limits because
-/// they were lowered comes closer to them in each step, if `wanted` is within them.
+/// Bounds the change of force and torque per second. What exceeds the total limits, because they
+/// were lowered, comes straight down to them before it turns to what is wanted: on a way aside, it
+/// would fall by less than each step.
 class SlewLimit {
  public:
   /// Returns the next wrench, `dt_s` after the last one. There is no step towards `wanted` if it is

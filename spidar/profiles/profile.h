@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/default_limits.h"
 #include "core/grip/string_geometry.h"
 
 namespace spidar {
@@ -124,10 +125,6 @@ std::vector<std::string> list_profiles();
 /// Default profile: the desktop SPIDAR-G most common in public sources.
 inline constexpr const char* kDefaultProfile = "spidar-gcc";
 
-/// Every device takes limits of so much, the defaults, even if it cannot give that.
-constexpr double kAnyForce_N = 3;
-constexpr double kAnyTorque_Nm = 0.1;
-
 /// How far the sum of these pulls, each from none to full, reaches in its weakest direction. What
 /// they reach is a sum of segments, whose nearest face is parallel to two of them. −1 when they all
 /// lie in one line.
@@ -148,17 +145,17 @@ inline double least_reach(const Eigen::Matrix<double, 3, kMaxStrings>& pulls, in
 }
 
 /// The upper bound of a force limit: the force that the strings can give at the centre in every
-/// direction, and no less than kAnyForce_N.
+/// direction, and no less than kDefaultForce_N.
 inline double largest_force_N(const Profile& profile) {
-  return std::max(kAnyForce_N, least_reach(structure_matrix(profile.geometry, {}).topRows<3>() *
-                                               profile.max_tension_N().asDiagonal(),
-                                           profile.geometry.count));
+  return std::max(kDefaultForce_N, least_reach(structure_matrix(profile.geometry, {}).topRows<3>() *
+                                                   profile.max_tension_N().asDiagonal(),
+                                               profile.geometry.count));
 }
 
 /// Largest torque limit: the torque that the strings can give at the centre about every axis, and
-/// no less than kAnyTorque_Nm.
+/// no less than kDefaultTorque_Nm.
 inline double largest_torque_Nm(const Profile& profile) {
-  return std::max(kAnyTorque_Nm,
+  return std::max(kDefaultTorque_Nm,
                   least_reach(structure_matrix(profile.geometry, {}).bottomRows<3>() *
                                   profile.max_tension_N().asDiagonal(),
                               profile.geometry.count));

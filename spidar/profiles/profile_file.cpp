@@ -168,7 +168,7 @@ constexpr double kMaxTension_N = 100;
 // What pulls less moves no grip.
 constexpr double kMinTension_N = 0.1;
 // No limit bounds what the strings exert at rest: off the centre about the pull of one of them.
-constexpr double kMaxRest_N = kAnyForce_N;
+constexpr double kMaxRest_N = kDefaultForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
 constexpr double kMinHeating_s = 1;
 constexpr double kMaxHeating_s = 120;

@@ -11,13 +11,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/default_limits.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::ff {
 
 /// The force for full level. Devices do not report their strength; this is the default of the
 /// element's max-force, so that the whole range is used.
-constexpr double kFullForce_N = 3.0;
+constexpr double kFullForce_N = kDefaultForce_N;
 constexpr int kFullLevel = 0x7FFF;
 constexpr int kFullStrength = 0xFFFF;
 constexpr int kFullGain = 0xFFFF;

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include "core/default_limits.h"
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::sound {
@@ -27,7 +28,7 @@ constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
 /// (kSilence_ms).
 constexpr int kSilence_ms = 50;
 /// The force for full level, as for sticks: amplifiers do not report how strong they are.
-constexpr double kFullForce_N = 3.0;
+constexpr double kFullForce_N = kDefaultForce_N;
 /// What bass shakers and voice coils can do, and a hand or a back feels as one vibration.
 constexpr int kLowest_Hz = 20, kHighest_Hz = 120;
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
+#include "spidar/loop/force_limits.h"
 #include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test::safety_test {
@@ -76,31 +77,68 @@ TEST(SlewLimit, ChangesByNoMoreThanTheLimit) {
   EXPECT_NEAR(slew.apply(force(-3, 0, 0), kTick_s, {}).force_N.x(), 2.7, 1e-12);
 }
 
-TEST(LimitsInEffect, FallFromWhatTheHandGets) {
+constexpr double kNoMost = std::numeric_limits<double>::infinity();
+
+TEST(ForceLimits, FallFromWhatTheHandGets) {
   SafetyLimits low;
   low.max_force_N = 1;
   low.max_torque_Nm = 0;
   const Wrench commanded{{0, 1.5, 0}, {0.03, 0, 0}}, delivered{{2.5, 0, 0}, {0, 0.02, 0}};
-  const SafetyLimits falling = limits_in_effect(low, {}, commanded, delivered, kTick_s);
-  EXPECT_NEAR(falling.max_force_N, 2.2, 1e-12) << "from the delivered force, not from the limit";
-  EXPECT_NEAR(falling.max_torque_Nm, 0.02, 1e-12) << "from the commanded torque";
-  EXPECT_EQ(limits_in_effect(low, low, commanded, 10 * delivered, kTick_s).max_force_N, 1)
-      << "a force above its limit raises no limit";
-  EXPECT_EQ(limits_in_effect({}, low, commanded, delivered, kTick_s).max_force_N, 3)
-      << "a raised limit takes effect at once";
+  ForceLimits limits({}, kNoMost);
+  limits.set(low);
+  limits.fall(commanded, delivered, kTick_s);
+  EXPECT_NEAR(limits.in_effect().max_force_N, 2.2, 1e-12) << "from the force, not from the limit";
+  EXPECT_NEAR(limits.in_effect().max_torque_Nm, 0.02, 1e-12) << "from the commanded torque";
+  EXPECT_EQ(limits.as_set().max_force_N, 1);
+  limits.undo();
+  EXPECT_EQ(limits.in_effect().max_force_N, 3) << "the device did not receive the tick";
+  limits.set({});
+  limits.fall(commanded, delivered, kTick_s);
+  EXPECT_EQ(limits.in_effect().max_force_N, 3) << "a raised limit takes effect at once";
+  limits.set(low);
+  limits.restart();
+  EXPECT_EQ(limits.in_effect().max_force_N, 1) << "nothing pulls";
+  limits.fall(commanded, 10 * delivered, kTick_s);
+  EXPECT_EQ(limits.in_effect().max_force_N, 1) << "a force above its limit raises no limit";
   low.max_force_N = kNaN;
-  EXPECT_EQ(limits_in_effect(low, low, {}, {}, kTick_s).max_force_N, 0);
+  limits.set(low);
+  for (int i = 0; i < 100; ++i) limits.fall({}, {}, kTick_s);
+  EXPECT_EQ(limits.in_effect().max_force_N, 0);
+  low.max_force_N = 100;
+  ForceLimits bounded(low, 10);
+  EXPECT_EQ(bounded.in_effect().max_force_N, 10);
 }
 
 // Away from the centre the strings at rest pull, and that stays.
-TEST(LimitsInEffect, EndAtWhatWasSetWhateverTheStringsExertAtRest) {
-  SafetyLimits low, now;
+TEST(ForceLimits, EndAtWhatWasSetWhateverTheStringsExertAtRest) {
+  SafetyLimits low;
   low.max_force_N = 0.1;
   low.max_torque_Nm = 0.001;
+  ForceLimits limits({}, kNoMost);
+  limits.set(low);
   const Wrench at_rest{{0, 0.5, 0}, {0.02, 0, 0}};
-  for (int i = 0; i < 10; ++i) now = limits_in_effect(low, now, {}, at_rest, kTick_s);
-  EXPECT_EQ(now.max_force_N, 0.1);
-  EXPECT_EQ(now.max_torque_Nm, 0.001);
+  for (int i = 0; i < 10; ++i) limits.fall({}, at_rest, kTick_s);
+  EXPECT_EQ(limits.in_effect().max_force_N, 0.1);
+  EXPECT_EQ(limits.in_effect().max_torque_Nm, 0.001);
+}
+
+// A force that turned aside on its way down would be above the limit that falls beside it.
+TEST(SlewLimit, WhatIsAboveItsLimitComesStraightDown) {
+  SlewLimit slew;
+  slew.reset(force(3, 0, 0));
+  SafetyLimits low;
+  low.max_force_N = 1;
+  const double step_N = kTick_s * low.max_slew_N_s;
+  for (int i = 1; i <= 6; ++i) {
+    EXPECT_NEAR(
+        (slew.apply(force(0, 1, 0), kTick_s, low).force_N - force(3 - i * step_N, 0, 0).force_N)
+            .norm(),
+        0, 1e-12);
+  }
+  // 0.2 N are left of the seventh step, and 0.1 N of it for the turn.
+  const Eigen::Vector3d then_N = slew.apply(force(0, 1, 0), kTick_s, low).force_N;
+  EXPECT_NEAR((then_N - Eigen::Vector3d(1, 0, 0)).norm(), 0.1, 1e-12);
+  EXPECT_LE(then_N.norm(), 1);
 }
 
 TEST(SlewLimit, NoTimeNoStep) {

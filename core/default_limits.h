@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The largest force and torque until somebody sets others.
+#pragma once
+
+namespace spidar {
+
+/// What a hand holds against without effort, and every device takes as its limits.
+constexpr double kDefaultForce_N = 3;
+constexpr double kDefaultTorque_Nm = 0.1;
+
+}  // namespace spidar

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The limits of force and torque: what was set, and what is in effect.
+#pragma once
+
+#include <algorithm>
+
+#include "core/wrench.h"
+#include "spidar/grip/grip.h"
+#include "spidar/realtime/seqlock.h"
+
+namespace spidar {
+
+/// Owns the limits of a loop, which everything in it reads: what was set, what is in effect, and
+/// how one that was lowered comes down. One that is raised takes effect at once; the force
+/// approaches it at the slew limit. One that is lowered falls at the slew limit from what the hand
+/// gets, the larger one of what is commanded and delivered, until it is as low as it was set. It
+/// does not stop at what the strings exert at rest, which is a part of what is delivered that no
+/// limit lowers.
+class ForceLimits {
+ public:
+  /// However high the limit of the force is set, it is no higher than `most_N`.
+  ForceLimits(const SafetyLimits& limits, double most_N) noexcept
+      : most_N_(most_N), shared_(limits), set_(bounded(limits)), now_(set_), before_(set_) {}
+
+  /// Holds from the next fall() or restart() on. Any thread, one caller at a time.
+  void set(const SafetyLimits& limits) noexcept { shared_.store(limits); }
+
+  // --- loop thread
+
+  /// A tick begins, `dt_s` after the last one, of which these are the wrenches.
+  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s) noexcept {
+    take();
+    now_ = set_;
+    now_.max_force_N = fallen(set_.max_force_N, before_.max_force_N,
+                              std::max(commanded.force_N.norm(), delivered.force_N.norm()),
+                              non_negative(set_.max_slew_N_s * dt_s));
+    now_.max_torque_Nm = fallen(set_.max_torque_Nm, before_.max_torque_Nm,
+                                std::max(commanded.torque_Nm.norm(), delivered.torque_Nm.norm()),
+                                non_negative(set_.max_slew_Nm_s * dt_s));
+  }
+  /// A tick begins in which nothing pulls.
+  void restart() noexcept {
+    take();
+    now_ = set_;
+  }
+  /// The device did not receive what was commanded in this tick.
+  void undo() noexcept { now_ = before_; }
+
+  const SafetyLimits& as_set() const noexcept { return set_; }
+  const SafetyLimits& in_effect() const noexcept { return now_; }
+
+ private:
+  static double fallen(double set, double before, double exerted, double step) noexcept {
+    return std::max(non_negative(set), std::min(before, exerted) - step);
+  }
+  SafetyLimits bounded(SafetyLimits limits) const noexcept {
+    limits.max_force_N = std::min(limits.max_force_N, most_N_);
+    return limits;
+  }
+  /// Keeps those of the last tick while others are being written.
+  void take() noexcept {
+    before_ = now_;
+    if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits);
+  }
+
+  const double most_N_;
+  Seqlock<SafetyLimits> shared_;
+  SafetyLimits set_, now_;
+  SafetyLimits before_;  ///< in effect before this tick
+};
+
+}  // namespace spidar
