@@ -5,8 +5,8 @@
 source tree.
 
 check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path in
-`code` that looks like a source file's or folder's; `core/x/y` may stand for y.h and
-y.cpp. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture
+`code` that begins with the name of a folder; `core/x/y` and `x/y` may stand for y.h and
+y.cpp there. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture
 must have a text for those who do not see it. Addresses on the net are not fetched."""
 
 import re
@@ -16,7 +16,9 @@ from urllib.parse import unquote
 
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
-SOURCE_FILE = re.compile(r"`((?:core|docs|examples|plugin|spidar|tests)/[\w./-]*[\w/])`")
+# In code; of these, a path begins with the name of a folder.
+PATH = re.compile(r"`(\w[\w.-]*/[\w./-]*[\w/])`")
+TOP = ("core", "docs", "examples", "plugin", "spidar", "tests")
 
 
 def without_code(text):
@@ -45,12 +47,21 @@ def main():
     pages = [source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "tests/README.md")] + sorted(docs.rglob("*.md"))
     texts = {page: page.read_text(encoding="utf-8") for page in pages}
     wrong, links, in_contents = [], 0, {docs / "README.md"}
+    files = {str(path.relative_to(source)) for top in TOP for path in (source / top).rglob("*")
+             if "__pycache__" not in path.parts}
+    files |= {str(Path(file).with_suffix("")) for file in files}
+    folders = {part for file in files for part in Path(file).parts[:-1]}
+
+    def is_there(path, page):
+        """As it is, beside the page, or the end of a path, as `layers/regions` is."""
+        path = path.rstrip("/")
+        return (page.parent / path).exists() or path in files or any(file.endswith("/" + path) for file in files)
+
     for page, text in texts.items():
         name = page.relative_to(source)
         if page.name != "CHANGELOG.md":
-            wrong += [f"{name}: {path}: there is no such file" for path in SOURCE_FILE.findall(text)
-                      if not any((base / path).exists() or list((base / path).parent.glob(f"{(base / path).name}.*"))
-                                 for base in (source, page.parent))]
+            wrong += [f"{name}: {path}: there is no such file" for path in PATH.findall(text)
+                      if path.split("/")[0] in folders and not is_there(path, page)]
         for picture, words, target in LINK.findall(without_code(text)):
             if re.match(r"[a-z]+:", target):
                 continue
