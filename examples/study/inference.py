@@ -7,7 +7,8 @@ so do clips, and both are samples. Every participant sees every clip, so that th
 (MS_P + MS_C − MS_E) / (P C), with the degrees of freedom of Satterthwaite: the quasi-F of H. Clark, The
 Language-as-Fixed-Effect Fallacy, 1973. It is the estimate of a linear mixed model by restricted maximum likelihood, as
 MixedLM of statsmodels gives it, but that, as clmm of R's package ordinal, takes the normal distribution for the interval
-however few the clips are.
+however few the clips are. MS_E is not subtracted below FEW_CLIPS (min F', of the same paper): whether so few clips differ,
+they do not tell, and studies of 24 people and 3 clips would find a difference where there is none in 6.0 % instead of 3.7 %.
 """
 
 from dataclasses import dataclass
@@ -15,52 +16,60 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import t
 
+FEW_CLIPS = 4
+
 
 @dataclass
 class Difference:
-    """In steps of the scale. `error` is None where no two answers tell how much people or clips differ."""
+    """In steps of the scale, of one study or of many (arrays). `error` is 0 where no two answers tell how much people or
+    clips differ."""
     mean: float
     error: float
     freedom: float
 
+    def tail(self, distance):
+        """Of how many studies the error is at least so much, on one side; not below half where there is no error."""
+        error = np.where(self.error > 0, self.error, 1)
+        return np.where(self.error > 0, t.sf(distance / error, self.freedom), 1)[()]
+
     def p(self):
         """Of no difference, two-sided."""
-        return 1.0 if self.error is None else 2 * t.sf(abs(self.mean) / self.error, self.freedom)
+        return np.minimum(1, 2 * self.tail(np.abs(self.mean)))
 
     def p_of_equivalence(self, margin):
         """Of a difference of at least `margin` either way: the larger of two one-sided tests."""
-        return 1.0 if self.error is None else t.sf((margin - abs(self.mean)) / self.error, self.freedom)
+        return self.tail(margin - np.abs(self.mean))
 
     def interval(self, level=0.95):
-        half = np.inf if self.error is None else t.ppf(0.5 + level / 2, self.freedom) * self.error
+        half = np.where(self.error > 0, t.ppf(0.5 + level / 2, self.freedom) * self.error, np.inf)[()]
         return self.mean - half, self.mean + half
 
 
 def difference(differences):
-    """`differences`: a row for each participant, a column for each clip. A single clip says nothing of others."""
+    """`differences`: a row for each participant, a column for each clip, or a stack of such studies. A single clip says
+    nothing of others."""
     d = np.asarray(differences, float)
-    people, clips = d.shape
-    mean = d.mean()
+    people, clips = d.shape[-2:]
+    mean = d.mean(axis=(-2, -1))
     if people < 2:
-        return Difference(mean, None, 0)
-    by_person, by_clip = d.mean(axis=1, keepdims=True), d.mean(axis=0)
-    of_people = clips * ((by_person - mean)**2).sum() / (people - 1)
-    if clips == 1:
-        squares, freedoms = [of_people], [people - 1]
-    else:
-        of_clips = people * ((by_clip - mean)**2).sum() / (clips - 1)
-        rest = ((d - by_person - by_clip + mean)**2).sum() / ((people - 1) * (clips - 1))
-        squares, freedoms = [of_people, of_clips, -rest], [people - 1, clips - 1, (people - 1) * (clips - 1)]
-        # A variance is not negative. Where it would be, people or clips do not differ in their effect.
-        if of_clips <= rest:
-            squares, freedoms = [of_people], [people - 1]
-        elif of_people <= rest:
-            squares, freedoms = [of_clips], [clips - 1]
-    total = sum(squares)
-    if not total > 0:
-        return Difference(mean, None, 0)
-    freedom = total**2 / sum(square**2 / n for square, n in zip(squares, freedoms))
-    return Difference(mean, np.sqrt(total / d.size), freedom)
+        return Difference(mean, 0 * mean, 1 + 0 * mean)
+    center, by_person, by_clip = mean[..., None, None], d.mean(axis=-1, keepdims=True), d.mean(axis=-2, keepdims=True)
+    freedoms = people - 1, max(1, clips - 1), (people - 1) * max(1, clips - 1)
+    squares = lambda values, weight, freedom: weight * (values**2).sum(axis=(-2, -1)) / freedom
+    of_people = squares(by_person - center, clips, freedoms[0])
+    of_clips = squares(by_clip - center, people, freedoms[1])
+    rest = squares(d - by_person - by_clip + center, 1, freedoms[2])
+    if clips < FEW_CLIPS:
+        rest = 0 * rest
+    # A variance is not negative. Where it would be, people or clips do not differ in their effect.
+    alike = of_clips <= rest
+    of_clips, rest = np.where(alike, 0, of_clips), np.where(alike, 0, rest)
+    alike = of_people <= rest
+    of_people, rest = np.where(alike, 0, of_people), np.where(alike, 0, rest)
+    total = of_people + of_clips - rest
+    spread = sum(square**2 / freedom for square, freedom in zip((of_people, of_clips, rest), freedoms))
+    freedom = np.where(total > 0, total**2 / np.where(spread > 0, spread, 1), 1)
+    return Difference(mean, np.sqrt(np.maximum(0, total) / (people * clips)), freedom)
 
 
 def holm(values):

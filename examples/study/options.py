@@ -17,15 +17,17 @@ def parse(description, arguments):
     end = ("name=value: properties of spidarmotion, the same for all clips. Without max-force the largest force is "
            f"{GENTLE_N:g} N, and more must be confirmed.")
     plan = commands.add_parser("plan", help="how many participants an effect needs")
-    plan.add_argument("--odds-ratio", type=float, default=7,
-                      help="of a higher answer, for one person and one clip (7: the paper's 50 and 80 %%, over all)")
-    plan.add_argument("--clips", type=int, nargs="+", default=[3, 6, 12], help="numbers of clips (3 6 12)")
+    plan.add_argument("--odds-ratio", type=float, required=True,
+                      help="the least that is worth finding, of a higher answer, for one person and one clip")
+    plan.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME", help="as of run (movement)")
+    plan.add_argument("--clips", type=int, nargs="+", default=[4, 6, 12], help="numbers of clips (4 6 12)")
     plan.add_argument("--spread", type=float, default=1,
                       help="standard deviation between participants, of their level and of their effect, as log odds (1)")
     plan.add_argument("--clip-spread", type=float, default=0.8, help="the same, between clips (0.8)")
     plan.add_argument("--power", type=float, default=0.8)
     plan.add_argument("--level", type=float, default=0.05, help="of the test")
-    plan.add_argument("--simulations", type=int, default=500)
+    plan.add_argument("--simulations", type=int, default=16000,
+                      help="at most, of each design; fewer where the power is known before (16000)")
     design = commands.add_parser("design", help="in what the conditions of these clips differ", epilog=end,
                                  usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
     run = commands.add_parser(

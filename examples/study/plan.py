@@ -3,30 +3,34 @@
 """Made answers with a known effect, and how often an experiment finds it."""
 
 import math
+import sys
 
 import numpy as np
 from scipy.special import expit
-from scipy.stats import binom
+from scipy.stats import beta
 
-from inference import difference
-from trials import BLOCK, FIRST_GOOD
+from inference import FEW_CLIPS, difference
+from trials import ANALYSIS, BLOCK, FIRST_GOOD, families
 
 # Of a person without preference, each of the five steps is as likely.
 THRESHOLDS = np.log([1 / 4, 2 / 3, 3 / 2, 4])
-MOST_BLOCKS = 10
+BLOCKS = (1, 2, 3, 4, 6, 8, 10)  # of participants
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(40)
+STUDIES = 500  # simulated at once; then as many as before, until the power is known to be above or below the aim
+# Of an interval of the power. A table has some ten rows, each of which is looked at up to six times.
+DOUBT = 0.001
 
 
-def made_answers(random, participants, clips, log_odds, spread, clip_spread):
+def made_answers(random, participants, clips, log_odds, spread, clip_spread, studies=()):
     """Steps of each participant, clip and condition (the second one last), by the proportional odds of a higher step.
 
     `spread`: standard deviation between participants, of their level and of their effect; `clip_spread`: between clips,
-    the same.
+    the same. `studies`: (N,) for a stack of N of them.
     """
-    draw = lambda deviation, *shape: random.normal(0, deviation, shape)
+    draw = lambda deviation, *shape: random.normal(0, deviation, (*studies, *shape))
     level = draw(spread, participants, 1, 1) + draw(clip_spread, 1, clips, 1)
     effect = log_odds + draw(spread, participants, 1, 1) + draw(clip_spread, 1, clips, 1)
-    latent = level + effect * np.array([-0.5, 0.5]) + random.logistic(size=(participants, clips, 2))
+    latent = level + effect * np.array([-0.5, 0.5]) + random.logistic(size=(*studies, participants, clips, 2))
     return 1 + np.searchsorted(THRESHOLDS, latent)
 
 
@@ -47,12 +51,6 @@ def difference_of(steps):
     return difference(steps[..., 1] - steps[..., 0])
 
 
-def finds(steps, level):
-    """That the second condition is higher."""
-    found = difference_of(steps)
-    return found.mean > 0 and found.p() < level
-
-
 def effect_in_words(log_odds, spread, clip_spread):
     first, second = (side[FIRST_GOOD - 2] for side in shares_above(log_odds, spread, clip_spread))
     marginal = second / (1 - second) / (first / (1 - first))
@@ -61,35 +59,65 @@ def effect_in_words(log_odds, spread, clip_spread):
             f"{true_difference(log_odds, spread, clip_spread):.2f} steps")
 
 
+def interval(found, studies):
+    """Of a share, by C. Clopper and E. Pearson."""
+    return (beta.ppf(DOUBT / 2, found, studies - found + 1) if found else 0.0,
+            beta.ppf(1 - DOUBT / 2, found + 1, studies - found) if found < studies else 1.0)
+
+
+def simulated(participants, clips, log_odds, options, numbers):
+    """How many studies were made, in how many of these the primary outcome is found, in how many a secondary one, and in
+    how many what is equal is found to be.
+
+    By the first step of Holm's correction, the level divided by `numbers`, of comparisons in a family: that others are
+    found only adds to it.
+    """
+    random = np.random.default_rng([participants, clips])
+    found, studies = np.zeros(3, int), 0
+    while True:
+        for _ in range(max(1, studies // STUDIES)):
+            made = lambda effect: difference_of(made_answers(random, participants, clips, effect, options.spread,
+                                                             options.clip_spread, (STUDIES,)))
+            one, none = made(log_odds), made(0)
+            p = np.where(one.mean > 0, one.p(), 1)
+            found += [(p < options.level / numbers["primary"]).sum(), (p < options.level / numbers["secondary"]).sum(),
+                      (none.p_of_equivalence(ANALYSIS["margin_steps"]) < options.level / numbers["equal"]).sum()]
+            studies += STUDIES
+        low, high = interval(found[0], studies)
+        if low > options.power or high < options.power or studies >= options.simulations:
+            return studies, found
+        if sys.stderr.isatty():
+            print(f"\r{participants} × {clips}: {studies} studies …\r", end="", file=sys.stderr, flush=True)
+
+
 def plan(options):
-    """Prints the power for more and more participants and clips, until it is enough."""
+    """Prints the power for more and more participants and clips, until it is known to be enough."""
     if not options.odds_ratio > 1:
         raise ValueError(f"--odds-ratio {options.odds_ratio:g} is no effect to be found: give more than 1")
     if (not 0 < options.power < 1 or options.simulations < 1 or min(options.clips) < 1
             or min(options.spread, options.clip_spread) < 0):
         raise ValueError("--power is between 0 and 1, --spread and --clip-spread not negative, --clips and --simulations "
                          "at least 1")
-    effect = np.log(options.odds_ratio), options.spread, options.clip_spread
-    print(f"{effect_in_words(*effect)}\n\npower by participants and clips, {options.simulations} simulations each\n\n"
-          "participants" + "".join(f"{clips:8} clips" for clips in options.clips))
-    enough = {}
-    for participants in range(BLOCK, (MOST_BLOCKS + 1) * BLOCK, BLOCK):
-        power = {}
-        for clips in options.clips:
-            random = np.random.default_rng([participants, clips])
-            power[clips] = sum(finds(made_answers(random, participants, clips, *effect), options.level)
-                               for _ in range(options.simulations)) / options.simulations
-            if power[clips] >= options.power:
-                enough.setdefault(clips, participants)
-        print(f"{participants:12}" + "".join(f"{each:14.2f}" for each in power.values()), flush=True)
-        if len(enough) == len(options.clips):
-            break
-    half = binom.ppf(0.975, options.simulations, options.power) / options.simulations - options.power
-    print()
+    numbers = {family: max(1, len(pairs)) for family, pairs in families(ANALYSIS | {"primary": options.primary}).items()}
+    log_odds = math.log(options.odds_ratio)
+    print(effect_in_words(log_odds, options.spread, options.clip_spread) + "\n\npower: to find the primary outcome, with its "
+          f"interval; one of {numbers['secondary']} secondary ones;\nand that conditions which are equal are so within "
+          f"{ANALYSIS['margin_steps']:g} steps\n\n" f"clips participants  {options.primary:>22}  secondary  equal  studies")
+    said = []
     for clips in options.clips:
-        if clips in enough:
-            print(f"{enough[clips]} participants are enough with {clips} clips for a power of {options.power:g} "
-                  f"(± {half:.2f}). Add those who will drop out, up to a multiple of {BLOCK}")
-        else:
-            print(f"with {clips} clips the power stays below {options.power:g} up to {MOST_BLOCKS * BLOCK} participants: "
-                  "take more clips")
+        verdict = (f"with {clips} clips the power stays below {options.power:g} up to {BLOCKS[-1] * BLOCK} participants: "
+                   "take more clips")
+        for participants in (BLOCK * blocks for blocks in BLOCKS):
+            studies, found = simulated(participants, clips, log_odds, options, numbers)
+            low, high = interval(found[0], studies)
+            primary, secondary, equal = found / studies
+            print(f"{clips:5} {participants:12}  {f'{primary:.2f} ({low:.2f} to {high:.2f})':>22} {secondary:10.2f} "
+                  f"{equal:6.2f} {studies:8}", flush=True)
+            if low > options.power:
+                verdict = (f"{participants} participants are enough with {clips} clips for a power of {options.power:g}. Add "
+                           f"those who will drop out, up to a multiple of {BLOCK}")
+                break
+        said.append(verdict)
+        if clips < FEW_CLIPS:
+            said.append(f"{clips} clips say little of others: docs/study.md has how often that errs")
+    print("\n" + "\n".join(said))

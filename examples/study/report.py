@@ -6,12 +6,11 @@ import math
 import statistics
 from collections import Counter, defaultdict
 
-from inference import difference, holm
+from inference import FEW_CLIPS, difference, holm
 from perception import told_apart
 from records import Participants, read_rows, read_settings
-from trials import ANALYSIS, CONDITIONS, FIRST_GOOD, PAIRS
+from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
 
-FAMILIES = ("primary", "secondary", "equal")
 COLUMNS = "question                   conditions             people  clips  difference (95 %)            p       Holm"
 
 
@@ -43,13 +42,11 @@ def differences(answers):
 
 def compared(rows, analysis, family):
     """A line for each comparison of a family."""
-    of = lambda question: ("equal" if question in analysis["equal"]
-                           else "primary" if question == analysis["primary"] else "secondary")
-    chosen = {key: difference(each) for key, each in rows.items() if of(key[1]) == family}
+    chosen = {key: difference(each) for key, each in rows.items() if family_of(key[1], analysis) == family}
     p = [each.p_of_equivalence(analysis["margin_steps"]) if family == "equal" else each.p() for each in chosen.values()]
     for ((part, question, first, second), each), alone, corrected in zip(chosen.items(), p, holm(p)):
         people, clips = len(rows[part, question, first, second]), len(rows[part, question, first, second][0])
-        interval = "not determined" if each.error is None else "{:.2f} to {:.2f}".format(*each.interval())
+        interval = "not determined" if not each.error > 0 else "{:.2f} to {:.2f}".format(*each.interval())
         yield (f"{part + ': ' + question:26} {first + ', ' + second:22} {people:6} {clips:6}  "
                f"{f'{each.mean:+.2f} ({interval})':24} {alone:8.3g}  {corrected:9.3g}")
 
@@ -102,8 +99,10 @@ def report(answers, path=None):
               f"difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected for the comparisons of the",
               "family."]
     rows = differences(answers)
-    if any(len(each[0]) == 1 for each in rows.values()):
-        lines.append("With a single clip, nothing is said of other clips.")
+    clips = min((len(each[0]) for each in rows.values()), default=FEW_CLIPS)
+    if clips < FEW_CLIPS:
+        lines.append("With a single clip, nothing is said of other clips." if clips == 1 else
+                     f"{clips} clips say little of others: docs/study.md has how often that errs.")
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []

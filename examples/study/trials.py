@@ -28,6 +28,7 @@ ANALYSIS = {
 # The orders in which the conditions of a clip follow each other: all there are.
 ORDERS = {"controllers": [(0, 1), (1, 0)],
           "haptics": [(0, 1, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0), (1, 0, 2), (0, 2, 1)]}
+FAMILIES = ("primary", "secondary", "equal")
 FIRST_GOOD = 3  # the paper counts "average" as good
 BLOCK = 12  # participants: six for each order of the parts, who together have each order of each clip equally often
 
@@ -40,6 +41,19 @@ class Trial:
     condition: str
     code: str
     clip: str
+
+
+def family_of(question, analysis):
+    return ("equal" if question in analysis["equal"] else "primary" if question == analysis["primary"] else "secondary")
+
+
+def families(analysis):
+    """The comparisons of each: (question, first condition, second)."""
+    found = {family: [] for family in FAMILIES}
+    for part, questions in QUESTIONS.items():
+        for question in questions:
+            found[family_of(question, analysis)] += [(question, *pair) for pair in PAIRS[part]]
+    return found
 
 
 def shuffled(values, source):

@@ -118,7 +118,7 @@ class Run(unittest.TestCase):
 
     def test_from_recruiting_to_a_table(self):
         answers = self.file("answers.csv")
-        planned = study("plan", "--simulations", 10, "--odds-ratio", 50)
+        planned = study("plan", "--odds-ratio", 50)
         self.assertRegex(planned.stdout, r"\d+ participants are enough", planned)
         shown = study("design", self.clip)
         self.assertRegex(shown.stdout, r"(?m)^0.0025 +\d+ .*sway.avi$", shown)
