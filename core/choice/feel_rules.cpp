@@ -173,6 +173,10 @@ class RuleParser {
       wrong(rule_.line, "the name of a box has at most " + std::to_string(FeelRule::kLongestName) +
                             " bytes, and " + quote(name) + " more");
     }
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+    if (std::any_of(name.begin(), name.end(), is_control)) {
+      wrong(rule_.line, "the name of a box has a control character: " + quote(name));
+    }
     std::copy(name.begin(), name.end(), rule_.name.begin());
     text_.remove_prefix(name.size() + (is_quoted ? 2 : 0));
     skip_space();

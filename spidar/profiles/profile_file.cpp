@@ -11,10 +11,9 @@
 #include <string_view>
 #include <utility>
 
-#include <toml++/toml.h>
-
 #include "core/grip/matrices.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/profiles/toml.h"
 #include "spidar/text.h"
 
 namespace spidar {
@@ -445,6 +444,8 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   } catch (const toml::parse_error& error) {
     TomlField::fail(path, error.source().begin.line, "",
                     "not TOML: " + std::string(error.description()));
+  } catch (const std::logic_error& error) {
+    throw ProfileError(path + ": not TOML: " + error.what());
   }
   const TomlField root(path, document);
   root.allow_only({"description", "board", "dac_bits", "dac_max_V", "drive_lag_s", "geometry",

@@ -3,10 +3,9 @@
 #include <locale>
 #include <sstream>
 
-#include <toml++/toml.h>
-
 #include "core/number_text.h"
 #include "spidar/profiles/profile_file.h"
+#include "spidar/profiles/toml.h"
 #include "spidar/whole_file.h"
 
 namespace spidar {

@@ -9,13 +9,12 @@
 #include <sstream>
 #include <unistd.h>
 
-#include <toml++/toml.h>
-
 #include "spidar/boards/board_parts.h"
 #include "spidar/boards/usb_board.h"
 #include "spidar/devices/device_registry.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/profile_file.h"
+#include "spidar/profiles/toml.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/whole_file.h"
 
@@ -54,6 +53,8 @@ toml::table remembered_boards(const fs::path& file) {
   } catch (const toml::parse_error& fault) {
     throw ProfileError(file.string() + ": " + std::string(fault.description()) +
                        "; correct or remove the file");
+  } catch (const std::logic_error& fault) {
+    throw ProfileError(file.string() + ": " + fault.what() + "; correct or remove the file");
   }
 }
 

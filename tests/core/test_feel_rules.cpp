@@ -131,6 +131,7 @@ TEST(FeelRules, SayWhatIsWrongAndInWhichLine) {
       {"box \"\"",
        "line 1: the name of a box is one word, or in quotes, as in box \"traffic light\""},
       {"box traffic light", "line 1: \"light\" follows the rule; only gain G can, as in gain 1.5"},
+      {std::string("box a\0b", 7), "line 1: the name of a box has a control character: \"a?b\""},
       {"box " + std::string(64, 'x'), "line 1: the name of a box has at most 63 bytes, and \"" +
                                           std::string(40, 'x') + "…\" more"},
       {"largest gain 11", "line 1: \"11\" is not a gain from 0 to 10"},

@@ -186,6 +186,16 @@ TEST(Profile, ReportsAPathThatIsNoFile) {
   expect_contains(error_of("/proc/self/mem"), "cannot be read: Input/output error");
 }
 
+TEST(Profile, ATableWithAWrongNameIsNamed) {
+  const Folder folder;
+  for (const char* const table : {"[[~source]]", "[~]", "[ .a]"}) {
+    const std::string path = folder.write("broken.toml", kValid + table + "\n").string();
+    const std::string error = error_of(path);
+    expect_contains(error, path);
+    expect_contains(error, "not TOML");
+  }
+}
+
 // One line of the valid file is replaced; the error names the file, this line (or the one given),
 // the field, what is wrong and what would be right.
 struct Broken {
