@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Haptic tracks in the formats of others: MPEG's HJIF (ISO/IEC 23090-31), funscripts, which are
-/// the positions of a linear device over time, and AHAP, the files of Core Haptics.
+/// Haptic tracks in the formats of others: MPEG's HJIF (ISO/IEC 23090-31) and AHAP, the files of
+/// Core Haptics.
 #pragma once
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,46 +51,9 @@ constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 /// value that is missing or out of range, other bands or curves, or more than `most_samples`.
 std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples);
 
-/// Says what was wrong with a file, and where.
-class FunscriptError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// As much as the rounding of a position differs from the curve: half a step of 2 %.
-constexpr double kFunscriptTolerance = 0.01;
-
-/// One channel: −1, 0 and 1 are the positions 0, 50 and 100, whole numbers. Players draw straight
-/// lines between them, and move at the speed that these ask for; they differ from the curve by at
-/// most `tolerance`, a fraction of the full scale, and the rounding of a position, 0.01. Amplitudes
-/// beyond the full scale are clipped, and NaN becomes 0. The script says which channel it is of,
-/// and by which `gain` its samples have been multiplied.
-void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
-                     double tolerance = kFunscriptTolerance, double gain = 1);
-
 /// By which samples are multiplied for formats with a range of their own: a force between a
 /// thousand times the full scale and a micronewton fills it.
 constexpr double kLeastGain = 1e-3, kMostGain = 1e6;
-
-/// What write_funscript() has noted; nothing in scripts of others. Throws FunscriptError: not JSON,
-/// or a gain from which no samples can be had back.
-struct FunscriptNotes {
-  size_t channel;
-  double gain;
-};
-std::optional<FunscriptNotes> read_funscript_notes(const std::string& text);
-
-/// The longest funscript that is read: 12 h.
-constexpr size_t kMostFunscriptSamples = size_t{12} * 3600 * kTrackRate_Hz;
-
-/// Samples, 1000 a second, of straight lines between the positions, in `channel`; the others are 0.
-/// Before the first position they are 0, too. "range" is the percentage of the full scale that is
-/// used: launchcontrol, the player that the format comes from, scales the positions by it, and its
-/// usual limits put them about the middle. As there, 0 and a script without it stand for all.
-/// Throws FunscriptError: not JSON, no actions, a position or range that is not from 0 to 100, or a
-/// time that does not rise or is too late.
-std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
-                                        size_t most_samples = kMostFunscriptSamples);
 
 /// Of the full scale.
 constexpr double kAhapTolerance = 0.02;

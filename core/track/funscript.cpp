@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include "core/track/funscript.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/json_text.h"
 #include "core/number_text.h"
-#include "core/track/exchange_formats.h"
 #include "core/track/keyframes.h"
 
 namespace spidar {
@@ -14,20 +18,19 @@ namespace {
 constexpr double kMiddle = 50;
 constexpr const char *kNotesKey = "gst-spidar", *kChannelKey = "channel", *kGainKey = "gain";
 
-struct Action {
-  size_t at_ms;
-  double fraction;  ///< of the full scale
-};
+/// A member, or null.
+const ReadJson* member(const ReadJson& object, const char* name) {
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return object.is_object() && found != object.end() ? &*found : nullptr;
+}
 
 struct Range {
   double least, most;
 };
 
 double number(const ReadJson& object, const char* name, Range range, const std::string& where) {
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  if (!object.is_object() || found == object.end() || !found->is_number()) {
-    throw FunscriptError(where + " has no number " + name);
-  }
+  const ReadJson* const found = member(object, name);
+  if (!found || !found->is_number()) throw FunscriptError(where + " has no number " + name);
   const double value = found->get<double>();
   if (!(value >= range.least && value <= range.most)) {
     std::string text = where + "." + name + " is ";
@@ -37,39 +40,119 @@ double number(const ReadJson& object, const char* name, Range range, const std::
   return value;
 }
 
-/// Throws FunscriptError.
-ReadJson parse(const std::string& text) {
-  std::string why;
-  ReadJson root = parse_json(text, why);
-  if (root.is_discarded()) throw FunscriptError(why);
-  return root;
+/// How the positions of a script are scaled.
+struct Scale {
+  double used = 1;  ///< of the full scale
+  bool inverted = false;
+};
+
+/// What is not said stays as it is.
+void read_scale(const ReadJson& script, const std::string& where, Scale& scale) {
+  constexpr double kPercent = 100;
+  if (const ReadJson* const inverted = member(script, "inverted")) {
+    scale.inverted = *inverted == ReadJson(true);
+  }
+  if (!member(script, "range")) return;
+  const double range = number(script, "range", {0, kPercent}, where);
+  scale.used = range > 0 ? range / kPercent : 1;
 }
 
-std::vector<Action> read_actions(const ReadJson& root, size_t most_samples) {
-  const ReadJson* const actions =
-      root.is_object() && root.contains("actions") ? &root["actions"] : nullptr;
-  if (!actions || !actions->is_array() || actions->empty()) {
-    throw FunscriptError("it has no actions");
+std::vector<ScriptAxis::Point> read_points(const ReadJson& actions, const std::string& where,
+                                           const Scale& scale) {
+  if (!actions.is_array()) throw FunscriptError(where + " is no list");
+  constexpr auto kLatest_ms = static_cast<double>(kLatestPosition_ms);
+  std::vector<ScriptAxis::Point> points;
+  for (size_t i = 0; i < actions.size(); ++i) {
+    const std::string at = where + "[" + std::to_string(i) + "]";
+    const double at_ms = number(actions[i], "at", {-kLatest_ms, kLatest_ms}, at);
+    const double position = number(actions[i], "pos", {0, 2 * kMiddle}, at);
+    const double fraction = scale.used * (position / kMiddle - 1);
+    points.push_back({std::llround(at_ms), scale.inverted ? -fraction : fraction});
   }
-  const bool inverted = root.value("inverted", ReadJson(false)) == ReadJson(true);
-  constexpr double kPercent = 100;
-  const double range =
-      root.contains("range") ? number(root, "range", {0, kPercent}, "the script") : kPercent;
-  const double used = range > 0 ? range / kPercent : 1;
-  std::vector<Action> found;
-  for (size_t i = 0; i < actions->size(); ++i) {
-    const std::string where = "actions[" + std::to_string(i) + "]";
-    const double at_ms =
-        number((*actions)[i], "at", {0, static_cast<double>(most_samples) - 1}, where);
-    const double fraction =
-        used * (number((*actions)[i], "pos", {0, 2 * kMiddle}, where) / kMiddle - 1);
-    found.push_back({static_cast<size_t>(std::lround(at_ms)), inverted ? -fraction : fraction});
-    if (i > 0 && found[i].at_ms <= found[i - 1].at_ms) {
-      throw FunscriptError(where + " is not after the one before");
-    }
-  }
-  return found;
+  const auto is_before = [](const auto& a, const auto& b) { return a.at_ms < b.at_ms; };
+  std::stable_sort(points.begin(), points.end(), is_before);
+  // Of several at one time, the last: the first one of those that come from behind.
+  const auto is_same = [](const auto& a, const auto& b) { return a.at_ms == b.at_ms; };
+  points.erase(points.begin(), std::unique(points.rbegin(), points.rend(), is_same).base());
+  return points;
 }
+
+double usual_gain(size_t channel) {
+  return channel < kTrackChannels / 2 ? kTrackForceScale_N / kScriptForce_N
+                                      : kTrackTorqueScale_Nm / kScriptTorque_Nm;
+}
+
+/// An axis of the same channel is replaced: of several, players take the last.
+void put(ScriptAxis axis, Funscript& script) {
+  const auto same = std::find_if(script.axes.begin(), script.axes.end(),
+                                 [&](const auto& other) { return other.channel == axis.channel; });
+  if (same == script.axes.end()) {
+    script.axes.push_back(std::move(axis));
+  } else {
+    *same = std::move(axis);
+  }
+}
+
+void read_axis(const ReadJson& from, const std::string& name, const std::string& where, Scale scale,
+               Funscript& script) {
+  const std::optional<size_t> channel = channel_of_axis(name);
+  if (!channel) {
+    script.others.push_back(name);
+    return;
+  }
+  const ReadJson* const actions = member(from, "actions");
+  if (!actions) throw FunscriptError(where + " has no actions");
+  read_scale(from, where, scale);
+  put({name, *channel, usual_gain(*channel), false,
+       read_points(*actions, where + ".actions", scale)},
+      script);
+}
+
+/// Version 1.1.
+void read_axes(const ReadJson& axes, const Scale& scale, Funscript& script) {
+  if (!axes.is_array()) throw FunscriptError("axes is no list");
+  for (size_t i = 0; i < axes.size(); ++i) {
+    const std::string where = "axes[" + std::to_string(i) + "]";
+    const ReadJson* const id = member(axes[i], "id");
+    if (!id || !id->is_string()) throw FunscriptError(where + " has no id such as \"R1\"");
+    read_axis(axes[i], id->get<std::string>(), where, scale, script);
+  }
+}
+
+/// Version 2.0.
+void read_channels(const ReadJson& channels, const Scale& scale, Funscript& script) {
+  if (!channels.is_object()) throw FunscriptError("channels is no object");
+  for (const auto& [name, channel] : channels.items()) {
+    read_axis(channel, name, "channels." + name, scale, script);
+  }
+}
+
+/// What write_funscript() notes, if it is there.
+void read_notes(const ReadJson& root, ScriptAxis& axis) {
+  const ReadJson* const notes = member(root, kNotesKey);
+  if (!notes) return;
+  axis.channel =
+      static_cast<size_t>(number(*notes, kChannelKey, {0, kTrackChannels - 1}, kNotesKey));
+  axis.gain = number(*notes, kGainKey, {kLeastGain, kMostGain}, kNotesKey);
+  axis.is_noted = true;
+}
+
+bool is_same_word(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return small(x) == small(y); });
+}
+
+struct AxisName {
+  const char* name;
+  size_t channel;
+};
+constexpr AxisName kAxisNames[] = {{"stroke", 1}, {"L0", 1},      {"up", 1},    {"surge", 2},
+                                   {"L1", 2},     {"forward", 2}, {"sway", 0},  {"L2", 0},
+                                   {"left", 0},   {"twist", 4},   {"R0", 4},    {"yaw", 4},
+                                   {"roll", 5},   {"R1", 5},      {"pitch", 3}, {"R2", 3}};
+constexpr const char* kOtherNames[] = {"vib", "vib0", "vib1", "vib2", "V0", "V1",   "V2",   "pump",
+                                       "L3",  "suck", "A0",   "A1",   "A2", "lube", "valve"};
 
 }  // namespace
 
@@ -90,30 +173,50 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
   write("]}\n");
 }
 
-std::optional<FunscriptNotes> read_funscript_notes(const std::string& text) {
-  const ReadJson root = parse(text);
-  if (!root.is_object() || !root.contains(kNotesKey)) return std::nullopt;
-  const ReadJson& notes = root[kNotesKey];
-  const double channel = number(notes, kChannelKey, {0, kTrackChannels - 1}, kNotesKey);
-  const double gain = number(notes, kGainKey, {kLeastGain, kMostGain}, kNotesKey);
-  return FunscriptNotes{static_cast<size_t>(channel), gain};
+float ScriptAxis::at(int64_t time_ms) const {
+  const auto after =
+      std::upper_bound(points.begin(), points.end(), time_ms,
+                       [](int64_t time, const Point& point) { return time < point.at_ms; });
+  if (after == points.begin()) return 0;
+  const Point& a = *(after - 1);
+  if (after == points.end()) {
+    return a.at_ms == time_ms ? static_cast<float>(a.fraction / gain) : 0;
+  }
+  const double part =
+      static_cast<double>(time_ms - a.at_ms) / static_cast<double>(after->at_ms - a.at_ms);
+  return static_cast<float>((a.fraction + part * (after->fraction - a.fraction)) / gain);
 }
 
-std::vector<TrackSample> read_funscript(const std::string& text, size_t channel,
-                                        size_t most_samples) {
-  const ReadJson root = parse(text);
-  const std::vector<Action> actions = read_actions(root, most_samples);
-  std::vector<TrackSample> samples(actions.back().at_ms + 1);
-  samples[actions.front().at_ms][channel] = static_cast<float>(actions.front().fraction);
-  for (size_t k = 1; k < actions.size(); ++k) {
-    const Action &a = actions[k - 1], &b = actions[k];
-    const auto length_ms = static_cast<double>(b.at_ms - a.at_ms);
-    for (size_t i = a.at_ms + 1; i <= b.at_ms; ++i) {
-      const double part = static_cast<double>(i - a.at_ms) / length_ms;
-      samples[i][channel] = static_cast<float>(a.fraction + part * (b.fraction - a.fraction));
-    }
+std::optional<size_t> channel_of_axis(std::string_view name) {
+  for (const AxisName& axis : kAxisNames) {
+    if (is_same_word(name, axis.name)) return axis.channel;
   }
-  return samples;
+  return std::nullopt;
+}
+
+bool is_other_axis(std::string_view name) {
+  return std::any_of(std::begin(kOtherNames), std::end(kOtherNames),
+                     [&](const char* other) { return is_same_word(name, other); });
+}
+
+Funscript parse_funscript(const std::string& text, size_t channel) {
+  std::string why;
+  const ReadJson root = parse_json(text, why);
+  if (root.is_discarded()) throw FunscriptError(why);
+  const ReadJson* const actions = member(root, "actions");
+  const ReadJson* const axes = member(root, "axes");
+  const ReadJson* const channels = member(root, "channels");
+  if (!actions && !axes && !channels) throw FunscriptError("it has no actions");
+  Scale scale;
+  read_scale(root, "the script", scale);
+  ScriptAxis own{"", channel, usual_gain(channel), false, {}};
+  read_notes(root, own);
+  if (actions) own.points = read_points(*actions, "actions", scale);
+  Funscript script;
+  if (actions) put(std::move(own), script);
+  if (axes) read_axes(*axes, scale, script);
+  if (channels) read_channels(*channels, scale, script);
+  return script;
 }
 
 }  // namespace spidar

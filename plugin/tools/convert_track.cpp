@@ -46,13 +46,6 @@ std::array<AxisScript, kTrackChannels> axis_scripts(const std::string& path, siz
 
 namespace {
 
-/// Two digits: this is to be read, not to be computed with.
-std::string rounded(double value) {
-  if (value == 0) return "0";
-  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-  return as_text(std::round(value / step) * step);
-}
-
 /// All channels but `axis` that contain something.
 std::vector<std::string> other_channels(const tracks::Summary& summary, size_t axis) {
   std::vector<std::string> others;
@@ -60,7 +53,7 @@ std::vector<std::string> other_channels(const tracks::Summary& summary, size_t a
     const double peak = summary.channels[i].peak;
     if (i == axis || peak == 0) continue;
     others.push_back(std::string(tracks::channel_name(i)) + " up to " +
-                     rounded(peak * tracks::full_scale(i)) + tracks::channel_unit(i));
+                     tracks::rounded(peak * tracks::full_scale(i)) + tracks::channel_unit(i));
   }
   return others;
 }
@@ -76,7 +69,7 @@ constexpr const char* kClipped = "what is beyond the full scale";
 std::string lost_in_ahap(const tracks::Summary& summary, double gain) {
   std::vector<std::string> lost = {"the direction of the force"};
   if (summary.largest_torque_Nm > 0) {
-    lost.push_back("torque up to " + rounded(summary.largest_torque_Nm) + " N m");
+    lost.push_back("torque up to " + tracks::rounded(summary.largest_torque_Nm) + " N m");
   }
   if (gain * summary.largest_force_N > kTrackForceScale_N) lost.emplace_back(kClipped);
   return line_of(lost);
@@ -87,7 +80,7 @@ std::string lost_in_funscript(const tracks::Summary& summary, const SaveOptions&
   constexpr int kSteps = 50;  // on each side of the middle
   std::vector<std::string> lost = other_channels(summary, axis);
   lost.push_back("steps of " + std::string(tracks::channel_name(axis)) + " below " +
-                 rounded(tracks::full_scale(axis) / kSteps / options.gain) +
+                 tracks::rounded(tracks::full_scale(axis) / kSteps / options.gain) +
                  tracks::channel_unit(axis));
   if (options.gain * summary.channels[axis].peak > 1) lost.emplace_back(kClipped);
   return line_of(lost);
@@ -153,12 +146,12 @@ void check_use(const ConvertOptions& options) {
   if (options.save.tolerance && !has_own_range(to) && !ends_with(to, ".hjif")) {
     throw UsageError("--tolerance is for .hjif, .ahap and .funscript, not for " + to);
   }
-  if (options.gain && !has_own_range(to)) {
+  const bool is_script = tracks::is_script(options.from);
+  if (options.gain && !has_own_range(to) && !is_script) {
     throw UsageError("--gain is for .funscript and .ahap, not for " + to +
                      ", whose samples are newtons");
   }
-  if (!options.axis.empty() && !ends_with(to, ".funscript") &&
-      !ends_with(options.from, ".funscript")) {
+  if (!options.axis.empty() && !ends_with(to, ".funscript") && !is_script) {
     throw UsageError("--axis is for .funscript, not for " + to);
   }
 }
@@ -190,36 +183,8 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
   for (size_t i = 0; i < parts.size(); ++i) {
     publish(*parts[i]);
     std::cout << scripts[i].path << ": " << tracks::channel_name(i) << ", gain "
-              << rounded(gains[i / kForces]) << '\n';
+              << tracks::rounded(gains[i / kForces]) << '\n';
   }
-}
-
-/// The samples of six funscripts as they were before their gains, which are printed.
-TrackCondition read_axes(const std::string& from, const SampleSource::Take& take) {
-  TrackCondition condition;
-  condition.track = from;
-  std::vector<TrackSample> all;
-  const auto main = parse_file(from, [&] { return read_funscript_notes(read_text(from)); });
-  for (const AxisScript& script : axis_scripts(from, main ? main->channel : kUsualAxis)) {
-    if (!std::filesystem::exists(script.path)) {
-      std::cout << script.path << ": is not there; " << tracks::channel_name(script.channel)
-                << " is at rest\n";
-      continue;
-    }
-    const auto text = parse_file(script.path, [&] { return read_text(script.path); });
-    const auto notes = parse_file(script.path, [&] { return read_funscript_notes(text); });
-    const size_t channel = notes ? notes->channel : script.channel;
-    const double gain = notes ? notes->gain : 1;
-    std::cout << script.path << ": " << tracks::channel_name(channel) << ", gain " << rounded(gain)
-              << " taken back\n";
-    const auto samples = parse_file(script.path, [&] { return read_funscript(text, channel); });
-    if (all.size() < samples.size()) all.resize(samples.size());
-    for (size_t i = 0; i < samples.size(); ++i) {
-      all[i][channel] = static_cast<float>(samples[i][channel] / gain);
-    }
-  }
-  for (const TrackSample& sample : all) take(sample);
-  return condition;
 }
 
 }  // namespace
@@ -245,10 +210,12 @@ int convert_track(const ConvertOptions& options) {
     samples.add(sample);
     summariser.add(sample);
   };
-  const bool is_axes = is_all && ends_with(options.from, ".funscript");
-  const TrackCondition condition =
-      is_axes ? read_axes(options.from, take) : read_track(options.from, take, save.axis);
+  tracks::ScriptChoice script;
+  if (!options.axis.empty() && !is_all) script.channel = save.axis;
+  if (!has_own_range(to)) script.gain = options.gain;
+  const TrackCondition condition = read_track(options.from, take, script);
   samples.flush();
+  for (const std::string& line : condition.about) std::cout << line << '\n';
   expect_own_track(condition);
   save.notes = condition.notes;
   const tracks::Summary summary = summariser.summary();
@@ -262,7 +229,7 @@ int convert_track(const ConvertOptions& options) {
   }
   if (has_own_range(to)) {
     save.gain = options.gain.value_or(filling_gain(to, summary, save.axis));
-    std::cout << "gain " << rounded(save.gain)
+    std::cout << "gain " << tracks::rounded(save.gain)
               << (options.gain ? ""
                                : ": the largest value fills the range; --gain 1 keeps it as it is")
               << '\n';

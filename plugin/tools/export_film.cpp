@@ -83,7 +83,7 @@ class ExportedFilm {
       record(options.properties.value_or(parse_record_properties({}, 1)), *recorded);
     }
     condition_ = read_track(
-        film_, [this](const TrackSample& sample) { page_.add(sample); }, kUsualAxis,
+        film_, [this](const TrackSample& sample) { page_.add(sample); }, {},
         recorded ? recorded->path() : options.track);
     if (condition_.film.empty()) {
       throw UsageError(film_ + ": is a track; give the film that it is for");

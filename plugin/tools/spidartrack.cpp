@@ -193,7 +193,8 @@ in any case. Also prints how much of the track is felt.)");
     app->footer(R"(The formats follow from how the names end:
   .flac .mka .wav  sound of six channels; also read from other containers and from films
   .hjif            MPEG's format for haptics
-  .funscript       one channel as the positions of a linear device
+  .funscript       one channel as the positions of a linear device; read with its other axes,
+                   in it and in .roll.funscript and so on beside it
   .ahap            a vibration as strong as the force, for telephones; not read
 Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
@@ -202,13 +203,14 @@ Prints what TO cannot hold.)");
     app->add_option(
            "--axis", convert_.axis,
            "the channel of a funscript: fx, fy, fz, tx, ty or tz; default: that with the most "
-           "motion, and fy when a funscript is read; all: six files, .surge .sway .twist .roll "
-           ".pitch.funscript and TO for the strongest")
+           "motion, and all that it has when one is read; all: six files, .surge .sway .twist "
+           ".roll .pitch.funscript and TO for the strongest")
         ->check(CLI::IsMember({"fx", "fy", "fz", "tx", "ty", "tz", kAllAxes}))
         ->type_name("CHANNEL");
     app->add_option("--gain", convert_.gain,
                     "factor for a funscript or AHAP; default: the largest value of the "
-                    "track fills the range")
+                    "track fills the range. Of a funscript that is read, the one that it was "
+                    "written with; default: as it says, else 100 % is 3 N or 0.1 N m")
         ->check(number(kLeastGain, kMostGain))
         ->type_name("FACTOR");
     app->add_option("--tolerance", convert_.save.tolerance,

@@ -69,9 +69,10 @@ int print_info(const InfoOptions& options) {
   }
   std::cout << found.track << ": " << summary.samples << " samples, "
             << static_cast<double>(summary.samples) / kTrackRate_Hz << " s\n"
-            << (found.missing.empty() ? "" : found.missing + "\n") << "largest force "
-            << summary.largest_force_N << " N, torque " << summary.largest_torque_Nm
-            << " N m, steepest " << summary.steepest_N_s << " N/s\n"
+            << (found.missing.empty() ? "" : found.missing + "\n");
+  for (const std::string& line : found.about) std::cout << line << '\n';
+  std::cout << "largest force " << summary.largest_force_N << " N, torque "
+            << summary.largest_torque_Nm << " N m, steepest " << summary.steepest_N_s << " N/s\n"
             << "channel        peak         rms       above 30 Hz\n";
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const tracks::ChannelSummary& channel = summary.channels[i];

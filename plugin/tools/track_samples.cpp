@@ -14,6 +14,7 @@
 #include <gst/gst.h>
 
 #include "core/track/exchange_formats.h"
+#include "core/track/funscript.h"
 #include "core/track/track_reader.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/film_reader.h"
@@ -67,7 +68,7 @@ SampleSource SampleFile::samples(double gain) const {
 
 namespace {
 
-/// Of HJIF and funscripts: a track of 24 hours has less.
+/// Of HJIF: a track of 24 hours has less.
 constexpr size_t kMostText_bytes = size_t{1} << 30;
 
 /// The sample of `block` at `time_ns`, if it lies at a whole millisecond there: those are copied
@@ -139,8 +140,28 @@ TrackCondition find_track(const std::string& path, Film& film) {
     throw std::runtime_error(path + ": is a single picture, in which nothing moves");
   }
   found.film = path;
-  if (!film.has_track) found.track = find_sidecar(path);
+  if (film.has_track) return found;
+  found.track = find_sidecar(path);
+  if (found.track.empty()) found.track = tracks::find_script(path);
   return found;
+}
+
+void read_script(tracks::ScriptChoice choice, const SampleSource::Take& take,
+                 TrackCondition& found) {
+  choice.film = found.film;
+  const tracks::ScriptSet set = tracks::read_scripts(found.track, choice);
+  found.notes.origin = "funscript";
+  found.about = set.about;
+  for (const std::string& name : set.unfelt) found.about.push_back(name + ": is not read");
+  for (int64_t ms = 0; ms < set.length_ms(); ++ms) take(set.at(ms));
+}
+
+std::vector<TrackSample> read_hjif_file(const std::string& path) {
+  try {
+    return read_hjif(read_regular_file(path, kMostText_bytes));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
 }
 
 /// Sound that `encoder` makes.
@@ -163,10 +184,6 @@ void write_sound(const PartFile& part, const std::string& encoder, const SampleF
 
 }  // namespace
 
-std::string read_text(const std::string& path) {
-  return read_regular_file(path, kMostText_bytes);
-}
-
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() &&
          g_ascii_strcasecmp(text.c_str() + text.size() - end.size(), end.c_str()) == 0;
@@ -188,7 +205,7 @@ bool has_track(const std::string& path) {
 }
 
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
-                          size_t funscript_axis, const std::string& track) {
+                          const tracks::ScriptChoice& script, const std::string& track) {
   Film film;
   TrackCondition found = find_track(path, film);
   if (!track.empty() && !found.film.empty()) found.track = track;
@@ -197,17 +214,15 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
         path + ": is a film without a haptic track, inside it or beside it; " +
         "spidartrack record makes one, and --folder FOLDER finds it elsewhere");
   }
-  const auto give = [&take](const std::vector<TrackSample>& samples) {
-    for (const TrackSample& sample : samples) take(sample);
-  };
-  if (ends_with(path, ".funscript")) {
-    give(parse_file(path, [&] { return read_funscript(read_text(path), funscript_axis); }));
+  if (tracks::is_script(found.track)) {
+    read_script(script, take, found);
   } else if (ends_with(path, ".ahap")) {
     throw std::runtime_error(path +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
   } else if (ends_with(path, ".hjif")) {
-    give(parse_file(path, [&] { return read_hjif(read_text(path)); }));
+    found.notes.origin = "hjif";
+    for (const TrackSample& sample : read_hjif_file(path)) take(sample);
   } else {
     read_sound(path, film, take, found);
   }

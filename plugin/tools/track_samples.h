@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "core/track/exchange_formats.h"
 #include "core/track/track_format.h"
 #include "plugin/films/part_file.h"
+#include "plugin/tracks/script_set.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_tags.h"
 
@@ -52,6 +52,7 @@ struct TrackCondition {
   tracks::Faults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
   tracks::Notes notes;
+  std::vector<std::string> about;  ///< lines on the axes of funscripts
 };
 
 /// The force upwards: the channel of formats that have only one.
@@ -67,7 +68,7 @@ bool has_track(const std::string& path);
 /// sound of any rate that spidarsink accepts, which is given as it is read. Gaps become silence,
 /// and so do samples that are not numbers, which are counted. Throws std::runtime_error.
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
-                          size_t funscript_axis = kUsualAxis, const std::string& track = {});
+                          const tracks::ScriptChoice& script = {}, const std::string& track = {});
 
 /// Throws std::runtime_error when the track is that of another film than the one that was given.
 void expect_own_track(const TrackCondition& condition);
@@ -90,19 +91,6 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
 /// The elements with which GStreamer makes such a file from samples: "flacenc blocksize=40", …;
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
-
-/// Of HJIF or a funscript. Throws std::runtime_error, which does not name the file.
-std::string read_text(const std::string& path);
-
-/// What `parse` returns. Its errors name the file `path`.
-template <typename Parse>
-auto parse_file(const std::string& path, const Parse& parse) {
-  try {
-    return parse();
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
-}
 
 /// In small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);

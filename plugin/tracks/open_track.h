@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/track/track_format.h"
 #include "plugin/tracks/read_ahead.h"
@@ -37,6 +38,11 @@ class OpenTrack {
   virtual bool next(TrackBlock& block) = 0;
   /// After ReadAhead::await_seek().
   virtual void seek(int64_t time_ns) = 0;
+  /// At the beginning and after seek(): fills blocks() until nothing more of this pass is wanted.
+  /// Returns at once where threads of its own do that.
+  virtual void read_pass() {}
+  /// What is part of it, and not felt.
+  virtual std::vector<std::string> unfelt() const { return {}; }
 };
 
 /// The haptic track of a file, else its first sound, from any container that GStreamer has a

@@ -140,6 +140,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
   } else {
     tolerance_ns += film.begin_ns;  // it may begin with the first picture
   }
+  if (!notes.origin.empty()) return match;
   const int64_t end_ns = film.end_ns.value_or(film.duration_ns);
   const int64_t missing_ns = end_ns - match.later_ns - track_ns;
   // Sound may be longer than the pictures.

@@ -41,7 +41,8 @@ struct FilmMatch {
 
 /// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
 /// recognised by the pictures, which may come later in another container; any other by its length:
-/// it ends where the last picture does, but for one frame.
+/// it ends where the last picture does, but for one frame. One that was converted from a format of
+/// others ends anywhere.
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
 /// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not

@@ -11,6 +11,7 @@
 
 #include "plugin/films/film_reader.h"
 #include "plugin/gobject/category.h"
+#include "plugin/tracks/script_set.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_input.h"
 #include "spidar/realtime/thread_setup.h"
@@ -46,19 +47,31 @@ std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::stri
                                       const std::atomic<bool>* stopped, LoadedTrack& loaded) {
   loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;
   const std::optional<Film> read = read_if_possible(film, stopped);
+  loaded.is_named = wanted != "auto";
   if (loaded.path.empty() && read && read->has_track) loaded.path = film;
+  if (loaded.path.empty()) loaded.path = find_script(film);
   if (loaded.path.empty()) return nullptr;
-  std::unique_ptr<OpenTrack> track = open_track(loaded.path, stopped);
+  std::unique_ptr<OpenTrack> track = is_script(loaded.path)
+                                         ? open_scripts(loaded.path, loaded.is_named ? "" : film)
+                                         : open_track(loaded.path, stopped);
+  for (const std::string& name : track->unfelt()) {
+    loaded.remark += (loaded.remark.empty() ? "" : ", ") + name;
+  }
+  if (!loaded.remark.empty()) loaded.remark = "is felt without " + loaded.remark;
   // A track inside the film is the film's own.
   const bool is_inside = loaded.path == film;
-  loaded.is_compared = is_inside || read;
+  loaded.is_compared = is_inside || read || !track->notes().origin.empty();
   loaded.blocks = track->blocks();
   loaded.error = track->missing(track->duration_ns().value_or(INT64_MAX));
   if (is_inside || !loaded.error.empty()) return track;
   loaded.duration_ns = track->duration_ns() ? *track->duration_ns() : find_end(*track);
   if (!read) return track;
   const FilmMatch match = match_film(*read, loaded.duration_ns, track->notes());
-  loaded.error = match.mismatch;
+  if (!loaded.is_named) {
+    loaded.error = match.mismatch;
+  } else if (!match.mismatch.empty()) {
+    loaded.remark = "is felt, as track= says, though " + match.mismatch;
+  }
   loaded.blocks->set_later(match.later_ns);
   return track;
 }
@@ -124,6 +137,7 @@ void Loader::begin(const std::string& wanted, const std::string& film) {
     const bool is_played = track && loaded.error.empty();
     reading->set_opened(loaded);
     while (is_played) {
+      track->read_pass();
       const std::optional<int64_t> position_ns = loaded.blocks->await_seek();
       if (!position_ns) break;
       track->seek(*position_ns);
@@ -200,8 +214,17 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
     error = other_film(pad, loaded.duration_ns, frame_ns);
     gst_object_unref(pad);
   }
+  std::string remark = loaded.remark;
+  if (!error.empty() && loaded.error.empty() && loaded.is_named) {
+    remark = "is felt, as track= says, though " + std::exchange(error, {});
+  }
   if (error.empty()) {
     name_unused(element, loaded.path);
+    if (!remark.empty()) {
+      GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
+                          ("The haptic track %s %s.", loaded.path.c_str(), remark.c_str()),
+                          (nullptr));
+    }
     path_ = loaded.path;
     blocks_ = loaded.blocks;
     told_late_ = false;

@@ -28,6 +28,8 @@ struct LoadedTrack {
   int64_t duration_ns = 0;
   std::string error;         ///< why it cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
+  bool is_named = false;     ///< by track=FILE, so that it is felt with any film
+  std::string remark;        ///< on what is felt nevertheless, or not; empty: nothing
 };
 
 /// Reading may take long on a slow disk or network share, and for ever on a broken one.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/force/motion_rendering.h"
+#include "spidar/text.h"
 
 namespace spidar::tracks {
 namespace {
@@ -32,6 +33,12 @@ double full_scale(size_t channel) {
 
 const char* channel_unit(size_t channel) {
   return channel < kTrackChannels / 2 ? " N" : " N m";
+}
+
+std::string rounded(double value) {
+  if (value == 0) return "0";
+  const double step = std::pow(10, std::floor(std::log10(std::fabs(value))) - 1);
+  return as_text(std::round(value / step) * step);
 }
 
 Band::Band(double rate_Hz)

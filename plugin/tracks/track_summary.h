@@ -52,6 +52,8 @@ const char* channel_name(size_t channel);
 double full_scale(size_t channel);
 /// " N" or " N m".
 const char* channel_unit(size_t channel);
+/// Two digits: this is to be read, not to be computed with.
+std::string rounded(double value);
 
 /// Statistics of one channel, in fractions of the full scale.
 struct ChannelSummary {

@@ -17,10 +17,12 @@ constexpr const char* kDescription =
 // Lines of the comment after the description.
 constexpr const char* kFilm = "HAPTIC_FILM=";
 constexpr const char* kSettings = "HAPTIC_SETTINGS=";
+constexpr const char* kOrigin = "HAPTIC_ORIGIN=";
 
 std::string comment_of(const Notes& notes) {
   std::string comment = std::string(kDescription) + kTrackMark;
   if (!notes.film.empty()) comment += std::string("\n") + kFilm + to_text(notes.film);
+  if (!notes.origin.empty()) comment += std::string("\n") + kOrigin + notes.origin;
   if (notes.settings) comment += std::string("\n") + kSettings + *notes.settings;
   return comment;
 }
@@ -69,6 +71,8 @@ void read_notes(const GstTagList* tags, Notes& notes) {
         notes.film = parse_fingerprint(line.substr(std::string(kFilm).size()));
       } else if (line.rfind(kSettings, 0) == 0) {
         notes.settings = line.substr(std::string(kSettings).size());
+      } else if (line.rfind(kOrigin, 0) == 0) {
+        notes.origin = line.substr(std::string(kOrigin).size());
       }
     }
   }

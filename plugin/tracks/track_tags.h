@@ -18,6 +18,8 @@ struct Notes {
   FilmFingerprint film;  ///< that it was recorded from; empty: not known
   /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
   std::optional<std::string> settings;
+  /// The format that it was converted from, whose length says nothing of the film; empty: none.
+  std::string origin = {};
 };
 
 /// Title, comment and full scale of a track. Owned by the caller.

@@ -55,10 +55,13 @@ class Conversion(track_case.TrackCase):
             script = json.loads(self.path("a.funscript").read_text())
             self.assertEqual(script["actions"], [{"at": at, "pos": round(50 + 50 * share)} for at in (0, 99)])
         self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
-        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx"), "")
-        read = self.samples("b.wav")
-        self.assertEqual(len(read), 101)
-        self.assertEqual((read[50], read[100]), ((.5, 0, 0, 0, 0, 0), (1, 0, 0, 0, 0, 0)))
+        for options, said, most in (((), "gain 3.3 taken back: 100 % is 3 N", .3),
+                                    (("--gain", "1"), "gain 1 taken back: 100 % is 10 N", 1)):
+            self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx", *options),
+                             f"a.funscript: fx, {said}\n")
+            read = self.samples("b.wav")
+            self.assertEqual(len(read), 101)
+            self.assertLessEqual(difference([read[50], read[100]], [(most / 2,) + (0,) * 5, (most,) + (0,) * 5]), 1e-6)
 
     def test_six_funscripts_have_all_axes_and_are_read_back(self):
         peaks = (.2, .1, .05, .02, .01, .004)
@@ -69,7 +72,8 @@ class Conversion(track_case.TrackCase):
                                     ("a.twist", "ty", "50"), ("a.roll", "tz", "50")):
             self.assertIn(f"{name}.funscript: {channel}, gain {gain}\n", said)
         said = self.spidartrack("convert", "a.funscript", "back.wav", "--axis", "all")
-        self.assertIn("a.twist.funscript: ty, gain 50 taken back\n", said)
+        self.assertIn("a.twist.funscript: ty, gain 50 taken back: 100 % is 0.02 N m\n", said)
+        self.assertEqual(self.spidartrack("convert", "a.funscript", "again.wav"), said)
         before, after = self.samples("a.wav"), self.samples("back.wav")
         self.assertEqual(len(after), len(before))
         for channel in range(6):
@@ -83,8 +87,10 @@ class Conversion(track_case.TrackCase):
         self.assertFalse(self.path("a.funscript").exists())
         self.path("a.twist.funscript").unlink()
         self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
-        self.assertIn("a.twist.funscript: is not there; ty is at rest",
-                      self.spidartrack("convert", "a.funscript", "back.wav", "--axis", "all", "--force"))
+        said = self.spidartrack("convert", "a.funscript", "back.wav", "--axis", "all", "--force")
+        # By a foreign one, upwards, the file that notes the vertical force is not replaced.
+        self.assertIn("a.funscript: fy, gain 3.3", said)
+        self.assertIn("a.sway.funscript, another one for fy: is not read", said)
         self.assert_said("--axis is for .funscript", "convert", "a.wav", "b.flac", "--axis", "all", status=2)
 
     def test_a_funscript_has_the_axis_with_the_most_motion(self):
@@ -94,8 +100,59 @@ class Conversion(track_case.TrackCase):
         positions = [action["pos"] for action in json.loads(self.path("a.funscript").read_text())["actions"]]
         self.assertEqual((min(positions), max(positions)), (0, 100))
         self.assertNotIn("axis", self.spidartrack("convert", "a.wav", "a.ahap"))
-        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav"), "")
-        self.assertEqual(max(abs(sample[0]) for sample in self.samples("b.wav")), 0)
+        # There and back is the same force: the script knows its channel and gain.
+        self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav"),
+                         "a.funscript: fx, gain 50 taken back: 100 % is 0.2 N\n")
+        back = self.samples("b.wav")
+        self.assertEqual({sample[1:] for sample in back}, {(0,) * 5})
+        self.assertLessEqual(max(abs(sample[0] - .02 * math.sin(.05 * ms)) for ms, sample in enumerate(back)), .02 / 50 + 1e-6)
+
+    def write_script(self, name, peak=100, **more):
+        actions = [{"at": 0, "pos": 50}, {"at": 250, "pos": peak}, {"at": 500, "pos": 50}]
+        self.path(name).write_text(json.dumps({"actions": actions} | more))
+
+    def test_scripts_beside_a_film_are_its_track(self):
+        """They end before it, as nearly all do."""
+        self.make_film("film.avi", frames=50)
+        for names in (("film.funscript", "film.roll.funscript"), ("film.avi.funscript", "film.avi.R1.funscript"),
+                      ("film.stroke.funscript", "film.ROLL.funscript"), ("film.L0.funscript", "film.r1.Funscript")):
+            self.write_script(names[0])
+            self.write_script(names[1], 0)
+            info = json.loads(self.spidartrack("info", "--json", "film.avi"))
+            self.assertEqual(info["belongs"], True)
+            self.assertEqual(info["samples"], 501)
+            self.assertEqual([round(info["channels"][name]["peak"], 6) for name in CHANNELS], [0, .3, 0, 0, 0, .1], names)
+            for name in names:
+                self.path(name).unlink()
+        # Not read: other axes, and scripts of other films.
+        self.write_script("film.funscript")
+        for name in ("film.vib.funscript", "film.b.funscript", "filmroll.funscript", "film.roll.b.funscript"):
+            self.write_script(name)
+        self.path("film.pitch.funscript").write_text('{"actions":[]}')
+        said = self.spidartrack("info", "film.avi")
+        self.assertIn("film.vib.funscript: is not read\n", said)
+        self.assertIn("film.pitch.funscript: has no actions; tx is at rest\n", said)
+        self.assertEqual(len(re.findall("funscript: ", said)), 4, said)
+        # A haptic track goes before a script, and one that was a script may end early, too.
+        self.spidartrack("convert", "film.funscript", "film.avi.haptic.flac")
+        info = json.loads(self.spidartrack("info", "--json", "film.avi"))
+        self.assertEqual((info["track"], info["belongs"]), ("film.avi.haptic.flac", True))
+        self.path("film.avi.haptic.flac").unlink()
+        self.path("film.pitch.funscript").write_text("{")
+        self.assert_said("film.pitch.funscript: it is no JSON", "info", "film.avi")
+
+    def test_a_script_may_have_several_axes(self):
+        roll = [{"at": 0, "pos": 50}, {"at": 500, "pos": 100}]
+        for more in ({"axes": [{"id": "R1", "actions": roll}, {"id": "V0", "actions": roll}]},
+                     {"channels": {"roll": {"actions": roll}, "V0": {"actions": roll}}}):
+            self.write_script("a.funscript", **more)
+            said = self.spidartrack("convert", "a.funscript", "b.wav")
+            self.assertIn(": tz, gain 10 taken back: 100 % is 0.1 N m\nV0 of a.funscript: is not read\n", said)
+            read = self.samples("b.wav")
+            self.assertAlmostEqual(read[250][1], .3, delta=1e-6)
+            self.assertAlmostEqual(read[500][5], .1, delta=1e-6)
+            said = self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx")
+            self.assertRegex(said, "(R1|roll) of a.funscript: is not read")
 
     def test_what_a_format_cannot_hold_is_said(self):
         self.make_track(sample=lambda ms: (ms / 100, 0, 0, 0, 0, 0), count=101)

@@ -4,6 +4,7 @@
 that are faulty. In real time; nothing depends on how long anything takes: ticks that come late leave samples out, and
 none is wrong. test_track_played.py SDP_FILE"""
 
+import json
 import math
 import os
 import pathlib
@@ -233,7 +234,39 @@ class BadTracks(TrackPlayedCase):
                 if abs(ms - MS) <= 40:
                     self.assertEqual((outcome.warnings, outcome.forces), ([], []))
                 else:
+                    self.assertIn(f"is felt, as track= says, though the track lasts {ms / 1000:.3f} s, the film "
+                                  f"{MS / 1000:.3f} s", outcome.warnings[0])
+                    self.assertEqual(outcome.forces, [])
+                self.make_film("film.avi", FRAMES)
+                self.path("a.wav").rename(self.path("film.avi.haptic.wav"))
+                outcome = self.play(f"filesrc location={self.path('film.avi')} ! avidemux ! jpegdec ! videoconvert ! "
+                                    "spidarmotion track=auto ! fakesink sync=true")
+                if abs(ms - MS) > 40:
                     self.expect_analysed(outcome, f"the film {MS / 1000:.3f} s")
+
+    def test_scripts_beside_a_film_are_felt_and_rest_where_they_end(self):
+        self.make_film("film.avi", FRAMES)
+        points = [{"at": 0, "pos": 100}, {"at": 200, "pos": 100}]
+        for name in ("film.funscript", "film.roll.funscript", "film.vib.funscript"):
+            self.path(name).write_text(json.dumps({"actions": points}))
+        film = f"filesrc location={self.path('film.avi')} ! avidemux ! jpegdec ! videoconvert ! spidarmotion "
+        for track in ("auto", self.path("film.funscript")):
+            pipeline = self.parse(f"{film} track={track} ! fakesink sync=true")
+            outcome = self.play(pipeline)
+            self.assertEqual((outcome.error, outcome.forces), ("", []))
+            self.assertEqual(len(outcome.warnings), 1, outcome.warnings)
+            self.assertIn("is felt without", outcome.warnings[0])
+            self.assertIn("film.vib.funscript", outcome.warnings[0])
+            rows = gst_case.read_ticks(pipeline.watched[-1])
+            felt = [row for row in rows if row["found"] in ("exact", "interpolated")]
+            self.assertTrue(felt)
+            for row in felt:
+                wanted = gst_case.vector(row, "wanted_force") + gst_case.vector(row, "wanted_torque", "Nm")
+                self.assertLessEqual(max(abs(a - b) for a, b in zip(wanted, (0, 3, 0, 0, 0, .1))), 1e-6)
+            self.assertEqual(rows[-1]["found"] in ("exact", "interpolated"), False)
+        self.path("film.roll.funscript").write_text("{")
+        outcome = self.play(f"{film} track=auto ! fakesink sync=true")
+        self.expect_analysed(outcome, "film.roll.funscript: it is no JSON")
 
     def test_it_is_felt_in_time_without_sync_too_and_a_warning_says_so(self):
         self.make_track("a.wav", MS, lambda _: CONSTANT)

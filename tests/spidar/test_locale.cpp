@@ -12,6 +12,7 @@
 
 #include "core/choice/feel_rules.h"
 #include "core/track/exchange_formats.h"
+#include "core/track/funscript.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/protocols/inverse3.h"
 #include "spidar/protocols/sound.h"

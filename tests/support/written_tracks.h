@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/track/exchange_formats.h"
+#include "core/track/funscript.h"
 #include "core/track/keyframes.h"
 
 namespace spidar {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The funscripts of a film: one for each axis, or several axes in one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/track/funscript.h"
+#include "core/track/track_format.h"
+#include "plugin/tracks/open_track.h"
+
+namespace spidar::tracks {
+
+/// By the end of its name, in small or capital letters.
+bool is_script(const std::string& path);
+
+/// A script beside a film, for which its set is read: FILM.funscript, FILM.roll.funscript and so
+/// on, with or without the extension of the film; that of the main axis if there is one. Empty
+/// when there is none.
+std::string find_script(const std::string& film);
+
+struct ScriptChoice {
+  std::optional<size_t> channel;  ///< only the actions of the file itself, as this channel
+  std::optional<double> gain;     ///< with which all were written; else as they say
+  std::string film;               ///< whose set it is; else one that its own name tells
+};
+
+/// Axes of several files.
+struct ScriptSet {
+  std::vector<ScriptAxis> axes;    ///< one for each channel
+  std::vector<std::string> about;  ///< a line on each axis, with its file
+  std::vector<std::string>
+      unfelt;  ///< what is not read: "film.vib.funscript", "vib of film.funscript"
+
+  /// One more than the last millisecond that has a position.
+  int64_t length_ms() const;
+  TrackSample at(int64_t time_ms) const;
+};
+
+/// A script, and the others of its set if its own name has no axis. Throws std::runtime_error,
+/// which names the file, when one is wrong, or when no axis has any position.
+ScriptSet read_scripts(const std::string& path, const ScriptChoice& choice = {});
+
+/// Of read_scripts(), and throws as that.
+std::unique_ptr<OpenTrack> open_scripts(const std::string& path, const std::string& film);
+
+}  // namespace spidar::tracks
