@@ -41,7 +41,7 @@ GstPadProbeReturn measured(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   for (guint i = 0; i < objects->len; ++i) {
     const auto& object = g_array_index(objects, GstSpidarObject, i);
     if (!object.felt) continue;
-    const double width = object.width, height = object.height;
+    const double width = object.frame_width, height = object.frame_height;
     box.edges = {object.x / width, object.y / height, (object.x + object.w) / width,
                  (object.y + object.h) / height};
   }

@@ -6,6 +6,11 @@
   tests/bench/real_films.sh FOLDER...                        the spidarmotion of build/
   BUILD=FOLDER OLDER=FOLDER tests/bench/real_films.sh ...    of other build folders; OLDER: beside another version,
                                                              with the frames that are judged in another way
+  tests/bench/real_films.py FOLDER... --other NAME=FOLDER    also of another method, from what it has measured; needs
+                                                             only the plugin, no benchmarks
+
+In the folder of another method, NAME.csv for each film has what it found to move, in lines as those of the truth;
+frames that are missing move nothing.
 
 A FOLDER holds films that GStreamer can decode. Beside a film, NAME.csv gives the true motion of its
 object against the background: lines `frame,x,y`, the first frame being 0, in pixels of the film
@@ -33,6 +38,7 @@ by more than 90 degrees from one frame to the next; starts, how often a force be
 
 ms: processor time of a frame without decoding: median, 99 %, longest."""
 
+import argparse
 import csv
 import json
 import math
@@ -65,13 +71,34 @@ def print_head(*columns):
     print("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|", flush=True)
 
 
-def read_truth(film):
-    """Motion by frame, px; nothing for a film without an object."""
-    file = film.with_suffix(".csv")
-    if not file.exists():
-        return None
+def read_motion(file):
+    """By frame, px since the frame before."""
+    motion = {}
     with open(file, newline="") as lines:
-        return {int(n): (float(x), float(y)) for n, x, y in csv.reader(lines)}
+        for number, line in enumerate(csv.reader(lines), 1):
+            try:
+                n, x, y = line
+                motion[int(n)] = float(x), float(y)
+            except ValueError:
+                sys.exit(f"real_films.py: {file}, line {number}: is to be frame,x,y in px: {','.join(line)}")
+    return motion
+
+
+def read_truth(film):
+    """Nothing for a film without an object."""
+    file = film.with_suffix(".csv")
+    return read_motion(file) if file.exists() else None
+
+
+def read_other(folder, film, frames):
+    """The frames of a film as another method found them; their times and sizes are those of `frames`."""
+    file = folder / film.with_suffix(".csv").name
+    if not file.exists():
+        sys.exit(f"real_films.py: {file} is missing: what the method found in {film.name}")
+    motion = read_motion(file)
+    if motion and not 0 <= min(motion) <= max(motion) < len(frames):
+        sys.exit(f"real_films.py: {file}: frames are 0 to {len(frames) - 1} in {film.name}")
+    return [Frame(motion.get(n, (0, 0)), frame.seconds, frame.height) for n, frame in enumerate(frames)]
 
 
 class Frame:
@@ -252,16 +279,26 @@ def films_of(folders):
 
 def main():
     build, older = Path(os.environ.get("BUILD", "build")).resolve(), os.environ.get("OLDER")
-    films = films_of([Path(folder) for folder in sys.argv[1:]] or sys.exit("usage: tests/bench/real_films.sh FOLDER..."))
+    parser = argparse.ArgumentParser(usage="tests/bench/real_films.sh FOLDER... [--other NAME=FOLDER]...")
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--other", action="append", default=[])
+    options = parser.parse_args()
+    others = [(name, Path(folder)) for name, _, folder in (other.partition("=") for other in options.other)]
+    for name, folder in others:
+        if not folder.is_dir():
+            parser.error(f"--other {name}={folder}: NAME=FOLDER, a folder with a file .csv for each film")
+    films = films_of(options.folders)
     for each in [build] + ([Path(older)] if older else []):
         if not list((each / "plugin").glob("libgstspidar.*")):
             sys.exit(f"real_films.py: no plugin in {each}/plugin: build it with meson compile")
     program = build / "tests" / "bench" / "spidar-bench"
-    measures = "real_film" in subprocess.run([program], check=False, stdout=subprocess.PIPE, text=True).stdout
+    measures = program.exists() and "real_film" in subprocess.run([program], check=False, stdout=subprocess.PIPE,
+                                                                  text=True).stdout
     if not measures:
-        print("No ms and no other methods: spidar-bench was built without libavformat-dev.\n")
+        print("No ms, and no methods of spidar-bench: it is not built, or without libavformat-dev.\n")
 
     curves = []
+    played = {}  # the frames of each film
     rows = {}  # name of a row: the verdict of each frame, by film
     each_film = {}
     print_head(*COLUMNS)
@@ -273,6 +310,7 @@ def main():
             times_ms = (measure(program, "paper" if properties else "default", film)[1]
                         if measures and which == build else ())
             frames, truth = play(which, film, properties), read_truth(film)
+            played[film] = frames
             rows.setdefault(name, {})[film.name] = tally.add(frames, truth, times_ms)
             if not properties:
                 alone = Tally()
@@ -286,6 +324,13 @@ def main():
         for film in films:
             frames, times_ms = measure(program, method, film)
             tally.add(frames, read_truth(film), times_ms)
+        print(tally.row(name), flush=True)
+        curves.append(curve(name, tally.apart))
+
+    for name, folder in others:
+        tally = Tally()
+        for film in films:
+            tally.add(read_other(folder, film, played[film]), read_truth(film))
         print(tally.row(name), flush=True)
         curves.append(curve(name, tally.apart))
 

@@ -26,7 +26,26 @@ except ImportError:
 
 import davis  # noqa: E402
 import gyroscope  # noqa: E402
-from real_films import Frame, Tally  # noqa: E402
+from real_films import Frame, Tally, read_other  # noqa: E402
+
+
+class OtherMethod(unittest.TestCase):
+    def test_a_method_is_scored_by_what_it_has_written(self):
+        frames = [Frame((0, 0), .04, 480) for _ in range(6)]
+        truth = {n: (4.0, 0.0) for n in range(1, 6)}
+        with tempfile.TemporaryDirectory() as name:
+            file, film = Path(name) / "a.csv", Path("films/a.mp4")
+            with self.assertRaisesRegex(SystemExit, "a.csv is missing"):
+                read_other(Path(name), film, frames)
+            file.write_text("2,4,0\n3,-4,0\n4,3,0.5\n", encoding="ascii")
+            tally = Tally()
+            verdicts = tally.add(read_other(Path(name), film, frames), truth)
+            self.assertEqual(verdicts, [(2, "right"), (3, "wrong"), (4, "right"), (5, "none")])
+            self.assertTrue(tally.row("mine").startswith("| mine | 50.0 "))
+            for wrong, said in ("6,1,1\n", "frames are 0 to 5"), ("1,1\n", "line 1: is to be frame,x,y"):
+                file.write_text(wrong, encoding="ascii")
+                with self.assertRaisesRegex(SystemExit, said):
+                    read_other(Path(name), film, frames)
 
 
 class Shares(unittest.TestCase):

@@ -161,7 +161,7 @@ TEST_F(ObjectMetas, AreReadByAProgramInC) {
     EXPECT_EQ(object.id, static_cast<guint>(region.id));
     EXPECT_EQ(Vector2d(object.x, object.y), Vector2d(region.x, region.y));
     EXPECT_EQ(Vector2d(object.w, object.h), Vector2d(region.width, region.height));
-    EXPECT_EQ(Vector2d(object.width, object.height), Vector2d(kWidth, kHeight));
+    EXPECT_EQ(Vector2d(object.frame_width, object.frame_height), Vector2d(kWidth, kHeight));
     EXPECT_EQ(Vector2d(object.velocity_x, object.velocity_y), region.velocity_px_s);
     EXPECT_EQ(Vector2d(object.screen_velocity_x, object.screen_velocity_y), region.screen_px_s);
     EXPECT_EQ(object.velocity_error, region.error_px_s);

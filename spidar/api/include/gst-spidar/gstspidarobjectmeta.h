@@ -26,8 +26,8 @@ typedef struct {
   guint y;                   /*!< Upper edge of its box, px. */
   guint w;                   /*!< Width of its box, px. */
   guint h;                   /*!< Height of its box, px. */
-  guint width;               /*!< Width of the frame that velocities refer to, px. */
-  guint height;              /*!< Height of that frame, px. */
+  guint frame_width;         /*!< Width of the frame that velocities refer to, px. */
+  guint frame_height;        /*!< Height of that frame, px. */
   gdouble velocity_x;        /*!< Velocity against the background, to the right, px/s. */
   gdouble velocity_y;        /*!< Velocity against the background, downwards, px/s. */
   gdouble velocity_error;    /*!< The true velocity is less than this away in 95 % of the frames,
@@ -56,7 +56,7 @@ static inline GArray* gst_buffer_get_spidar_objects(GstBuffer* buffer) {
     memset(&object, 0, sizeof object);
     if (region->roi_type != type || motion == NULL ||
         !gst_structure_get(
-            motion, "width", G_TYPE_UINT, &object.width, "height", G_TYPE_UINT, &object.height,
+            motion, "width", G_TYPE_UINT, &object.frame_width, "height", G_TYPE_UINT, &object.frame_height,
             "velocity-x", G_TYPE_DOUBLE, &object.velocity_x, "velocity-y", G_TYPE_DOUBLE,
             &object.velocity_y, "velocity-error", G_TYPE_DOUBLE, &object.velocity_error,
             "screen-velocity-x", G_TYPE_DOUBLE, &object.screen_velocity_x, "screen-velocity-y",

@@ -17,8 +17,9 @@ from gst_spidar._library import Quaternion, State, Vector3, Wrench
 from gst_spidar._library import _call, _Callback, _checked, _grey, _Handle, _in_thread, _names, _require_no_callback, _Surface
 from gst_spidar._library import _text, _vector
 
-__all__ = """Capabilities Controller Device FeltMotion GripState MotionResult MotionToWrench Pose Quaternion State Vector3
-    Wrench list_devices list_profiles""".split()
+# A list that editors and type checkers read.
+__all__ = ["Capabilities", "Controller", "Device", "FeltMotion", "GripState", "MotionResult", "MotionSettings",
+           "MotionToWrench", "Pose", "Quaternion", "State", "Vector3", "Wrench", "list_devices", "list_profiles"]
 
 
 def list_devices():
