@@ -60,6 +60,42 @@ def noise(volume, output):
         pipeline.set_state(Gst.State.NULL)
 
 
+def analyse(clip, upright, turned, tell):
+    """Decodes a clip once, as fast as it can be analysed, for filters (make_filter()) of which some see it turned by 180°.
+    `tell` is called with the per cent that are done. Raises RuntimeError."""
+    pipeline = Gst.parse_launch("uridecodebin name=source force-sw-decoders=true "
+                                "videoconvert name=before ! tee name=upright allow-not-linked=true "
+                                "upright. ! queue ! videoflip video-direction=180 ! tee name=turned allow-not-linked=true")
+    for name, filters in ("upright", upright), ("turned", turned):
+        for each in filters:
+            branch = [Gst.ElementFactory.make("queue"), each, Gst.ElementFactory.make("fakesink")]
+            branch[0].set_property("max-size-buffers", 4)
+            for element in branch:
+                pipeline.add(element)
+            for one, next_ in zip([pipeline.get_by_name(name), *branch], branch):
+                one.link(next_)
+    sink = pipeline.get_by_name("before").get_static_pad("sink")
+    source = pipeline.get_by_name("source")
+    source.set_property("uri", uri_of(clip))
+
+    def link(_, pad):
+        if pad.query_caps(None).to_string().startswith("video/x-raw") and not sink.is_linked():
+            pad.link(sink)
+
+    source.connect("pad-added", link)
+    pipeline.set_state(Gst.State.PLAYING)
+    try:
+        while not (message := pipeline.bus.timed_pop_filtered(200 * Gst.MSECOND,
+                                                              Gst.MessageType.EOS | Gst.MessageType.ERROR)):
+            (_, at_ns), (_, all_ns) = (query(Gst.Format.TIME) for query in (pipeline.query_position, pipeline.query_duration))
+            if all_ns > 0:
+                tell(min(100 * at_ns // all_ns, 99))
+        if message.type == Gst.MessageType.ERROR:
+            raise RuntimeError(f"{clip} could not be played: {message.parse_error()[0].message}")
+    finally:
+        pipeline.set_state(Gst.State.NULL)
+
+
 class TickRecorder:
     """Keeps the haptic trace while a clip plays. It comes through a pipe, as most of a session is not worth keeping.
     `streams`: takes each row, also of the time between clips (examples/lsl.py)."""

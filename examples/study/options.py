@@ -31,7 +31,7 @@ def parse(description, arguments):
     design = commands.add_parser("design", help="in what the conditions of these clips differ", epilog=end,
                                  usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
     run = commands.add_parser(
-        "run", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
+        "run", help="a participant's session: consent, practice, clips and questions", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
     threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
                                     usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
     for command in run, threshold:
@@ -57,7 +57,7 @@ def parse(description, arguments):
     for command in design, threshold:
         command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="", headless=False)
     threshold.set_defaults(clips=[], paper=False)
-    commands.add_parser("report").add_argument("answers", metavar="ANSWERS.csv")
+    commands.add_parser("report", help="what was answered, and what differs").add_argument("answers", metavar="ANSWERS.csv")
     withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
     withdraw.add_argument("answers", metavar="ANSWERS.csv")
     withdraw.add_argument("participant", metavar="PARTICIPANT")

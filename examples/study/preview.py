@@ -5,11 +5,12 @@
 import csv
 import math
 import statistics
+import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from clip_player import Player
+from clip_player import analyse, make_filter
 from perception import FELT_N, told_apart
 
 # Of the frames in which something is felt. Below this, the two controllers are the same for most of a clip, and an
@@ -62,25 +63,51 @@ def compare(forces_N, limit_N, is_matched):
                 {name: limit_N * gain[name] for name in FORCES})
 
 
-def frames_of(clip, properties, name, limit_N):
-    """Force, N, of each frame, without a device, and the time, ns, of its motion: halfway since the frame before."""
+class Progress:
+    """On standard error: what is looked at, and on a terminal also how far that is."""
+
+    def __init__(self, clips):
+        self.left, self.count, self.is_terminal = list(clips), len(clips), sys.stderr.isatty()
+
+    def begin(self, clip):
+        text = f"looking at {clip} ({self.count - len(self.left) + 1} of {self.count}) …"
+        del self.left[:1]
+        print(text, end="" if self.is_terminal else "\n", file=sys.stderr, flush=True)
+        return lambda percent: self.is_terminal and print(f"\r{text} {percent} %", end="", file=sys.stderr, flush=True)
+
+    def end(self):
+        if self.is_terminal:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def read_trace(trace):
+    """Force, N, of each frame, and the time, ns, of its motion: halfway since the frame before."""
+    with open(trace, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    times_ns = [int(row["running_time_ns"]) for row in rows]
+    return [[(before_ns + time_ns) // 2, *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
+            for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)]
+
+
+def all_frames(clip, properties, limit_N, alphas, tell):
+    """read_trace() by force and alpha, without a device. The clip is decoded once: that takes longer than to analyse it."""
     with tempfile.TemporaryDirectory() as folder:
-        trace = Path(folder, "trace.csv")
-        with Player([*properties, *PROPERTIES[name], "device=none", f"max-force={limit_N:g}"], "fast") as player:
-            player.play(clip, [f"trace={trace}"], is_turned=name == "sham")
-        with open(trace, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        times_ns = [int(row["running_time_ns"]) for row in rows]
-        return [[(before_ns + time_ns) // 2, *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
-                for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)]
+        upright, turned, traces = [], [], {}
+        for name, alpha in [("linear", None), *((name, alpha) for alpha in alphas for name in FORCES[1:])]:
+            traces[name, alpha] = trace = Path(folder, f"{len(traces)}.csv")
+            (turned if name == "sham" else upright).append(
+                make_filter([*properties, *properties_of(alpha), *PROPERTIES[name], "device=none", f"max-force={limit_N:g}",
+                             f"trace={trace}"]))
+        analyse(clip, upright, turned, tell)
+        return {key: read_trace(trace) for key, trace in traces.items()}
 
 
-def measure(clip, properties, limit_N, is_matched, alphas):
+def measure(clip, properties, limit_N, is_matched, alphas, progress):
     """Analyses a clip with each controller: a Clip by alpha. `alphas`: None is the alpha of the properties."""
-    linear, found = frames_of(clip, properties, "linear", limit_N), {}
+    by_force, found = all_frames(clip, properties, limit_N, alphas, progress.begin(clip)), {}
+    progress.end()
     for alpha in alphas:
-        with_alpha = properties + properties_of(alpha)
-        frames = {"linear": linear} | {name: frames_of(clip, with_alpha, name, limit_N) for name in FORCES[1:]}
+        frames = {"linear": by_force["linear", None]} | {name: by_force[name, alpha] for name in FORCES[1:]}
         found[alpha] = compare({name: [math.hypot(*force_N) for _, *force_N in rows] for name, rows in frames.items()},
                                limit_N, is_matched)
         # A force is proportional to max-force.

@@ -77,8 +77,9 @@ class Study:
     def design(self):
         """For each clip and alpha, what differs, and the alpha to take."""
         is_given = self.options.paper or any(each.startswith("alpha=") for each in self.properties)
+        progress = self.preview.Progress(self.options.clips)
         clips = {clip: self.preview.measure(clip, self.properties, self.limit_N, not self.options.paper,
-                                            [None] if is_given else self.preview.ALPHAS_S_PX)
+                                            [None] if is_given else self.preview.ALPHAS_S_PX, progress)
                  for clip in self.options.clips}
         return clips, self.preview.choose(clips)
 
@@ -105,12 +106,12 @@ class Study:
         """What differs in each clip: as measured when the study began. Prints none of it: the participant may look on."""
         old = read_settings(self.options.answers)
         if old is None:
-            print("looking at the clips …", flush=True)
             clips, alpha = self.design()
             self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
             if self.options.practice:
                 clips[self.options.practice] = self.preview.measure(
-                    self.options.practice, self.properties, self.limit_N, not self.options.paper, [alpha])
+                    self.options.practice, self.properties, self.limit_N, not self.options.paper, [alpha],
+                    self.preview.Progress([self.options.practice]))
             write_settings(self.options.answers, self.settings(alpha),
                            {name: asdict(by_alpha[alpha]) for name, by_alpha in clips.items()})
         else:
