@@ -130,8 +130,10 @@ def choose(clips):
 
 def table(clips):
     lines = ["felt: frames in which something is felt. apart: of these, how many a hand tells apart (11 %). differ: the",
-             "median difference. stronger: how many are stronger with nonlinear. N rms as measured; N max-force as played.", "",
-             "alpha    felt %  apart %  differ %  stronger %   " + "  ".join(f"{name:>16}" for name in FORCES) + "  clip"]
+             "median difference. stronger: how many are stronger with nonlinear. N rms as measured; N max(-force) as played.", "",
+             " " * 48 + "  ".join(f"{name:>16}" for name in FORCES),
+             "alpha    felt %  apart %  differ %  stronger %   " + "  ".join(f"{'N rms':>7} {'N max':>8}" for _ in FORCES) +
+             "  clip"]
     for name, by_alpha in clips.items():
         for alpha, clip in by_alpha.items():
             forces = "  ".join(f"{clip.rms_N[each]:7.3f} {clip.max_force_N[each]:8.3f}" for each in FORCES)
