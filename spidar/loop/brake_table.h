@@ -14,7 +14,8 @@ constexpr double kUnheldGrip_kg = 0.1;          // as most: from a third of it t
 constexpr double kFirmHand_N_m = 200;           // a firm hand has 300 or more, a light one 100
 constexpr double kLooseHand_N_m = 100;          // a softer hold is a loose hand or none
 constexpr double kFastest_m_s = kReleased_m_s;  // faster than any film moves a hand: 0.45
-constexpr double kFastest_rad_s = 20;    // a hand to and fro by 45°, 4 a second; a unheld grip: 40
+constexpr double kFastest_rad_s = 20;  // a hand to and fro by 45°, 4 a second; a unheld grip: 40
+constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; 2.1, GripWatch's, is 20 ms later
 constexpr double kTellingForce_N = 0.1;  // less force moves a hand less than it moves by itself
 constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any force
 

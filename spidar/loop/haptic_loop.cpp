@@ -3,11 +3,13 @@
 #include "spidar/loop/haptic_loop.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/force/motion_rendering.h"
 #include "spidar/grip/released_grip.h"
+#include "spidar/loop/brake_table.h"
 
 namespace spidar {
 namespace {
@@ -294,8 +296,9 @@ void HapticLoop::follow(int64_t passed_ns) noexcept {
   const double passed_s = 1e-9 * static_cast<double>(passed_ns);
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
-  // A hand does not turn a grip until its strings tangle.
-  if (grip.pose_fault == PoseFault::kTurned) brake_.release();
+  // A hand does not turn a grip so far. Before its strings tangle and its pose is lost, the force
+  // is gone.
+  if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.knows_pose()) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
   brake_.pull(grip.delivered, grip.at_rest, passed_s);
