@@ -62,11 +62,11 @@ void find_track(const std::string& path, const Film& film, const std::atomic<boo
     const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(beside, stopped);
     const int64_t end_ns = track->duration_ns() ? *track->duration_ns() : tracks::find_end(*track);
     const FilmMatch match = match_film(film, end_ns, track->notes());
-    if (!match.mismatch.empty()) throw std::runtime_error(match.mismatch);
+    if (!match.mismatch.empty()) throw std::runtime_error(beside + ": " + match.mismatch);
     plan.track = beside;
     plan.later_ns = match.later_ns;
   } catch (const std::runtime_error& error) {
-    plan.remark = beside + ": " + error.what() + "; the film is analysed";
+    plan.remark = std::string(error.what()) + "; the film is analysed";
   }
 }
 

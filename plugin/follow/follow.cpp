@@ -240,6 +240,7 @@ class Follower {
     if (is_changed && (is_settled || (next && !is_paused))) {
       const PlayerView* const last = gone_ ? &*gone_ : followed ? &views[*followed] : nullptr;
       tell(say_choice(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
+      has_said_that_it_waits_ = true;
       gone_.reset();
       follow(next ? players[*next] : nullptr);
     }
@@ -291,10 +292,11 @@ class Follower {
                   "; without force until the next film");
       }
     }
-    tell_once(name_.empty()
-                  ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
-                  : "waits for a player that is called " + name_ +
-                        " in MPRIS and plays a film; mpv needs the package mpv-mpris");
+    if (std::exchange(has_said_that_it_waits_, true)) return;
+    tell(name_.empty()
+             ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
+             : "waits for a player that is called " + name_ +
+                   " in MPRIS and plays a film; mpv needs the package mpv-mpris");
   }
 
   /// Says so when the player does not tell where it is, or what is not felt.
@@ -364,6 +366,7 @@ class Follower {
   std::set<std::string> used_;  ///< of these: what players play
   int looking_ = 0;             ///< at so many files
   std::set<std::string> said_;
+  bool has_said_that_it_waits_ = false;
   // The player that is followed.
   Player* player_ = nullptr;
   std::optional<PlayerView> gone_;  ///< it was followed, and its end is to be said

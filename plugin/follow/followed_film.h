@@ -15,12 +15,18 @@
 #include <gst/gst.h>
 
 #include "plugin/follow/film_plan.h"
+#include "spidar/text.h"
 
 namespace spidar::follow {
 
-/// What is said to people. Any thread.
+/// What is said to people; names and addresses in it are of other programs, which may tell
+/// megabytes. Any thread.
 inline void tell(const std::string& text) {
-  g_printerr("spidar-feel: %s\n", text.c_str());
+  constexpr size_t kMost = 1000;
+  const std::string shown = text.size() <= kMost ? text
+                                                 : text.substr(0, kMost / 2) + " … " +
+                                                       text.substr(text.size() - kMost / 2);
+  g_printerr("spidar-feel: %s\n", printable(shown).c_str());
 }
 
 /// Its haptic track, or the film once more. One thread, which may be held up by files, networks and

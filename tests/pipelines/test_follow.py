@@ -362,6 +362,13 @@ class WhatIsPlayed(FollowCase):
         self.follow()
         self.wait_until(lambda: self.force_N() > .1)
 
+    def test_what_another_program_tells_is_shown_in_short_and_harmlessly(self):
+        self.plays("mock", "\033]0;title\007" + "x" * 1_000_000)
+        self.follow("mock")
+        self.wait_until(lambda: "are followed" in self.said())
+        self.assertLess(len(self.said()), 5000)
+        self.assertNotIn("\033", self.said())
+
     def test_an_address_that_is_not_escaped_names_its_file(self):
         for name in ("50% of #3.avi", "a%20b.avi"):
             with self.subTest(name=name):
