@@ -53,6 +53,16 @@ class LockedFile {
     } else if (!lock_device(file_)) {
       error = errno;
     }
+    struct stat folder {};
+    const bool has_folder = stat(fs::path(path).parent_path().c_str(), &folder) == 0;
+    const bool is_replaceable =
+        has_folder && (folder.st_mode & S_IWOTH) != 0 && (folder.st_mode & S_ISVTX) == 0;
+    const bool is_of_another = status.st_uid != geteuid() && geteuid() != 0;
+    if (error == 0 && ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 || is_of_another)) {
+      untrusted = "others may write it: chmod go-w and chown it to yourself, or remove it";
+    } else if (error == 0 && is_replaceable) {
+      untrusted = "others may replace it: chmod o-w its folder";
+    }
   }
   ~LockedFile() {
     if (file_ >= 0) close(file_);
@@ -77,6 +87,7 @@ class LockedFile {
   }
 
   int error = 0;
+  std::string untrusted;  ///< why what it says may be somebody else's; empty: it is this user's
 
  private:
   int file_ = -1;
@@ -158,6 +169,7 @@ int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
   if (!file_.empty()) {
     file.emplace(file_);
     const std::string text = file->read();
+    if (!file->untrusted.empty()) distrust(file->untrusted);
     if (const std::optional<Entry> kept = parse(text)) {
       is_known = true;
       entry.empty_ns = std::max(entry.empty_ns, kept->left_ns(now));

@@ -43,6 +43,7 @@ class VibrationMemories : public testing::Test {
   void write(const std::string& text) const {
     fs::create_directories(fs::path(file).parent_path());
     std::ofstream(file, std::ios::trunc) << text;
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
   }
 };
 
@@ -135,6 +136,29 @@ TEST_F(VibrationMemories, AFileThatCannotBeOpenedIsSaid) {
   VibrationMemory nowhere("/proc/none/vibration");
   EXPECT_EQ(nowhere.add(0, at(kHour)), kEmpty_ns / 2);
   EXPECT_NE(nowhere.error(), "");
+}
+
+/// What it says may be too little, or too much.
+TEST_F(VibrationMemories, AFileThatOthersMayWriteIsSaidAndNotTrusted) {
+  VibrationMemory first(file);
+  first.add(kHour, at(kHour));
+  const fs::path parent = fs::path(file).parent_path();
+  const auto expect_said = [&](const std::string& what) {
+    VibrationMemory memory(file);
+    EXPECT_EQ(memory.add(0, at(kHour)), kEmpty_ns / 2);
+    EXPECT_NE(memory.error().find(what), std::string::npos) << memory.error();
+  };
+  fs::permissions(file, fs::perms::group_write, fs::perm_options::add);
+  expect_said("others may write it");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_write);
+  expect_said("others may write it");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  fs::permissions(parent, fs::perms::others_write, fs::perm_options::add);
+  expect_said("others may replace it");
+  fs::permissions(parent, fs::perms::others_write, fs::perm_options::remove);
+  VibrationMemory trusted(file);
+  trusted.add(0, at(kHour));
+  EXPECT_EQ(trusted.error(), "");
 }
 
 TEST_F(VibrationMemories, AFullDiskIsSaid) {
