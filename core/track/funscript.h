@@ -61,8 +61,8 @@ struct ScriptAxis {
 /// look for. L0 stroke up, L1 surge forwards, L2 sway sideways, R0 twist about the vertical, R1
 /// roll about forwards, R2 pitch about sideways. Nothing for other names.
 ///
-/// Source: the README and default settings of MultiFunPlayer, in which OFS-NG's and ScriptPlayer's
-/// names are, too.
+/// Source: the README and default settings of MultiFunPlayer; OFS-NG calls its files
+/// film.R1.funscript (issue 2 of ofs69/ofs-ng).
 std::optional<size_t> channel_of_axis(std::string_view name);
 /// "vib", "V0", "suck" …: an axis of those players that is neither a force nor a torque.
 bool is_other_axis(std::string_view name);
