@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/grip/matrices.h"
+
 namespace spidar {
 namespace {
 
@@ -59,10 +61,25 @@ PoseSolver::PoseSolver(const StringGeometry& geometry, double max_residual_m)
         "strings that all meet in the grip's origin do not tell how it is "
         "turned: at least one must be tied away from it");
   }
+  const double stiffness = least_stiffness(geometry);
+  if (!(stiffness >= kMinStiffness)) {
+    throw std::invalid_argument(
+        "strings of which none changes its length with some motion of the grip at the centre do "
+        "not "
+        "tell its pose: the least stiffness is " +
+        std::to_string(stiffness) + ", must be " + std::to_string(kMinStiffness) + " or more");
+  }
   if (!(max_residual_m > 0)) {
     throw std::invalid_argument("the largest residual must be positive, not " +
                                 std::to_string(max_residual_m) + " m");
   }
+}
+
+double PoseSolver::least_stiffness(const StringGeometry& geometry) {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> unit =
+      structure_matrix(geometry, {}).leftCols(geometry.count);
+  unit.bottomRows<3>() /= geometry.grip_radius_m();
+  return singular_values(unit).values[5];
 }
 
 void PoseSolver::search_from(const Pose& pose) noexcept {
@@ -93,6 +110,17 @@ bool PoseSolver::is_good(const PoseFit& fit) const noexcept {
 double PoseSolver::misfit_m(const StringVector& lengths_m, const Pose& pose,
                             int string) const noexcept {
   return std::abs(string_lengths_m(geometry_, pose)[string] - lengths_m[string]);
+}
+
+double PoseSolver::residual_m(const StringVector& lengths_m, const Pose& pose,
+                              int left_out) const noexcept {
+  const StringVector there_m = string_lengths_m(geometry_, pose);
+  double sum_m2 = 0;
+  for (int i = 0; i < geometry_.count; ++i) {
+    const double off_m = there_m[i] - lengths_m[i];
+    if (i != left_out) sum_m2 += off_m * off_m;
+  }
+  return std::sqrt(sum_m2 / (geometry_.count - (left_out >= 0)));
 }
 
 // Seven strings have one redundant length, so whichever string is left out, the others fit more or
@@ -237,6 +265,9 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
   if (!fit.converged) {
     fit.converged = fitter_.model().twist(expected, fit.pose).norm() <= kImplausible_m;
   }
+  // The residual of the linear model, which six strings always fit, says nothing where steps are
+  // long or the equations nearly singular.
+  fit.residual_m = std::max(fit.residual_m, residual_m(lengths_m, fit.pose, faulty_string_));
   const PoseStatus status = is_good(fit) ? PoseStatus::kSolved : PoseStatus::kNotConverged;
   return {status == PoseStatus::kSolved ? fit.pose : last_, fit.residual_m, fit.iterations,
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};

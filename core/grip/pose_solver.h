@@ -87,10 +87,17 @@ class PoseSolver {
   /// for the coarsest encoder of the known devices.
   static constexpr double kMaxResidual_m = 20e-6;
 
+  /// The weakest of the grip's six motions at the centre changes the lengths of the strings by less
+  /// than this, relative to a string that follows it alone: no pose could be trusted. Those of the
+  /// shipped profiles have 0.2 or more.
+  static constexpr double kMinStiffness = 0.02;
+  /// Of at least six strings, of which one ends away from the grip's origin.
+  static double least_stiffness(const StringGeometry& geometry);
+
   /// Throws std::invalid_argument when the geometry has fewer than six strings, all of them end in
-  /// the grip's origin, or `max_residual_m` is not positive. `max_residual_m`: one encoder step, or
-  /// what a device whose geometry is known less well needs; a fault shows when a length is off by
-  /// about six times as much.
+  /// the grip's origin, it has less than kMinStiffness, or `max_residual_m` is not positive.
+  /// `max_residual_m`: one encoder step, or what a device whose geometry is known less well needs;
+  /// a fault shows when a length is off by about six times as much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
   /// For every tick: track(), and locate() when tracking fails, or when it starts from a guess and
@@ -120,6 +127,8 @@ class PoseSolver {
                           int left_out) const noexcept;
   bool hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                           bool tracked) const noexcept;
+  /// Root mean square of what the lengths are off by at a pose.
+  double residual_m(const StringVector& lengths_m, const Pose& pose, int left_out) const noexcept;
   double misfit_m(const StringVector& lengths_m, const Pose& pose, int string) const noexcept;
   PoseResult follow(const StringVector& lengths_m, const Pose& expected) const noexcept;
   PoseResult unless_implausible(const StringVector& lengths_m, const Pose& expected,

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/grip/matrices.h"
+#include "core/grip/pose_solver.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/toml.h"
 #include "spidar/text.h"
@@ -173,8 +173,6 @@ constexpr double kMinHeating_s = 1;
 constexpr double kMaxHeating_s = 120;
 // What the strings reach in the weakest direction, for one newton of each. Shipped: 1.2 or more.
 constexpr double kMinReach = 0.1;
-// The weakest of six motions, relative to a string that follows it alone. Shipped: 0.2 or more.
-constexpr double kMinStiffness = 0.02;
 constexpr double kMaxResidual_m = 0.05;
 
 void check_length(const TomlField& field, int count) {
@@ -223,12 +221,10 @@ void check_hold(const TomlField& in, const StringGeometry& geometry) {
                as_text(std::max(0.0, reach)) + " N there, must give " + as_text(kMinReach) +
                " N or more; the exits enclose the grip");
   }
-  Eigen::Matrix<double, 6, Eigen::Dynamic> unit = W.leftCols(geometry.count);
-  unit.bottomRows<3>() /= radius_m;
-  const double weakest = singular_values(unit).values[5];
-  if (!(weakest >= kMinStiffness)) {
+  const double weakest = PoseSolver::least_stiffness(geometry);
+  if (!(weakest >= PoseSolver::kMinStiffness)) {
     in["grip"].fail("leaves a motion of the grip with which no string's length changes (" +
-                    as_text(weakest) + ", must be " + as_text(kMinStiffness) +
+                    as_text(weakest) + ", must be " + as_text(PoseSolver::kMinStiffness) +
                     " or more): no pose could be found");
   }
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include <Eigen/LU>
@@ -32,6 +33,49 @@ Pose moving(double t_s) {
       0.03 * Eigen::Vector3d(std::sin(9 * t_s), std::sin(7 * t_s), std::sin(11 * t_s));
   pose.orientation = Eigen::AngleAxisd(std::sin(3 * t_s), Eigen::Vector3d(1, 2, -1).normalized());
   return pose;
+}
+
+/// Along the axes: all point at the centre, so that no turn of the grip changes a length.
+StringGeometry singular_strings() {
+  StringGeometry geometry;
+  geometry.count = 6;
+  for (size_t i = 0; i < 6; ++i) {
+    const Eigen::Vector3d axis = (i % 2 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<int>(i / 2));
+    geometry.exit_m[i] = 0.3 * axis;
+    geometry.grip_m[i] = 0.06 * axis;
+  }
+  return geometry;
+}
+
+/// Six strings fit a linear model whatever they say, so that only their lengths at the pose tell
+/// whether it is right. What is solved fits the lengths, which are rounded as by an encoder; each
+/// is off by at most √6 times the root mean square.
+TEST(PoseSolver, SixStringsAreNotSolvedByPosesThatDoNotFit) {
+  Random random(3);
+  std::uniform_real_distribution<double> exit_m(-0.3, 0.3), grip_m(-0.06, 0.06);
+  int solved = 0;
+  for (int n = 0; n < 1000; ++n) {
+    StringGeometry geometry;
+    geometry.count = 6;
+    for (size_t i = 0; i < 6; ++i) {
+      geometry.exit_m[i] = {exit_m(random), exit_m(random), exit_m(random)};
+      geometry.grip_m[i] = {grip_m(random), grip_m(random), grip_m(random)};
+    }
+    if (PoseSolver::least_stiffness(geometry) < PoseSolver::kMinStiffness) continue;
+    PoseSolver solver(geometry);
+    for (int ms = 0; ms < 200; ++ms) {
+      constexpr double kCount_m = 17e-6;
+      StringVector lengths_m = string_lengths_m(geometry, moving(1e-3 * ms));
+      for (double& length_m : lengths_m) length_m = kCount_m * std::round(length_m / kCount_m);
+      const PoseResult result = solver.solve(lengths_m);
+      if (result.status != PoseStatus::kSolved) continue;
+      ++solved;
+      const StringVector off = string_lengths_m(geometry, result.pose) - lengths_m;
+      ASSERT_LE(off.head(6).cwiseAbs().maxCoeff(), std::sqrt(6.) * PoseSolver::kMaxResidual_m)
+          << "geometry " << n << ", " << ms << " ms";
+    }
+  }
+  EXPECT_GT(solved, 500);
 }
 
 TEST(PoseSolver, LocatesPosesTurnedByUpTo80Degrees) {
@@ -179,6 +223,7 @@ TEST(PoseSolver, RefusesGeometriesThatCannotTellAPose) {
   point.grip_m.fill(Eigen::Vector3d::Zero());
   EXPECT_THROW(PoseSolver{point}, std::invalid_argument);
   EXPECT_THROW(PoseSolver(g6x3_geometry(), 0), std::invalid_argument);
+  EXPECT_THROW(PoseSolver{singular_strings()}, std::invalid_argument);
 }
 
 }  // namespace
