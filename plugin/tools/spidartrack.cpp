@@ -159,8 +159,8 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
         add("info", "print how long and how strong a track is", &CommandLine::info);
     app->footer(
         R"(Prints the length of the track, its largest force and torque and their steepest change; and
-of each channel the peak and the root mean square, as fractions of the full scale (10 N, 1 N m),
-and the fraction of its energy above 30 Hz. Of a film, also where its track is, and whether it
+of each channel the peak and the root mean square, in N and N m, and the fraction of its energy
+above 30 Hz. With --json, peak and root mean square are fractions of full_scale, which is 10 N or 1 N m. Of a film, also where its track is, and whether it
 is that of this film.)");
     add_track(app, "TRACK", info_.path);
     app->add_flag("--json", info_.json, "print it as JSON");

@@ -44,8 +44,10 @@ void print_json(const TrackCondition& found, const tracks::Summary& summary) {
   info["beyond_full_scale"] = found.faults.beyond_full;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const tracks::ChannelSummary& channel = summary.channels[i];
-    info["channels"][tracks::channel_name(i)] = {
-        {"peak", channel.peak}, {"rms", channel.rms}, {"above_30_Hz", channel.above_30_Hz}};
+    info["channels"][tracks::channel_name(i)] = {{"peak", channel.peak},
+                                                 {"rms", channel.rms},
+                                                 {"above_30_Hz", channel.above_30_Hz},
+                                                 {"full_scale", tracks::full_scale(i)}};
   }
   std::cout << json_text(info) << '\n';
 }

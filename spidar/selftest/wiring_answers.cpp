@@ -55,6 +55,7 @@ class Asking {
           !ask_reversed(i, answers)) {
         return false;
       }
+      if (settings_.asked) ++*settings_.asked;
     }
     return true;
   }

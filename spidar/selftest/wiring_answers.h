@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 
 #include <Eigen/Core>
 
@@ -20,6 +21,7 @@ struct WiringSettings {
   double average_s = 0.1;
   /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
   bool try_reversed = false;
+  std::atomic<int>* asked = nullptr;  ///< counts the motors that have been pulled; null: nothing
 };
 
 /// Counts of encoder (row) for a pull of motor (column).

@@ -200,7 +200,9 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWiredAndLags) {
   std::ofstream(file.path()) << "old";
   const CommandResult outcome =
       run_shell(std::string(SPIDARCTL) + " selftest sim:sh4 --lag --json --force --write-profile " +
-                file.path() + " 2>/dev/null");
+                file.path() + " 2>&1");
+  // On standard error, while they are pulled.
+  expect_contains(outcome.text, "pulled 8 of 8 strings\n");
   expect_contains(outcome.text, "\"wiring\": \"as in the profile\"");
   const Profile written = load_profile(file.path());
   EXPECT_EQ(written.drives[3].encoder_sign,
