@@ -4,16 +4,22 @@
 
 import math
 import random
-import statistics
 import time
 
-FELT_N, WEBER = 0.04, 0.11  # PubMed 24808327, of forces that were attended to: docs/bibliography.md
+import numpy as np
+
+# Of forces that were attended to (docs/bibliography.md): the least that is felt, and the least change of it, PubMed
+# 24808327; with a picture that moves as they do, their delay (Vogels) and their direction (Barbagli).
+FELT_N, WEBER, LATE_MS, TURNED_DEG = 0.04, 0.11, 45, 18.4
 
 # A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right.
 # H. Levitt, Transformed Up-Down Methods in Psychoacoustics, 1971.
 FIRST_FACTOR, FACTOR = 2.0, 2**(1 / 3)  # of a step, until and after the second reversal
-REVERSALS = 8  # of which the first two are for finding the range
-MOST_TRIALS = 50  # of three seconds
+REVERSALS = 6  # at least
+MOST_TRIALS = 60  # of three seconds
+# Of the curve from guessing to certainty (Weibull) any of these may be anybody's; a lapse is answered by guessing.
+SLOPES, LAPSES = (1.5, 2, 3, 4.5), (0, 0.03, 0.1)
+WIDEST = 4  # times from the low to the high end of a threshold's 95 % interval; beyond, it is none
 SAMPLE_S, RAMP_S, PULSE_S, PAUSE_S = 0.005, 0.1, 0.5, 0.4  # without a ramp, a pulse begins with a tap
 
 
@@ -27,31 +33,46 @@ def told_apart(pairs_N, felt_N=FELT_N, weber=WEBER):
 
 
 class Staircase:
-    """Two down, one up, by factors; `level` is what to show next."""
+    """Two down, one up, by factors; `level` is what to show next. It places the trials; the threshold is estimated from
+    all answers."""
 
     def __init__(self, first, most):
         self.level, self.most = first, most
-        self.trials, self.right, self.direction, self.turns = 0, 0, -1, []
+        self.right, self.direction, self.turns = 0, -1, 0
+        self.thresholds = most * np.geomspace(1e-3, 4, 200)
+        thresholds, slopes, self.lapses = np.meshgrid(self.thresholds, SLOPES, LAPSES, indexing="ij")
+        self.curve = lambda level: self.lapses / 2 + (1 - self.lapses) * (
+            1 - 0.5 * np.exp(math.log(2 - math.sqrt(2)) * (level / thresholds)**slopes))
+        self.likelihood, self.trials = np.ones(thresholds.shape), 0
 
     def answer(self, is_right):
+        chance = self.curve(self.level)
+        self.likelihood *= chance if is_right else 1 - chance
+        self.likelihood /= self.likelihood.max()
         self.trials += 1
         self.right = self.right + 1 if is_right else 0
         if is_right and self.right < 2:
             return
         self.right, direction = 0, -1 if is_right else 1
-        if direction != self.direction:
-            self.turns.append(self.level)
+        self.turns += direction != self.direction
         self.direction = direction
-        self.level = min(self.most, self.level * (FIRST_FACTOR if len(self.turns) < 2 else FACTOR)**direction)
+        self.level = min(self.most, self.level * (FIRST_FACTOR if self.turns < 2 else FACTOR)**direction)
+
+    def quantiles(self):
+        """Of the threshold: the ends of its 95 % interval and the median between them."""
+        below = np.cumsum(self.likelihood.sum(axis=(1, 2)))
+        return [self.thresholds[np.searchsorted(below, share * below[-1])] for share in (0.025, 0.5, 0.975)]
+
+    def is_known(self):
+        low, _, high = self.quantiles()
+        return high <= self.most and high <= WIDEST * low
 
     def is_done(self):
-        return len(self.turns) >= REVERSALS or self.trials >= MOST_TRIALS
+        return (self.turns >= REVERSALS and self.is_known()) or self.trials >= MOST_TRIALS
 
     def threshold(self):
-        """None if the answers do not settle, as when somebody guesses."""
-        if len(self.turns) < REVERSALS:
-            return None
-        return statistics.geometric_mean(self.turns[2:])
+        """None if the answers do not tell it, as when somebody guesses."""
+        return float(self.quantiles()[1]) if self.is_known() else None
 
 
 def pulse(device, force_N, sleep=time.sleep):

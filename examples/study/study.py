@@ -25,7 +25,7 @@ from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, descri
 from options import parse
 from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_rows,
                      read_settings, require_same, utc_now, write_settings)
-from trials import ANALYSIS, QUESTIONS, Trial, open_questions, schedule
+from trials import ANALYSIS, CONDITIONS, QUESTIONS, Trial, open_questions, schedule
 
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
@@ -155,7 +155,9 @@ class Study:
             self.mark(f"begin trial {trial.number} code {trial.code}")
             if not player.play(trial.clip, properties, trial.condition == "sham", ticks):
                 raise Stopped
-            share, problem = judge(ticks, frames, clip.frames[force], trial.condition == "without")
+            others = {self.preview.force_of(each) for each in CONDITIONS[trial.part]} - {force}
+            share, problem = judge(ticks, frames, clip.frames[force], trial.condition == "without",
+                                   [clip.frames[each] for each in sorted(others)])
         except RuntimeError as error:
             problem = str(error)
             raise
