@@ -26,6 +26,12 @@ PERSON = {
     "experience": ("How often have you held a device that pushes back?", ["never", "once or twice", "often"]),
 }
 
+# What may have been done to the force, without a hint at what was: one is right, others are as plausible, and the last
+# is for who does not know.
+BELIEFS = ["it always followed the motion", "it was at times too late", "it was at times against the motion",
+           "it was at times that of another clip", "I do not know"]
+RIGHT_BELIEF = BELIEFS[2]
+
 
 class Stopped(Exception):
     """The participant stops here, or the input ends; the same command goes on."""
@@ -82,12 +88,11 @@ def describe(record, participant):
 
 def debrief(record, participant):
     """After the last clip: what the participant thinks it was about, before anything is said of the sham."""
-    for check in still_open(record, participant, ["guess", "saw-through"]):
+    for check in still_open(record, participant, ["guess", "believed"]):
         if check == "guess":
             answer = read_line("What do you think differed when a clip was shown again? In your own words\n> ")
         else:
-            noticed = is_yes("Did you notice that the force sometimes went against the motion in the picture?")
-            answer = "yes" if noticed else "no"
+            answer = BELIEFS[ask("Which of these do you believe of the force?", BELIEFS) - 1]
         note_answer(record, participant, check, answer)
 
 

@@ -34,36 +34,46 @@ def parse(description, arguments):
         "run", help="a participant's session: consent, practice, clips and questions", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
     threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
                                     usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
-    for command in run, threshold:
+    register = commands.add_parser(
+        "register", help="fixes what the study will do, and prints it for a registry", epilog=end,
+        usage="study.py register --participants N [option of run...] ANSWERS.csv CLIP... [-- name=value...]")
+    register.add_argument("--participants", type=int, required=True, metavar="N", help="how many there will be")
+    for command in run, register, threshold:
         command.add_argument("answers", metavar="ANSWERS.csv")
-        command.add_argument("participant", metavar="PARTICIPANT")
+        if command is not register:
+            command.add_argument("participant", metavar="PARTICIPANT")
         command.add_argument("--noise", type=float, default=NOISE, metavar="VOLUME",
                              help=f"of pink noise that hides the sound of the motors throughout ({NOISE:g}; 0 to 1)")
-    run.add_argument("--practice", metavar="CLIP", default="", help="shown first, with and without haptics, to try it out")
-    run.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
-    run.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
-                     help="one more question after each clip, on the same five steps")
+    for command in run, register:
+        command.add_argument("--practice", metavar="CLIP", default="",
+                             help="shown first, with and without haptics, to try it out")
+        command.add_argument("--seed", type=int, default=1, help="another random order of clips; the same for all of a study")
+        command.add_argument("--question", metavar="NAME=TEXT", action="append", default=[],
+                             help="one more question after each clip, on the same five steps")
+        command.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
+                             help="the question of the primary outcome (movement)")
     run.add_argument("--headless", action="store_true", help="no window for the video")
-    for command in design, run:
+    for command in design, run, register:
         command.add_argument("clips", metavar="CLIP", nargs="+")
         command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
                              "conditions of different strength")
         command.add_argument("--accept-alike", action="store_true",
                              help="also clips whose conditions are the same in most frames")
-    run.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
-                     help="the question of the primary outcome (movement)")
     run.add_argument("--lsl", action="store_true",
                      help="send force, pose, and markers of frames and trials to the Lab Streaming Layer")
     for command in design, threshold:
         command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="", headless=False)
+    register.set_defaults(lsl=False, headless=False, participant="-")
     threshold.set_defaults(clips=[], paper=False)
-    commands.add_parser("report", help="what was answered, and what differs").add_argument("answers", metavar="ANSWERS.csv")
+    report = commands.add_parser("report", help="what was answered, and what differs")
+    report.add_argument("answers", metavar="ANSWERS.csv")
+    report.add_argument("--exploratory", action="store_true", help="also where the settings are not those of the answers")
     withdraw = commands.add_parser("withdraw", help="deletes what is kept of a participant")
     withdraw.add_argument("answers", metavar="ANSWERS.csv")
     withdraw.add_argument("participant", metavar="PARTICIPANT")
     split = arguments.index("--") if "--" in arguments else len(arguments)
     options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
-    if options.command in ("run", "threshold"):
+    if options.command in ("run", "register", "threshold"):
         if not options.participant or "/" in options.participant:
             parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
         if not 0 <= options.noise <= 1:

@@ -6,6 +6,7 @@ Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .p
 .presentations, .briefings, .thresholds, .traces/."""
 
 import csv
+import hashlib
 import json
 import os
 from dataclasses import dataclass, fields
@@ -32,7 +33,7 @@ class Answer:
 COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
 THRESHOLD_COLUMNS = ["participant", "felt_N", "weber", "trials", "time_utc"]  # empty where the answers did not settle
-PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
+PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "settings_sha256", "time_utc"]
 
 
 def utc_now():
@@ -164,6 +165,19 @@ def read_settings(answers, kind="settings"):
     if kind == "preview" or read_answers(answers):
         raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
     return None
+
+
+def digest_of(settings):
+    return hashlib.sha256(json.dumps(settings, ensure_ascii=False, sort_keys=True).encode()).hexdigest()
+
+
+def with_other_settings(answers, path, settings):
+    """Participants with an answer whose presentations were not all made with these settings."""
+    made = {}
+    for row in read_rows(f"{path}.presentations"):
+        made.setdefault(row["participant"], set()).add(row.get("settings_sha256"))
+    return sorted({answer.participant for answer in answers
+                   if made.get(answer.participant) != {digest_of(settings)}})
 
 
 def require_same(answers, old, new):

@@ -6,9 +6,10 @@ import math
 import statistics
 from collections import Counter, defaultdict
 
+from briefing import BELIEFS, RIGHT_BELIEF
 from inference import FEW_CLIPS, difference, holm
 from perception import told_apart
-from records import Participants, read_rows, read_settings
+from records import Participants, read_rows, read_settings, with_other_settings
 from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
 
 COLUMNS = "question                   conditions             people  clips  difference (95 %)            p       Holm"
@@ -82,10 +83,26 @@ def describe_thresholds(path):
     return lines
 
 
-def report(answers, path=None):
+def describe_blinding(path):
+    """How many saw through the sham, beyond who guesses: 1 is everybody, 0 is by chance."""
+    guesses = [row["answer"] for row in read_rows(f"{path}.briefings") if row["check"] == "believed"]
+    if not guesses:
+        return []
+    score = {RIGHT_BELIEF: 1, BELIEFS[-1]: 0}  # of the wrong ones, each is as likely for who guesses
+    index = statistics.fmean(score.get(guess, -1 / (len(BELIEFS) - 2)) for guess in guesses)
+    return ["", f"blinding index {index:+.2f} of {len(guesses)} people (1: all know of the sham, 0: as by guessing)"]
+
+
+def report(answers, path=None, exploratory=False):
+    """Raises ValueError if the settings are not those that the answers were made with, unless it is exploratory."""
     settings = read_settings(path) if path else None
     analysis = settings["analysis"] if settings else ANALYSIS
-    lines = describe_study(path, settings) if path else []
+    others = with_other_settings(answers, path, settings) if settings else []
+    if others and not exploratory:
+        raise ValueError(f"{path}.settings.json: is not that with which {', '.join(others)} took part; put it back as it was, "
+                         "or say --exploratory, and that it is, wherever you publish it")
+    lines = ["EXPLORATORY: the settings were changed after these answers", ""] * bool(others)
+    lines += describe_study(path, settings) if path else []
     lines += ["question                   condition   answers   bad  poor   avg  good very   good %  mean"]
     for (part, question, condition), steps in ratings(answers).items():
         counts = [steps.count(step) for step in range(1, 6)]
@@ -107,10 +124,12 @@ def report(answers, path=None):
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
     lines += describe_thresholds(path) if path else []
+    lines += describe_blinding(path) if path else []
     saw = {row["participant"] for row in read_rows(f"{path}.briefings")
-           if (row["check"], row["answer"]) == ("saw-through", "yes")}
+           if (row["check"], row["answer"]) == ("believed", RIGHT_BELIEF)}
     if saw:
-        others = differences([answer for answer in answers if answer.participant not in saw])
-        lines += ["", f"primary, without the {len(saw)} who saw through the sham", COLUMNS,
-                  *compared(others, analysis, "primary")]
+        unaware = differences([answer for answer in answers if answer.participant not in saw])
+        with_sham = {key: each for key, each in unaware.items() if "sham" in key}
+        lines += ["", f"what has the sham, without the {len(saw)} who saw through it", COLUMNS,
+                  *(line for family in FAMILIES for line in compared(with_sham, analysis, family))]
     return "\n".join(lines)

@@ -5,8 +5,9 @@
 
 `plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run`
 asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips
-and asks. It goes on where this participant stopped. `threshold` measures what a participant feels at least. `report`
-prints shares, means and what differs, and `withdraw` removes a participant. docs/study.md says more.
+and asks. `register` fixes what it will do, and prints that for a registry. It goes on where this participant
+stopped. `threshold` measures what a participant feels at least. `report` prints shares, means and what differs, and
+`withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
@@ -23,8 +24,8 @@ from pathlib import Path
 import perception
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, describe, read_line
 from options import parse
-from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_rows,
-                     read_settings, require_same, utc_now, write_settings)
+from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, digest_of, read_answers,
+                     read_rows, read_settings, require_same, utc_now, write_settings)
 from trials import ANALYSIS, CONDITIONS, QUESTIONS, Trial, open_questions, schedule
 
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
@@ -118,6 +119,7 @@ class Study:
             alpha = old.get("alpha_s_px")
             require_same(self.options.answers, old, self.settings(alpha))
         self.properties += self.preview.properties_of(alpha)
+        self.digest = digest_of(read_settings(self.options.answers))
         clips = read_settings(self.options.answers, "preview")
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
@@ -164,7 +166,7 @@ class Study:
         finally:
             self.mark(f"end trial {trial.number}")
             append_row(self.options.answers + ".presentations", PRESENTATION_COLUMNS,
-                       [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, utc_now()])
+                       [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, self.digest, utc_now()])
         return problem
 
     def practise(self, player, clips):
@@ -266,7 +268,12 @@ def execute(options, properties):
         answers = read_answers(options.answers)
         if not answers:
             raise ValueError(f"{options.answers}: there are no answers in it")
-        print(report(answers, options.answers))
+        print(report(answers, options.answers, options.exploratory))
+    elif options.command == "register":
+        import registration
+
+        Study(options, properties).begin()
+        print(registration.text(read_settings(options.answers), options.participants))
     elif options.command == "withdraw":
         Participants(options.answers).withdraw(options.participant)
         print(f"{options.participant} is removed; the next participant takes this place")

@@ -24,7 +24,7 @@ ANALYSIS = {
     "exclusions": [
         "A presentation whose force was not delivered is repeated, and not asked about.",
         "Who has not rated every clip in both conditions is left out of that comparison.",
-        "Nobody is left out for their answers; the primary comparison is repeated without those who saw through the sham."]}
+        "Nobody is left out for their answers; comparisons with the sham are repeated without those who saw through it."]}
 # The orders in which the conditions of a clip follow each other: all there are.
 ORDERS = {"controllers": [(0, 1), (1, 0)],
           "haptics": [(0, 1, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0), (1, 0, 2), (0, 2, 1)]}

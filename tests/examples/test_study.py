@@ -124,7 +124,7 @@ class File(InFolder):
             self.append(name, begun[name][0], "movement", 3)
             records.append_row(f"{self.path}.briefings", ["participant", "check"], [name, "consent"])
             records.append_row(f"{self.path}.presentations", records.PRESENTATION_COLUMNS,
-                               [name, 1, f"{name}-1", 1, "a, b", ""])
+                               [name, 1, f"{name}-1", 1, "a, b", "", ""])
             trace = Path(f"{self.path}.traces/{name}-1.haptic.csv")
             trace.parent.mkdir(exist_ok=True)
             trace.touch()
@@ -279,9 +279,10 @@ class Perception(unittest.TestCase):
         return logs, trials
 
     def test_a_threshold_is_that_of_a_simulated_person(self):
-        """Also of who lapses in 5 % of the trials: bias and scatter as tests/bench/study_errors.py, whose table the page has."""
+        """Also of who lapses in 5 % of the trials: as tests/bench/study_errors.py, whose table the page has."""
         for lapses in 0, 0.05:
-            logs, trials = self.found(random.Random(1), lambda level, lapses=lapses: lapses / 2 + (1 - lapses) * self.chance(level), 40)
+            person = lambda level, lapses=lapses: lapses / 2 + (1 - lapses) * self.chance(level)
+            logs, trials = self.found(random.Random(1), person, 40)
             self.assertGreaterEqual(len(logs), 36)
             self.assertLess(abs(statistics.fmean(logs)), 0.2 + 0.1)  # 40 people: twice 0.3 / √40
             self.assertLess(statistics.stdev(logs), 0.45)
@@ -409,10 +410,10 @@ class Briefing(InFolder):
             briefing.describe(self.path, "P1")
         for answer in "P1,handedness,both,20", "P1,grip-hand,left,20", "P1,experience,never,20":
             self.assertIn(answer, self.record())
-        with typed(["sometimes it went up, or down", "yes"]):
+        with typed(["sometimes it went up, or down", "3"]), contextlib.redirect_stdout(io.StringIO()):
             briefing.debrief(self.path, "P1")
         self.assertIn('P1,guess,"sometimes it went up, or down",20', self.record())
-        self.assertIn("P1,saw-through,yes,20", self.record())
+        self.assertIn("P1,believed,it was at times against the motion,20", self.record())
         with typed([]):
             briefing.debrief(self.path, "P1")
 

@@ -24,9 +24,11 @@ sys.path.insert(0, FOLDER)
 import numpy as np  # noqa: E402
 from scipy.stats import binom, ttest_1samp  # noqa: E402
 
+import briefing  # noqa: E402
 import inference  # noqa: E402
 import plan  # noqa: E402
 import records  # noqa: E402
+import registration  # noqa: E402
 import report  # noqa: E402
 import trials  # noqa: E402
 
@@ -167,20 +169,43 @@ class Report(unittest.TestCase):
             settings = dict.fromkeys(["version", "device", "profile", "host", "seed", "paper"], "")
             analysis = {"primary": "mine", "equal": ["reality"], "margin_steps": 2, "level": 0.01}
             Path(f"{path}.settings.json").write_text(json.dumps(settings | {"analysis": analysis}))
-            Path(f"{path}.briefings").write_text("participant,check,answer\nP1,saw-through,yes\nP2,saw-through,no\n")
+            Path(f"{path}.briefings").write_text("participant,check,answer\n" + "".join(f"P{n},believed,{briefing.BELIEFS[belief]}\n"
+                                                  for n, belief in ((1, 2), (2, 0), (3, 4), (4, 2))))
             # Frames of 0.3 N and 0.4 N, of 0.5 N and 0.56 N, and of less than is felt.
             frames = {"linear": [[0, 0.3, 0, 0], [40, 0, 0.5, 0], [80, 0.05, 0, 0]],
                       "nonlinear": [[0, 0.4, 0, 0], [40, 0, 0.56, 0], [80, 0, 0, 0]]}
             Path(f"{path}.preview.json").write_text(json.dumps({"a.avi": {"frames": frames}}))
             Path(f"{path}.thresholds").write_text("participant,felt_N,weber\nP1,0.06,0.1\nP2,0.1,0.2\nP3,,\nP4,0.2,0.3\n")
+            with self.assertRaisesRegex(ValueError, "settings.json: is not that with which P0, P1"):
+                report.report(answers, path)
+            self.assertIn("EXPLORATORY", report.report(answers, path, exploratory=True))
+            made = records.digest_of(settings | {"analysis": analysis})
+            Path(f"{path}.presentations").write_text(
+                "participant,problem,settings_sha256\n" + "".join(f"P{n},,{made}\n" for n in range(6)))
             text = report.report(answers, path)
+            Path(f"{path}.settings.json").write_text(json.dumps(settings | {"analysis": analysis | {"margin_steps": 3}}))
+            with self.assertRaisesRegex(ValueError, "or say --exploratory"):
+                report.report(answers, path)
+        self.assertNotIn("EXPLORATORY", text)
+        self.assertIn("blinding index +0.42 of 4 people", text)  # two right, one of three wrong ones, one does not know
         self.assertIn("3 people on this device, medians: the least force that is felt 0.100 N, and the least change 20 %", text)
         self.assertRegex(text, r"(?m)^ +50 % of the felt frames of a.avi$")
         families = dict(re.findall(r"(?m)^(\w+) \(level 0.01\)\n.*\n(haptics: \w+)", text))
         self.assertEqual(families, {"primary": "haptics: mine", "secondary": "haptics: comfort", "equal": "haptics: reality"})
         self.assertIn("of 2 steps or more", text.replace("\n", " "))
-        last = text[text.index("without the 1 who saw through"):]
-        self.assertRegex(last, r"(?m)^haptics: mine +without, with +5 ")
+        last = text[text.index("what has the sham, without the 2 who saw through"):]
+        self.assertRegex(last, r"(?m)^haptics: mine +sham, with +4 ")
+        self.assertNotIn("without, with", last)
+
+    def test_a_registration_names_what_is_decided(self):
+        settings = {"seed": 4, "version": "0.1", "device": "sim", "profile": "", "properties": ["max-force=1"],
+                    "alpha_s_px": 0.01, "practice": "", "clips_sha256": {"a.avi": "1f", "b.avi": "2e"}, "analysis": trials.ANALYSIS,
+                    "questions": trials.QUESTIONS | {"every clip": {"mine": "And this?"}}}
+        text = registration.text(settings, 24)
+        for part in ("24 participants, 2 clips", "Primary: movement (linear against nonlinear)",
+                     "Secondary: reality, interactivity, mine", "Equal within 0.5 steps", "mine: And this?",
+                     "b.avi: SHA-256 2e", "alpha=0.01", records.digest_of(settings)):
+            self.assertIn(part, text)
 
 
 class Plan(unittest.TestCase):

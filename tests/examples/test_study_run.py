@@ -81,7 +81,7 @@ class SimulatedParticipant:
         return printed, code
 
     def session(self, trials_at_most):
-        briefed, seen, printed, line = iter([*self.BRIEFING, "no"]), 0, "", ""  # no: did not see through
+        briefed, seen, printed, line = iter(self.BRIEFING), 0, "", ""
         with subprocess.Popen(self.command, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT) as process:
             def type_(text):
@@ -123,6 +123,9 @@ class Run(unittest.TestCase):
         shown = study("design", self.clip)
         self.assertRegex(shown.stdout, r"(?m)^0.0025 +\d+ .*sway.avi$", shown)
         self.assertRegex(shown.stdout, r"run takes alpha=0\.\d+ s/px", shown)
+        registered = study("register", "--participants", 3, answers, self.clip)
+        made = records.digest_of(records.read_settings(answers))
+        self.assertRegex(registered.stdout, rf"(?s)3 participants, 1 clips.*Settings: SHA-256 {made}", registered)
         first, code = SimulatedParticipant(answers, "P01", [self.clip]).take_part(trials_at_most=2)
         self.assertIn("stopped; the same command goes on here", first)
         self.assertEqual((code, len(records.read_answers(answers)) > 0), (0, True))
