@@ -5,9 +5,9 @@
 
 `plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run`
 asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips
-and asks. `register` fixes what it will do, and prints that for a registry. It goes on where this participant
-stopped. `threshold` measures what a participant feels at least. `report` prints shares, means and what differs, and
-`withdraw` removes a participant. docs/study.md says more.
+and asks. It goes on where this participant stopped. `register` fixes what `run` will do, and prints that for a
+registry. `threshold` measures what a participant feels at least. `report` prints shares, means and what differs,
+and `withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
