@@ -52,10 +52,12 @@ constexpr double kSpins_s = 0.01;  // 0.015: 1.10 m/s; wrong poses turn for 5 ms
 // --- A grip that yields, or stores energy
 constexpr double kYieldTime_s = 0.05;  // in which a grip in a loose hand follows a force
 constexpr double kFirmForce_N = 0.3;   // that proves a hand, with kFirmHand_N_m, …
+constexpr double kProbes_N = 0.5;      // more than that, so that a hand far out can prove itself
 constexpr double kWithstands_s = 0.3;  // … for so long: a unheld grip follows in 0.07
 constexpr double kThrown_m = 0.025;    // 0.03: 1.07 m/s; 0.02: firm hands lose 3 times as much
 constexpr double kThrown_m_s = 0.4;    // along the force; a film moves a hand by 0.45 at most
 constexpr double kStored_s = 0.2;      // until the smoothed force has turned, and the grip is back
-constexpr double kThrows_J = 0.05;     // twice what throws a unheld grip of 50 g at 1 m/s
+constexpr double kFarOut = 0.5;     // of kReleased_J stored; without: 342 mJ at 10.2 N and 58 N/m
+constexpr double kThrows_J = 0.05;  // twice what throws a unheld grip of 50 g at 1 m/s
 
 }  // namespace spidar::brake

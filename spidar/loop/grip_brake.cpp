@@ -205,10 +205,23 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   left_ = {faded(fraction_ * wanted.force_N, then_.linear_m_s, 1, band_),
            left_at(then_.linear_m_s.norm(), band_) *
                faded(fraction_ * wanted.torque_Nm, then_.angular_rad_s, radius_m_, band_)};
+  if (!is_withstood()) left_.force_N = not_further_out(left_.force_N);
   if (then_.linear_m_s.norm() > kNoRise_m_s) {
     left_.force_N = without_excess(left_.force_N, not_risen_N(), then_.linear_m_s);
   }
   return left_;
+}
+
+/// Without what would bring the grip to where the strings at rest store more than kReleased_J: they
+/// pull it home, against which the force goes out.
+Eigen::Vector3d GripBrake::not_further_out(const Eigen::Vector3d& force_N) const noexcept {
+  const double out_N = -force_N.dot(rest_N_);
+  if (!(out_N > 0)) return force_N;
+  const double left = std::clamp((1 - stored_J_ / kReleased_J) / (1 - kFarOut), 0.0, 1.0);
+  const double rest_N = rest_N_.norm();
+  const double most_N = std::max(kProbes_N, left * out_N / rest_N);
+  const double excess_N = std::max(0.0, out_N / rest_N - most_N);
+  return force_N + excess_N / rest_N * rest_N_;
 }
 
 /// What the film's part of the strings has at most, so that a force along the motion does not rise.

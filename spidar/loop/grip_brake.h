@@ -44,7 +44,8 @@ struct FadeBand {
 ///   that is reversed.
 /// - Until a hand has withstood a force, what the strings at rest have stored is taken off
 ///   kReleased_J, and the speeds are lower accordingly. Else a film pushes a heavy grip to where no
-///   string can brake it, and those at rest throw it back.
+///   string can brake it, and those at rest throw it back. For the same reason, a force outwards
+///   fades to kProbes_N while they store the last of kReleased_J.
 ///
 /// What fades out ends at once, at no slew limit: 10 N that fell by 300 N/s would throw a grip of
 /// 50 g at 3.5 m/s. It returns at the slew limit.
@@ -88,6 +89,7 @@ class GripBrake {
 
  private:
   FadeBand band_at(double speed_m_s) const noexcept;
+  Eigen::Vector3d not_further_out(const Eigen::Vector3d& force_N) const noexcept;
   Eigen::Vector3d not_risen_N() const noexcept;
   bool is_released(const GripMotion& motion) const noexcept;
   bool is_withstood() const noexcept;
