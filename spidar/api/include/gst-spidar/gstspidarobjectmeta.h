@@ -55,13 +55,14 @@ static inline GArray* gst_buffer_get_spidar_objects(GstBuffer* buffer) {
     GstSpidarObject object;
     memset(&object, 0, sizeof object);
     if (region->roi_type != type || motion == NULL ||
-        !gst_structure_get(
-            motion, "width", G_TYPE_UINT, &object.frame_width, "height", G_TYPE_UINT, &object.frame_height,
-            "velocity-x", G_TYPE_DOUBLE, &object.velocity_x, "velocity-y", G_TYPE_DOUBLE,
-            &object.velocity_y, "velocity-error", G_TYPE_DOUBLE, &object.velocity_error,
-            "screen-velocity-x", G_TYPE_DOUBLE, &object.screen_velocity_x, "screen-velocity-y",
-            G_TYPE_DOUBLE, &object.screen_velocity_y, "growth", G_TYPE_DOUBLE, &object.growth,
-            "roll", G_TYPE_DOUBLE, &object.roll, "felt", G_TYPE_BOOLEAN, &object.felt, NULL)) {
+        !gst_structure_get(motion, "width", G_TYPE_UINT, &object.frame_width, "height", G_TYPE_UINT,
+                           &object.frame_height, "velocity-x", G_TYPE_DOUBLE, &object.velocity_x,
+                           "velocity-y", G_TYPE_DOUBLE, &object.velocity_y, "velocity-error",
+                           G_TYPE_DOUBLE, &object.velocity_error, "screen-velocity-x",
+                           G_TYPE_DOUBLE, &object.screen_velocity_x, "screen-velocity-y",
+                           G_TYPE_DOUBLE, &object.screen_velocity_y, "growth", G_TYPE_DOUBLE,
+                           &object.growth, "roll", G_TYPE_DOUBLE, &object.roll, "felt",
+                           G_TYPE_BOOLEAN, &object.felt, NULL)) {
       continue;
     }
     object.id = (guint)region->id;
