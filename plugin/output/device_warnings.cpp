@@ -126,7 +126,9 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   if (chosen.empty() && whole && is_simulated(grip.name())) return;
   std::string text;
   if (!chosen.empty()) text = grip.name() + ": " + chosen + ". ";
-  if (whole && !force_feedback && chosen.empty()) text = grip.name() + ": ";
+  // The description of a sound card says what it is.
+  const bool is_sound = grip.name().compare(0, 5, "sound") == 0;
+  if (!force_feedback && !is_sound && chosen.empty()) text = grip.name() + ": ";
   if (force_feedback || chosen.empty()) text += session->opened() + ". ";
   if (!force_feedback) text += "It renders " + rendered_text(can) + ". ";
   text.pop_back();
