@@ -28,7 +28,7 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
-  // Of ticks in time kSlope, whatever rounding does.
+  // Half a tick less than kSlope ticks, so that rounding does not add another one.
   const double least_s = (kSlope - 0.5) * path.tick_s;
   double passed_s = 0;
   size_t since = 0;

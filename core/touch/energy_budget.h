@@ -68,11 +68,12 @@ class EnergyBudget {
   const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
 
  private:
-  static constexpr int kSlope = 3;  // ticks over which the acceleration is measured, or as long
+  // The acceleration is measured over so many ticks that are in time.
+  static constexpr int kSlope = 3;
 
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
-  // A tick that is late is followed by short ones: as many as fit into the time of kSlope.
+  // Short ticks follow one that is late, so that more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
   History<double, kKept> dt_s_;  ///< of the last ticks: in these, the velocity became what it is

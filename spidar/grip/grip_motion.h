@@ -79,8 +79,8 @@ class GripMotion {
 
   /// The velocity `ahead_s` after the newest pose, with the acceleration that the poses show.
   GripVelocity velocity_in(double ahead_s) const noexcept {
-    // For each pose: 1, its time t, t²/2, and how far it is from where velocity_ would have had it.
-    // Sums of the products, divided by their number after the first column is taken out.
+    // The normal equations of way = c + a t + b h: h is t²/2, and way is how far a pose is from
+    // where velocity_ would have had it. The means are subtracted below, which eliminates c.
     double n = 0, t_sum = 0, h_sum = 0, tt = 0, th = 0, hh = 0;
     Six way_sum = Six::Zero(), t_way = Six::Zero(), h_way = Six::Zero();
     for (size_t age = 0; age < poses_.size(); ++age) {

@@ -17,7 +17,7 @@ struct FadeBand {
   double damping_N_s_m = 0;
 };
 
-/// Five measures against a force that accelerates a released grip:
+/// Measures against a force that accelerates a released grip:
 ///
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
 ///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
