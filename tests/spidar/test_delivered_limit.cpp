@@ -12,6 +12,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
+#include "tests/support/tick_watch.h"
 
 namespace spidar::test::delivered_limit_test {
 namespace {
@@ -155,6 +156,7 @@ Rates rates_of(const Profile& profile, double force_N, double torque_Nm, double 
       },
       limits);
   const double reach_m = room_m(profile) / 2;
+  TickWatch watch;
   TickRecord before = grip.snapshot().last;
   Wrench rest_before = grip.loop->grip().reading().at_rest;
   Rates most;
@@ -167,7 +169,8 @@ Rates rates_of(const Profile& profile, double force_N, double torque_Nm, double 
     const TickRecord now = grip.snapshot().last;
     const Wrench rest = grip.loop->grip().reading().at_rest;
     const double error_N = (now.delivered.force_N - now.commanded.force_N - rest.force_N).norm();
-    // The brake of a released grip is faster.
+    watch.see(now, grip.snapshot().limits);
+    // The brake is faster; the watch has judged it.
     if (!now.brakes && !before.brakes && before.faulty_string < 0) {
       const auto raise = [](double& rate, double change) { rate = std::max(rate, 1e3 * change); };
       const bool is_given = std::max(error_N, error_before_N) <= kGiven_N;

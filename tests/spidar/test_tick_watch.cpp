@@ -125,7 +125,8 @@ TEST(TickWatch, LetsTheForceFadeInBeforeTheNextFrame) {
 /// Rows of a trace, a millisecond apart.
 class Rows {
  public:
-  explicit Rows(const TemporaryFolder& folder) : path_(folder.path / "trace.csv"), file_(path_) {
+  explicit Rows(const TemporaryFolder& folder, double speed_m_s = 0)
+      : path_(folder.path / "trace.csv"), file_(path_), speed_m_s_(speed_m_s) {
     record_.device = DeviceState::kRunning;
     file_ << trace_header() << '\n';
   }
@@ -133,6 +134,7 @@ class Rows {
   void add(double force_N, bool acknowledged, bool brakes) {
     ++record_.tick;
     record_.monotonic_ns += kTick_ns;
+    record_.pose.position_m.x() += 1e-3 * speed_m_s_;
     record_.commanded.force_N.x() = force_N;
     record_.acknowledged = acknowledged;
     record_.brakes = brakes;
@@ -151,6 +153,7 @@ class Rows {
  private:
   const std::string path_;
   std::ofstream file_;
+  const double speed_m_s_;
   TickRecord record_;
 };
 
@@ -168,16 +171,26 @@ TEST(TickWatch, TellsInATraceWhatTheDeviceDidNotAnswer) {
   }
 }
 
+// A grip that moves along x: the brake may turn the force against it at once, never along, and not
+// when it is slow.
 TEST(TickWatch, TellsInATraceWhenTheBrakeActs) {
-  for (const bool brakes : {true, false}) {
+  struct Case {
+    double speed_m_s;
+    bool brakes;
+    double from_N, to_N;
+    const char* fault;
+  };
+  for (const Case& c : {Case{1, true, 0.2, -2, nullptr}, Case{1, false, 0.2, -2, "too fast"},
+                        Case{1, true, -2, 2, "the brake pushes the grip"},
+                        Case{0.04, true, 0.2, -2, "a grip that is slow"}}) {
     const TemporaryFolder folder;
-    Rows rows(folder);
-    rows.add(0.2, true, false);
-    rows.add(-0.2, true, brakes);
-    if (brakes)
+    Rows rows(folder, c.speed_m_s);
+    for (int i = 0; i < 10; ++i) rows.add(c.from_N, true, c.brakes);
+    rows.add(c.to_N, true, c.brakes);
+    if (c.fault == nullptr)
       rows.see();
     else
-      EXPECT_NONFATAL_FAILURE(rows.see(), "force changes too fast");
+      EXPECT_NONFATAL_FAILURE(rows.see(), c.fault);
   }
 }
 

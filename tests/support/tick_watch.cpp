@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/loop/brake_table.h"
 #include "spidar/loop/tick_trace.h"
+#include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test {
 namespace {
@@ -71,12 +73,17 @@ TickRecord record_of(const Row& row) {
   record.brakes = row.integer("brakes") != 0;
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
+    record.wanted.force_N[i] = row.number("wanted_force_" + axis + "_N");
     record.commanded.force_N[i] = row.number("commanded_force_" + axis + "_N");
     record.commanded.torque_Nm[i] = row.number("commanded_torque_" + axis + "_Nm");
     record.contact.force_N[i] = row.number("contact_force_" + axis + "_N");
   }
   for (int i = 0; i < kMaxStrings; ++i) {
     record.tension_N[i] = row.number("tension_" + std::to_string(i) + "_N");
+  }
+  for (int i = 0; i < 3; ++i) {
+    const std::string axis(1, "xyz"[i]);
+    record.pose.position_m[i] = row.number("position_" + axis + "_m");
   }
   record.max_force_N = row.number("max_force_N");
   record.max_torque_Nm = row.number("max_torque_Nm");
@@ -95,11 +102,16 @@ TickRecord TickWatch::tick(HapticLoop& loop, int64_t now_ns) {
 void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   // Another loop, the same one opened again, or a trace with a gap.
   if (record.tick != last_.tick + 1) following_ = false;
+  if (!following_) motion_.reset();
   const int64_t step_ns = following_ ? record.monotonic_ns - last_.monotonic_ns : kTick_ns;
   const double dt_s = 1e-9 * static_cast<double>(std::clamp<int64_t>(step_ns, 0,  //
                                                                      HapticLoop::kMaxStep_ns));
   largest_N_ = std::max(largest_N_, limits.max_force_N);
   largest_Nm_ = std::max(largest_Nm_, limits.max_torque_Nm);
+  const double ramp = StaleRamp::kSteepest / limits.ramp_s;
+  const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
+
+  motion_.see(record.pose, record.monotonic_ns);
 
   const Wrench& now = record.commanded;
   if (!now.is_finite()) fail(record, "not finite");
@@ -110,9 +122,13 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
 
   // See WrenchLimits. A lost device has nothing to command.
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
-  if (following_ && !lost && !record.brakes && !last_.brakes) {
-    const double ramp = StaleRamp::kSteepest / limits.ramp_s;
-    const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
+  const bool brakes = record.brakes || last_.brakes;
+  if (following_ && !lost && brakes) {
+    const std::string fault =
+        fault_of_brake(record, limit_total(record.wanted, limits).force_N, rate_N_s * dt_s);
+    if (!fault.empty()) fail(record, fault);
+  }
+  if (following_ && !lost && !brakes) {
     const double rate_Nm_s = std::max(limits.max_slew_Nm_s, ramp * largest_Nm_);
     const Wrench& before = last_.commanded;
     if ((now.force_N - before.force_N).norm() > rate_N_s * dt_s + 1e-12) {
@@ -135,6 +151,30 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   following_ = true;
   ++ticks_;
   if (now.stacked().norm() > 0) ++felt_;
+}
+
+/// What the brake does: it takes from the force that is wanted at once, and adds a damper against
+/// the motion. So the power of the force is at most what it was or what is wanted, or zero; and the
+/// force is at most what it was or what is wanted, and the strongest damper's at this speed.
+/// `most_N` is what a force may change by in this tick. The speed that the brake sees is wrong by
+/// kSpeedError_m_s at most.
+std::string TickWatch::fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
+                                      double most_N) const {
+  constexpr double kDamping_N_s_m = brake::kDamping_1_s * kHeaviestGrip_kg;
+  constexpr double kFrom_m_s = brake::kHeavyFrom_m_s - brake::kEarlier_m_s;
+  const Eigen::Vector3d& now_N = record.commanded.force_N;
+  const Eigen::Vector3d& before_N = last_.commanded.force_N;
+  const Eigen::Vector3d velocity_m_s = motion_.velocity_in(0).linear_m_s;
+  const double speed_m_s = velocity_m_s.norm();
+  const double wrong_W =
+      brake::kSpeedError_m_s * (now_N.norm() + std::max(before_N.norm(), wanted_N.norm()));
+  const double most_W =
+      std::max({0.0, before_N.dot(velocity_m_s), wanted_N.dot(velocity_m_s)}) + most_N * speed_m_s;
+  if (now_N.dot(velocity_m_s) > most_W + wrong_W + 1e-12) return "the brake pushes the grip";
+  const double damper_N =
+      kDamping_N_s_m * std::max(0.0, speed_m_s + brake::kSpeedError_m_s - kFrom_m_s);
+  const double largest_N = std::max(before_N.norm(), wanted_N.norm()) + most_N + damper_N;
+  return now_N.norm() > largest_N + 1e-12 ? "the brake acts on a grip that is slow" : "";
 }
 
 void TickWatch::look_at_age(const TickRecord& record, double dt_s) {

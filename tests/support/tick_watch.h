@@ -10,11 +10,12 @@
 namespace spidar::test {
 
 /// Checks every tick of a test, and fails it at the first violation of one of these conditions.
-/// Force and torque never exceed their limits. Their changes never exceed the slew limit, except
-/// where the brake acts. There is
-/// exactly no force 50 ms after the last wrench that was due (counting only time in which the
-/// device answered), and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or
-/// by running time. The exceptions are the 40 ms in which the force fades in before the next frame,
+/// Force and torque never exceed their limits. Their changes never exceed the slew limit;
+/// where the brake acts, it never pushes the grip along, and slows down a fast one only. (SeamWatch
+/// judges the torque and what the strings give; it knows the real motion.) There is exactly no
+/// force 50 ms after the last wrench that was due (counting only time in which the device
+/// answered), and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by
+/// running time. The exceptions are the 40 ms in which the force fades in before the next frame,
 /// and a surface that the grip touches.
 class TickWatch {
  public:
@@ -22,7 +23,8 @@ class TickWatch {
   TickRecord tick(HapticLoop& loop, int64_t now_ns);
 
   /// Checks the next tick of a loop that ran under these limits. It uses tick, monotonic_ns,
-  /// running_ns, frame_ns, found, playing, device, acknowledged, brakes and commanded.
+  /// running_ns, frame_ns, found, playing, device, acknowledged, brakes, pose, wanted and
+  /// commanded.
   void see(const TickRecord& record, const SafetyLimits& limits);
 
   /// Checks the trace of a loop that ran under the total limits in the trace and the other limits
@@ -35,12 +37,15 @@ class TickWatch {
   const TickRecord& last() const { return last_; }
 
  private:
+  std::string fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
+                             double most_N) const;
   void look_at_age(const TickRecord& record, double dt_s);
   void fail(const TickRecord& record, const std::string& what);
 
   bool failed_ = false;  // reports only the first failure
   bool following_ = false;
   TickRecord last_;
+  GripMotion motion_;
   double largest_N_ = 0;  // largest limits so far
   double largest_Nm_ = 0;
   double stopped_s_ = 0;
