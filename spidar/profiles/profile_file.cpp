@@ -434,15 +434,7 @@ CalibrationRecord read_calibration(const TomlField& in) {
 }  // namespace
 
 Profile parse_profile(const std::string& text, const std::string& path, const std::string& name) {
-  toml::table document;
-  try {
-    document = toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    TomlField::fail(path, error.source().begin.line, "",
-                    "not TOML: " + std::string(error.description()));
-  } catch (const std::logic_error& error) {
-    throw ProfileError(path + ": not TOML: " + error.what());
-  }
+  const toml::table document = parse_toml(text, path);
   const TomlField root(path, document);
   root.allow_only({"description", "board", "dac_bits", "dac_max_V", "drive_lag_s", "geometry",
                    "strings", "calibration", "source"});

@@ -6,7 +6,13 @@
 /// ends the program, as with assert(), of which GCC warns.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "spidar/profiles/profile.h"
 
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
@@ -24,3 +30,54 @@
 #pragma GCC diagnostic pop
 #endif
 #pragma pop_macro("NDEBUG")
+
+namespace spidar {
+
+/// The line of the first byte above ASCII that is neither in a string nor in a comment; 0 without
+/// one.
+inline int line_of_bare_letter(std::string_view text) {
+  size_t i = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // a byte order mark
+  std::string_view end;                                    // of the string or comment
+  while (i < text.size()) {
+    if (!end.empty()) {
+      const bool escapes = end[0] == '"' && text[i] == '\\';
+      const bool ends = text.substr(i, end.size()) == end;
+      i += escapes ? 2 : ends ? end.size() : 1;
+      // Three quotes end a string with the last of up to five.
+      for (int n = 0; ends && end.size() == 3 && n < 2 && i < text.size() && text[i] == end[0]; ++n)
+        ++i;
+      if (ends) end = {};
+      continue;
+    }
+    if (static_cast<unsigned char>(text[i]) >= 0x80)
+      return 1 +
+             static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(i), '\n'));
+    for (const std::string_view begin : {"\"\"\"", "'''", "\"", "'", "#"}) {
+      if (text.substr(i, begin.size()) != begin) continue;
+      end = begin == "#" ? "\n" : begin;
+      i += begin.size() - 1;
+      break;
+    }
+    ++i;
+  }
+  return 0;
+}
+
+/// Throws ProfileError, which begins with `path`.
+inline toml::table parse_toml(const std::string& text, const std::string& path) {
+  const auto fail = [&](const std::string& line, const std::string& why) -> toml::table {
+    throw ProfileError(path + line + ": not TOML: " + why);
+  };
+  // toml++ 3.3 runs into undefined behaviour at some of them, as U+01BA.
+  if (const int line = line_of_bare_letter(text))
+    return fail(":" + std::to_string(line), "a letter that is not ASCII must be in quotes");
+  try {
+    return toml::parse(std::string_view(text), path);
+  } catch (const toml::parse_error& error) {
+    return fail(":" + std::to_string(error.source().begin.line), std::string(error.description()));
+  } catch (const std::logic_error& error) {
+    return fail("", error.what());
+  }
+}
+
+}  // namespace spidar

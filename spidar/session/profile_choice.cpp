@@ -39,6 +39,8 @@ fs::path remembered_profiles_file() {
 
 namespace {
 
+constexpr size_t kMostBoards_bytes = 1 << 20;  // some ten thousand boards
+
 /// The key of a board in the file.
 std::string key_of(const std::string& usb_id, const std::string& serial) {
   return usb_id + " " + serial;
@@ -49,11 +51,10 @@ toml::table remembered_boards(const fs::path& file) {
   std::error_code error;
   if (file.empty() || !fs::exists(file, error)) return {};
   try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& fault) {
-    throw ProfileError(file.string() + ": " + std::string(fault.description()) +
-                       "; correct or remove the file");
-  } catch (const std::logic_error& fault) {
+    return parse_toml(read_regular_file(file.string(), kMostBoards_bytes), file.string());
+  } catch (const ProfileError& fault) {
+    throw ProfileError(std::string(fault.what()) + "; correct or remove the file");
+  } catch (const std::runtime_error& fault) {
     throw ProfileError(file.string() + ": " + fault.what() + "; correct or remove the file");
   }
 }

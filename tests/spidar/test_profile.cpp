@@ -244,6 +244,11 @@ INSTANTIATE_TEST_SUITE_P(
     Fields, BrokenProfile,
     testing::Values(
         Broken{"dac_bits = 12", "dac_bits = = 12", {"not TOML"}},
+        Broken{"dac_bits = 12", "dac_bits = 12ƺ", {"not TOML", "not ASCII", "quotes"}},
+        Broken{"dac_bits = 12",
+               "s = \"\"\"a \\\" é\"\"\"\" # 'é\né = 'ü'",
+               {"not TOML", "not ASCII", "quotes"},
+               "é = 'ü'"},
         Broken{"board = \"uart\"", "bord = \"uart\"", {"bord", "unknown key", "board"}},
         Broken{"board = \"uart\"", "board = \"usb\"", {"board", "\"usb\"", "usb-sh4", "uart"}},
         Broken{"board = \"uart\"\n", "", {"board", "missing"}, "description"},

@@ -131,8 +131,8 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
   EXPECT_EQ(board_info("usb:0").profile, "spidar-g645");
   EXPECT_NE(run(spidarctl("info usb")).text.find("profile   spidar-g645: "), std::string::npos);
   // What cannot be kept is said before the grip is moved.
-  for (const auto& [file, device, said] :
-       {std::tuple("A1 =", "usb", "boards.toml: "), std::tuple("", "usb:3", "one of several")}) {
+  for (const auto& [file, device, said] : {std::tuple("A1 =", "usb", "boards.toml:1: not TOML: "),
+                                           std::tuple("", "usb:3", "one of several")}) {
     std::ofstream(remembered_profiles_file()) << file;
     plug(1, "sh4", "S3");
     const std::string name = *file ? "usb:S1" : device;
