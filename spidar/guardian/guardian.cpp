@@ -79,6 +79,7 @@ int spawn(std::vector<std::string> command, int its_end, pid_t& process) {
 void set_patience(int socket, int seconds) {
   const timeval patience{seconds, 0};
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
 }
 
 /// The will, the device's file, and a descriptor by which the end of this process is noticed.
@@ -145,8 +146,9 @@ bool Guardian::connect_to(const std::string& path) {
   if (path.size() >= sizeof address.sun_path) return false;
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-  return socket_ >= 0 &&
-         connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  if (socket_ < 0) return false;
+  set_patience(socket_, kPatience_s);  // a service that accepts nobody has a full queue
+  return connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
 }
 
 /// Gives the guardian its will and waits for its answer.

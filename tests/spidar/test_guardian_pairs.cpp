@@ -271,18 +271,52 @@ TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
   clear_bus();
 }
 
+sockaddr_un address_of(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() < sizeof address.sun_path)
+    std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  else
+    ADD_FAILURE() << path;
+  return address;
+}
+
+/// The socket of a service for which `queue` + 1 connections wait until it accepts them.
+int listen_at(const std::string& path, int queue) {
+  const sockaddr_un address = address_of(path);
+  const int listening = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+  EXPECT_EQ(bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_EQ(listen(listening, queue), 0);
+  return listening;
+}
+
+// connect() would wait for ever for a place in the queue.
+TEST(GuardianPairs, AServiceThatAcceptsNobodyIsGivenUp) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "guardian").string();
+  const int listening = listen_at(path, 0);
+  const sockaddr_un address = address_of(path);
+  const int first = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(connect(first, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  const Variable variable("SPIDAR_GUARDIAN", path);
+  plug(0, "sh4");
+  try {
+    make_device("usb", load_profile(kUsbProfile))->open();
+    ADD_FAILURE() << "opened";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+  }
+  close(first);
+  close(listening);
+  clear_bus();
+}
+
 /// As systemd does with Accept=yes and StandardInput=socket.
 TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
   const TemporaryFolder folder;
   const std::string path = (folder.path / "guardian").string();
   const std::string program = std::getenv("SPIDAR_GUARDIAN");
-  const int listening = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  ASSERT_LT(path.size(), sizeof address.sun_path);
-  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-  ASSERT_EQ(bind(listening, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  ASSERT_EQ(listen(listening, 4), 0);
+  const int listening = listen_at(path, 4);
   pid_t service = -1;
   const Variable variable("SPIDAR_GUARDIAN", path);
   std::thread accepting([&] {
