@@ -81,12 +81,14 @@ class Progress:
 
 
 def read_trace(trace):
-    """Force, N, of each frame, and the time, ns, of its motion: halfway since the frame before."""
+    """Force, N, of each frame, and the time, ns, of its motion: halfway since the frame before. Last the end of the clip,
+    where the force is at rest."""
     with open(trace, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     times_ns = [int(row["running_time_ns"]) for row in rows]
+    end = [[2 * times_ns[-1] - times_ns[-2:][0], 0.0, 0.0, 0.0]] if rows else []
     return [[(before_ns + time_ns) // 2, *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
-            for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)]
+            for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)] + end
 
 
 def all_frames(clip, properties, limit_N, alphas, tell):
@@ -108,8 +110,8 @@ def measure(clip, properties, limit_N, is_matched, alphas, progress):
     progress.end()
     for alpha in alphas:
         frames = {"linear": by_force["linear", None]} | {name: by_force[name, alpha] for name in FORCES[1:]}
-        found[alpha] = compare({name: [math.hypot(*force_N) for _, *force_N in rows] for name, rows in frames.items()},
-                               limit_N, is_matched)
+        found[alpha] = compare({name: [math.hypot(*force_N) for _, *force_N in rows[:-1]]
+                                for name, rows in frames.items()}, limit_N, is_matched)
         # A force is proportional to max-force.
         gain = {name: max_N / limit_N for name, max_N in found[alpha].max_force_N.items()}
         found[alpha].frames = {name: [[time_ns, *(gain[name] * each_N for each_N in force_N)]

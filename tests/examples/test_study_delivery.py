@@ -19,11 +19,13 @@ sys.path.insert(0, FOLDER)
 import numpy as np  # noqa: E402
 
 import delivery  # noqa: E402
+import preview  # noqa: E402
 
 
 class Delivery(unittest.TestCase):
     """Traces of a clip of 2 s, 25 frames/s, which asks for 0.3 N rms in x."""
     FRAMES = [[40_000_000 * n, 0.3 * math.sqrt(2) * math.sin(2 * math.pi * n / 25), 0, 0] for n in range(51)]
+    LAST_MS = 2000
     STALL_MS = 700  # where the film asks for much
 
     def setUp(self):
@@ -35,10 +37,10 @@ class Delivery(unittest.TestCase):
         """`change`: doctors a tick, or takes it out (None)."""
         names = ["playing", "device", "found", "running_ns", "monotonic_ns",
                  *(f"delivered_force_{axis}_N" for axis in "xyz")]
-        force_N = (not is_muted) * delivery.between(self.FRAMES, np.arange(2001) * 1e6)
+        force_N = (not is_muted) * delivery.between(self.FRAMES, np.arange(self.LAST_MS + 1) * 1e6)
         ticks = [dict(zip(names, [1, "running", "interpolated", ms * 1_000_000, 10**12 + ms * 1_000_000, *force_N[ms]]))
-                 for ms in range(2001)]
-        ticks.append(dict(zip(names, [0, "closing", "nothing", 0, 10**12 + 2_001_000_000, 0, 0, 0])))
+                 for ms in range(self.LAST_MS + 1)]
+        ticks.append(dict(zip(names, [0, "closing", "nothing", 0, 10**12 + (self.LAST_MS + 1) * 1_000_000, 0, 0, 0])))
         rows = [[tick[name] for name in names] for tick in map(change, ticks) if tick]
         for path, lines in (self.ticks, [names, *rows]), (self.frames, [["device_no_force_reason"], [limit], ["none"]]):
             path.write_text("".join(",".join(map(str, line)) + "\n" for line in lines))
@@ -150,6 +152,19 @@ class Delivery(unittest.TestCase):
         for begin_s, end_s, said in ((0.25, 0.4, "stood still for more than 100 ms while it should move"),
                                      (0.175, 0.325, "stood still"), (0.25, 0.33, "")):
             self.require(said, self.moved(x=lambda t, _: self.sway(begin_s if begin_s <= t < end_s else t)))
+
+    def test_a_force_that_stands_at_the_end_of_a_clip_does_not_count(self):
+        """After the motion of the last frame, too, where the force goes to rest."""
+        trace = self.frames.with_name("preview")
+        rows = [(2 * n - 1) * 20_000_000 * (n > 0) + 20_000_000 for n in range(51)]  # frames, half a frame after their motion
+        trace.write_text("running_time_ns,force_x_N,force_y_N,force_z_N\n" + "".join(
+            f"{time_ns},{force_N},0,0\n" for time_ns, (_, force_N, *_) in zip(rows, self.FRAMES)))
+        end_ms = rows[-1] // 1_000_000 + 40  # one frame after the last one, whose motion was half a frame before it
+        curve = delivery.between([*self.FRAMES, [end_ms * 1_000_000, 0, 0, 0]], np.arange(end_ms + 1) * 1e6)[:, 0]
+        force_at = lambda t: curve[min(round(1000 * t), end_ms)]
+        with patch.object(Delivery, "FRAMES", preview.read_trace(trace)), patch.object(Delivery, "LAST_MS", end_ms):
+            for length_ms, said in (0, ""), (150, "stood still"), (120, "stood still"), (70, ""):
+                self.require(said, self.moved(x=lambda t, _: force_at(min(t, (end_ms - length_ms) / 1000))))
 
     def test_the_force_of_another_condition_does_not_count(self):
         """As strong, and by its share nearly all that is asked for."""
