@@ -4,10 +4,13 @@
 
 import sys
 import termios
+import time
 
 from records import append_row, read_rows, utc_now
 from trials import STEPS
 
+# Few people read English faster (M. Brysbaert, How many words do we read per minute?, 2019: most 175 to 300 a minute).
+WORDS_S = 300 / 60
 GENTLE_N = 1.0  # the limit of the force unless the experimenter confirms more; docs/safety.md
 # Questions to the experimenter whose answer must be no.
 EXCLUSIONS = [
@@ -41,21 +44,34 @@ class TakesNoPart(Exception):
     """The participant may not hold the grip."""
 
 
-def read_line(prompt):
-    """What was typed on a terminal before `prompt` is there is no answer to it; what a pipe has was not typed."""
-    if sys.stdin.isatty():
-        termios.tcflush(sys.stdin, termios.TCIFLUSH)
+texts_read = set()  # in this session
+
+
+def read_line(prompt, text=""):
+    """What was typed on a terminal before `prompt` is there, or sooner than it and the `text` above it can be read, is no
+    answer; what a pipe has was not typed. Who has read a text once need not read it again."""
+    text += prompt
     try:
-        return input(prompt)
+        while True:
+            if sys.stdin.isatty():
+                termios.tcflush(sys.stdin, termios.TCIFLUSH)
+            begin_s = time.monotonic()
+            line = input(prompt)
+            read_s = time.monotonic() - begin_s
+            if text in texts_read or read_s * WORDS_S >= len(text.split()) or not sys.stdin.isatty():
+                texts_read.add(text)
+                return line
+            print("that was sooner than anybody reads it; read it, and answer again")
     except (EOFError, KeyboardInterrupt):
         raise Stopped from None
 
 
 def ask(text, answers=STEPS):
     """Asks the participant until there is the number of an answer, from 1 on."""
-    print(text + "\n  " + "  ".join(f"{number} {name}" for number, name in enumerate(answers, 1)))
+    question = text + "\n  " + "  ".join(f"{number} {name}" for number, name in enumerate(answers, 1)) + "\n"
+    print(question, end="")
     while True:
-        line = read_line("> ")
+        line = read_line("> ", question)
         if line == "q":
             raise Stopped
         if line in map(str, range(1, len(answers) + 1)):

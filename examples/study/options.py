@@ -5,6 +5,7 @@
 import argparse
 
 from briefing import GENTLE_N
+from perception import THRESHOLDS
 from trials import ANALYSIS
 
 NOISE = 0.1  # volume; how loud that is, the laboratory sets at the headphones until nobody hears the motors
@@ -32,8 +33,9 @@ def parse(description, arguments):
                                  usage="study.py design [--paper] [--accept-alike] CLIP... [-- name=value...]")
     run = commands.add_parser(
         "run", help="a participant's session: consent, practice, clips and questions", usage="study.py run [option...] ANSWERS.csv PARTICIPANT CLIP... [-- name=value...]", epilog=end)
-    threshold = commands.add_parser("threshold", help="the participant's own least force and least change of it", epilog=end,
-                                    usage="study.py threshold ANSWERS.csv PARTICIPANT [-- name=value...]")
+    threshold = commands.add_parser("threshold", help="the participant's own least force, change, turn and delay of it", epilog=end,
+                                    usage="study.py threshold [option...] ANSWERS.csv PARTICIPANT [-- name=value...]")
+    threshold.add_argument("--block", dest="blocks", choices=THRESHOLDS, action="append", help="only this one; once or more")
     register = commands.add_parser(
         "register", help="fixes what the study will do, and prints it for a registry", epilog=end,
         usage="study.py register --participants N [option of run...] ANSWERS.csv CLIP... [-- name=value...]")
@@ -52,7 +54,8 @@ def parse(description, arguments):
                              help="one more question after each clip, on the same five steps")
         command.add_argument("--primary", default=ANALYSIS["primary"], metavar="NAME",
                              help="the question of the primary outcome (movement)")
-    run.add_argument("--headless", action="store_true", help="no window for the video")
+    for command in run, threshold:
+        command.add_argument("--headless", action="store_true", help="no window for the video")
     for command in design, run, register:
         command.add_argument("clips", metavar="CLIP", nargs="+")
         command.add_argument("--paper", action="store_true", help="the paper's own setting: motion=mean, alpha=0.01, and "
@@ -62,7 +65,8 @@ def parse(description, arguments):
     run.add_argument("--lsl", action="store_true",
                      help="send force, pose, and markers of frames and trials to the Lab Streaming Layer")
     for command in design, threshold:
-        command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="", headless=False)
+        command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="")
+    design.set_defaults(headless=False)
     register.set_defaults(lsl=False, headless=False, participant="-")
     threshold.set_defaults(clips=[], paper=False)
     report = commands.add_parser("report", help="what was answered, and what differs")

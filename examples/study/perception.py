@@ -11,6 +11,7 @@ import numpy as np
 # Of forces that were attended to (docs/bibliography.md): the least that is felt, and the least change of it, PubMed
 # 24808327; with a picture that moves as they do, their delay (Vogels) and their direction (Barbagli).
 FELT_N, WEBER, LATE_MS, TURNED_DEG = 0.04, 0.11, 45, 18.4
+THRESHOLDS = ("felt_N", "weber", "turned_deg", "late_ms")  # the same four of a person, as they are measured and kept
 
 # A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right.
 # H. Levitt, Transformed Up-Down Methods in Psychoacoustics, 1971.
@@ -76,25 +77,54 @@ class Staircase:
 
 
 def pulse(device, force_N, sleep=time.sleep):
-    """To the right, with ramps. Raises RuntimeError if the device takes no force."""
+    """`force_N`: along x, or a vector; with ramps. Raises RuntimeError if the device takes no force."""
+    vector_N = np.array([force_N, 0, 0]) if np.isscalar(force_N) else np.asarray(force_N, float)
     for n in range(round((PULSE_S + 2 * RAMP_S) / SAMPLE_S) + 1):
-        edge_s = min(n * SAMPLE_S, PULSE_S + 2 * RAMP_S - n * SAMPLE_S)
-        share = 0.5 - 0.5 * math.cos(math.pi * min(1, edge_s / RAMP_S))
-        if not device.push((force_N * share, 0, 0)):
+        if not device.push(tuple(share_of_pulse(n * SAMPLE_S) * vector_N)):
             raise RuntimeError(f"the device takes no force: {device.last_fault()}")
         sleep(SAMPLE_S)
 
 
-def measure(device, standard_N, staircase, ask, source=random, sleep=time.sleep):
-    """The level at which `standard_N` · (1 + level) is felt to be stronger than it, or `level` N than none if it is 0.
+def share_of_pulse(time_s):
+    """Of its force, so long after it began."""
+    edge_s = min(max(0, min(time_s, PULSE_S + 2 * RAMP_S - time_s)), RAMP_S)
+    return 0.5 - 0.5 * math.cos(math.pi * edge_s / RAMP_S)
 
-    `ask()`: in which of two pulses the force was the larger one, 1 or 2.
+
+def blocks(device, limit_N, picture, sleep=time.sleep):
+    """Of each threshold, by its column: its staircase, how one of two intervals is presented, at a level or at 0, and what
+    is asked. `picture`: a MovingSquare, of the synchrony."""
+    standard_N = limit_N / 2  # so that twice of it is within
+
+    def turned(level_deg):
+        angle = math.radians(level_deg)
+        pulse(device, (standard_N * math.cos(angle), standard_N * math.sin(angle), 0), sleep)
+
+    def late(level_ms):
+        picture.move(lambda begin_ns: (sleep_until(begin_ns + level_ms * 1e6), pulse(device, standard_N, sleep)))
+
+    return {
+        "felt_N": (Staircase(0.25 * limit_N, limit_N), lambda level_N: pulse(device, level_N, sleep),
+                   "When was the force larger?"),
+        "weber": (Staircase(0.5, 1.0), lambda level: pulse(device, standard_N * (1 + level), sleep),
+                  "When was the force larger?"),
+        "turned_deg": (Staircase(45, 90), turned, "When did the force point higher?"),
+        "late_ms": (Staircase(200, 400), late, "When did the force come later than the square moved?")}
+
+
+def sleep_until(time_ns):
+    time.sleep(max(0, time_ns - time.monotonic_ns()) / 1e9)
+
+
+def measure(present, staircase, ask, source=random, sleep=time.sleep):
+    """The level of `staircase` at which `present(level)` is told from `present(0)`.
+
+    `ask()`: which of two intervals had the level, 1 or 2.
     """
     while not staircase.is_done():
-        larger_N = standard_N * (1 + staircase.level) if standard_N else staircase.level
         larger = source.choice((1, 2))
         for interval in 1, 2:
-            pulse(device, larger_N if interval == larger else standard_N, sleep)
+            present(staircase.level if interval == larger else 0)
             sleep(PAUSE_S)
         staircase.answer(ask() == larger)
     return staircase.threshold()

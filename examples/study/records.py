@@ -13,6 +13,7 @@ from dataclasses import dataclass, fields
 from datetime import datetime, timezone
 from pathlib import Path
 
+from perception import THRESHOLDS
 from trials import CONDITIONS, STEPS
 
 
@@ -32,7 +33,7 @@ class Answer:
 
 COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
-THRESHOLD_COLUMNS = ["participant", "felt_N", "weber", "trials", "time_utc"]  # empty where the answers did not settle
+THRESHOLD_COLUMNS = ["participant", *THRESHOLDS, "trials", "time_utc"]  # empty where not asked, or the answers did not settle
 PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "settings_sha256", "time_utc"]
 
 

@@ -5,10 +5,11 @@
 import math
 import statistics
 from collections import Counter, defaultdict
+from dataclasses import replace
 
 from briefing import BELIEFS, RIGHT_BELIEF
 from inference import FEW_CLIPS, difference, holm
-from perception import told_apart
+from perception import THRESHOLDS, told_apart
 from records import Participants, read_rows, read_settings, with_other_settings
 from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
 
@@ -23,6 +24,26 @@ def ratings(answers):
     questions = dict.fromkeys((answer.part, answer.question) for answer in answers)
     return {(part, question, condition): steps[part, question, condition] for part, question in questions
             for condition in CONDITIONS[part] if (part, question, condition) in steps}
+
+
+def of_people(answers):
+    """One answer of each participant to each question and condition: the median of all clips, the lower one of two."""
+    given = defaultdict(list)
+    for answer in answers:
+        given[answer.part, answer.question, answer.condition, answer.participant].append(answer)
+    return [replace(each[0], answer=statistics.median_low(answer.answer for answer in each)) for each in given.values()]
+
+
+def distribution(steps_of, what):
+    """How often each step was given: the paper's figures 11 to 13, and its tables."""
+    lines = [f"question                   condition   {what:7}   bad  poor   avg  good very   good %  mean"]
+    for (part, question, condition), steps in steps_of.items():
+        counts = [steps.count(step) for step in range(1, 6)]
+        good = 100 * sum(counts[FIRST_GOOD - 1:]) / len(steps)
+        lines.append(f"{part + ': ' + question:26} {condition:11} {len(steps):7} " +
+                     " ".join(f"{count:{5 if step < 4 else 4}}" for step, count in enumerate(counts)) +
+                     f"   {good:6.0f}  {sum(steps) / len(steps):4.2f}")
+    return lines
 
 
 def differences(answers):
@@ -70,16 +91,21 @@ def describe_study(path, settings):
 
 
 def describe_thresholds(path):
-    """What people felt at least, and in how many frames the controllers differ for them."""
-    rows = [row for row in read_rows(f"{path}.thresholds") if row["felt_N"] and row["weber"]]
-    if not rows:
+    """What people tell at least, and in how many frames the controllers differ for them."""
+    rows = read_rows(f"{path}.thresholds")
+    known = {name: [float(row[name]) for row in rows if row.get(name)] for name in THRESHOLDS}
+    median = {name: statistics.median(values) for name, values in known.items() if values}
+    if not median:
         return []
-    felt_N, weber = (statistics.median(float(row[name]) for row in rows) for name in ("felt_N", "weber"))
-    lines = ["", f"{len(rows)} people on this device, medians: the least force that is felt {felt_N:.3f} N, and the least "
-                 f"change {100 * weber:.0f} %. With these, linear and nonlinear differ in"]
-    for name, clip in read_settings(path, "preview").items():
-        amounts = [[math.hypot(*force_N) for _, *force_N in clip["frames"][force]] for force in ("linear", "nonlinear")]
-        lines.append(f"{100 * told_apart(list(zip(*amounts)), felt_N, weber)[2]:6.0f} % of the felt frames of {name}")
+    words = {"felt_N": "force {:.3f} N", "weber": "change of it {:.0%}", "turned_deg": "turn {:.0f}°", "late_ms": "delay {:.0f} ms"}
+    lines = ["", "what people tell on this device at least, medians: " + ", ".join(
+        f"{words[name].format(value)} ({len(known[name])} people)" for name, value in median.items())]
+    if "felt_N" in median and "weber" in median:
+        lines.append("with these, linear and nonlinear differ in")
+        for name, clip in read_settings(path, "preview").items():
+            amounts = [[math.hypot(*force_N) for _, *force_N in clip["frames"][force]] for force in ("linear", "nonlinear")]
+            apart = told_apart(list(zip(*amounts)), median["felt_N"], median["weber"])[2]
+            lines.append(f"{100 * apart:6.0f} % of the felt frames of {name}")
     return lines
 
 
@@ -103,13 +129,9 @@ def report(answers, path=None, exploratory=False):
                          "or say --exploratory, and that it is, wherever you publish it")
     lines = ["EXPLORATORY: the settings were changed after these answers", ""] * bool(others)
     lines += describe_study(path, settings) if path else []
-    lines += ["question                   condition   answers   bad  poor   avg  good very   good %  mean"]
-    for (part, question, condition), steps in ratings(answers).items():
-        counts = [steps.count(step) for step in range(1, 6)]
-        good = 100 * sum(counts[FIRST_GOOD - 1:]) / len(steps)
-        lines.append(f"{part + ': ' + question:26} {condition:11} {len(steps):7} " +
-                     " ".join(f"{count:{5 if step < 4 else 4}}" for step, count in enumerate(counts)) +
-                     f"   {good:6.0f}  {sum(steps) / len(steps):4.2f}")
+    lines += distribution(ratings(answers), "answers")
+    lines += ["", "As the paper counts, one answer of each person and condition (here the median over the clips):",
+              *distribution(ratings(of_people(answers)), "people")]
     margin = analysis["margin_steps"]
     lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is",
               "higher, for other people and clips like these. p: of no difference; of what is expected to be equal, of a",

@@ -6,7 +6,7 @@
 `plan` says how many participants an effect needs, and `design` in what the conditions differ for some clips. `run`
 asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips
 and asks. It goes on where this participant stopped. `register` fixes what `run` will do, and prints that for a
-registry. `threshold` measures what a participant feels at least. `report` prints shares, means and what differs,
+registry. `threshold` measures what a participant tells apart at least. `report` prints shares, means and what differs,
 and `withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
@@ -17,7 +17,7 @@ import platform
 import signal
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 
@@ -218,24 +218,25 @@ class Study:
             raise Stopped
 
     def measure_thresholds(self):
-        """The participant's own least force and least change of it, in five minutes."""
+        """The participant's own least force, change of it, turn and delay, in three minutes each."""
         import gst_spidar
+        from moving_square import MovingSquare
 
         self.require_device()
         self.prepare()
-        ask_which = lambda: ask("When was the force larger?", ["first", "second"])
-        stairs = [perception.Staircase(0.25 * self.limit_N, self.limit_N), perception.Staircase(0.5, 1.0)]
         with self.noise(), gst_spidar.Device(self.device, self.profile or "") as device:
             device.set_limits(self.limit_N, 0.0)
             device.wait_until_running(10)
             print("Keep the hand where it is. A force to the right comes twice; at times one of them is none.")
-            # A standard of half of the limit, so that twice of it is within.
-            found = [perception.measure(device, standard_N, staircase, ask_which)
-                     for standard_N, staircase in zip((0, self.limit_N / 2), stairs)]
+            found, trials = {}, 0
+            for name in self.options.blocks or perception.THRESHOLDS:
+                with MovingSquare(self.output) if name == "late_ms" else nullcontext() as picture:
+                    staircase, present, question = perception.blocks(device, self.limit_N, picture)[name]
+                    known = perception.measure(present, staircase, lambda: ask(question, ["first", "second"]))
+                found[name], trials = "" if known is None else f"{known:.4g}", trials + staircase.trials
         Participants(self.options.answers).register(self.options.participant)
         append_row(self.options.answers + ".thresholds", THRESHOLD_COLUMNS,
-                   [self.options.participant, *("" if each is None else f"{each:.4g}" for each in found),
-                    sum(staircase.trials for staircase in stairs), utc_now()])
+                   [self.options.participant, *(found.get(name, "") for name in perception.THRESHOLDS), trials, utc_now()])
         print("thank you")
 
     def run(self):

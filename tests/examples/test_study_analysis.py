@@ -175,7 +175,7 @@ class Report(unittest.TestCase):
             frames = {"linear": [[0, 0.3, 0, 0], [40, 0, 0.5, 0], [80, 0.05, 0, 0]],
                       "nonlinear": [[0, 0.4, 0, 0], [40, 0, 0.56, 0], [80, 0, 0, 0]]}
             Path(f"{path}.preview.json").write_text(json.dumps({"a.avi": {"frames": frames}}))
-            Path(f"{path}.thresholds").write_text("participant,felt_N,weber\nP1,0.06,0.1\nP2,0.1,0.2\nP3,,\nP4,0.2,0.3\n")
+            Path(f"{path}.thresholds").write_text("participant,felt_N,weber,turned_deg,late_ms\nP1,0.06,0.1,20,\nP2,0.1,0.2,,60\nP3,,,,\nP4,0.2,0.3,10,\n")
             with self.assertRaisesRegex(ValueError, "settings.json: is not that with which P0, P1"):
                 report.report(answers, path)
             self.assertIn("EXPLORATORY", report.report(answers, path, exploratory=True))
@@ -188,7 +188,7 @@ class Report(unittest.TestCase):
                 report.report(answers, path)
         self.assertNotIn("EXPLORATORY", text)
         self.assertIn("blinding index +0.42 of 4 people", text)  # two right, one of three wrong ones, one does not know
-        self.assertIn("3 people on this device, medians: the least force that is felt 0.100 N, and the least change 20 %", text)
+        self.assertIn("medians: force 0.100 N (3 people), change of it 20% (3 people), turn 15° (2 people), delay 60 ms (1 people)", text)
         self.assertRegex(text, r"(?m)^ +50 % of the felt frames of a.avi$")
         families = dict(re.findall(r"(?m)^(\w+) \(level 0.01\)\n.*\n(haptics: \w+)", text))
         self.assertEqual(families, {"primary": "haptics: mine", "secondary": "haptics: comfort", "equal": "haptics: reality"})

@@ -225,6 +225,10 @@ class Streams:
         done = study("threshold", answers, "P01", "--noise", 0,
                      lines=[*SimulatedParticipant.BRIEFING, *SimulatedParticipant.PERSON, "1", "2", "q"])
         self.assertEqual((done.returncode, done.stdout.count("When was the force larger?")), (0, 3), done)
+        for name, question in ("turned_deg", "When did the force point higher?"), ("late_ms", "later than the square moved?"):
+            done = study("threshold", "--headless", "--block", name, "--noise", 0, answers, "P01",
+                         lines=[*SimulatedParticipant.BRIEFING, "1", "q"])
+            self.assertEqual((done.returncode, done.stdout.count(question)), (0, 2), done)
         self.assertEqual(records.read_rows(f"{answers}.thresholds"), [], "not complete")
         with gst_spidar.Device("sim") as device:
             device.set_limits(1, 0)
