@@ -7,7 +7,7 @@
 asks for consent, for reasons to exclude the participant, and for a test of the emergency stop; then it plays clips
 and asks. It goes on where this participant stopped. `register` fixes what `run` will do, and prints that for a
 registry. `threshold` measures what a participant tells apart at least. `report` prints shares, means and what differs,
-and `withdraw` removes a participant. docs/study.md says more.
+`export` writes a folder for R and others, and `withdraw` removes a participant. docs/study.md says more.
 
 Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
 """
@@ -270,6 +270,10 @@ def execute(options, properties):
         if not answers:
             raise ValueError(f"{options.answers}: there are no answers in it")
         print(report(answers, options.answers, options.exploratory))
+    elif options.command == "export":
+        from export import export
+
+        export(options.answers, options.folder)
     elif options.command == "register":
         import registration
 
