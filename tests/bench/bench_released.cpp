@@ -242,9 +242,18 @@ Searched search(const Profile& profile, const Case& what, int grips, uint64_t se
 }  // namespace
 
 int spidar::bench::released(int argc, char** argv) {
-  const int grips = argc > 0 ? std::atoi(argv[0]) : 100'000;
-  const uint64_t seed = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1;
+  const int grips = argc > 1 ? std::atoi(argv[1]) : 100'000;
+  const uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   if (grips <= 0) throw std::invalid_argument("usage: spidar-bench released [GRIPS] [SEED] [CASE]");
+  const auto is_asked = [&](const Case& what) {
+    return argc <= 3 || argv[3] == std::string(what.name);
+  };
+  if (std::none_of(std::begin(kCases), std::end(kCases), is_asked)) {
+    std::string cases;
+    for (const Case& what : kCases) cases += std::string("\n  \"") + what.name + "\"";
+    throw std::invalid_argument("there is no case \"" + std::string(argv[3]) + "\"; there are" +
+                                cases);
+  }
   const std::vector<std::string> names = list_profiles();
   std::vector<Profile> profiles;
   for (const std::string& name : names) profiles.push_back(load_profile(name));
@@ -252,7 +261,7 @@ int spidar::bench::released(int argc, char** argv) {
   std::printf("%zu profiles, %d grips in each case, seed %llu\n", profiles.size(), each,
               static_cast<unsigned long long>(seed));
   for (const Case& what : kCases) {
-    if (argc > 2 && std::string(what.name) != argv[2]) continue;
+    if (!is_asked(what)) continue;
     const auto threads = std::max<size_t>(1, std::thread::hardware_concurrency());
     std::vector<std::future<std::vector<Searched>>> parts;
     for (size_t part = 0; part < threads; ++part) {
