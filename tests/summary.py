@@ -6,7 +6,8 @@ reasons, and as its last line `N passed, N failed, N skipped`. Exits with an err
 
 `--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed.
 `--log NAME` reads what `meson test --logbase NAME` wrote. What the log NAME-alone has, if there is
-one, counts instead: tests that ran again. `--list-failed` prints the names of the test programs that failed, and nothing else."""
+one, counts instead: tests that ran again. They are counted apart, and above `--most-again` of them, 1 by default, each
+counts as failed: a test that needs to be alone is a fault of the test. `--list-failed` prints the names of the test programs that failed, and nothing else."""
 
 import argparse
 import json
@@ -89,7 +90,7 @@ def results_with_again(log):
     failed_before = {run["name"] for run in runs_of(log) if has_failed(run)}
     for run in again:
         if run["name"] in failed_before and not has_failed(run):
-            yield f"{program_of(run)}, beside other tests; alone it passes", "failed at first", ""
+            yield program_of(run), "passed only alone", ""
 
 
 def main():
@@ -97,6 +98,7 @@ def main():
     parser.add_argument("--passed", action="append", default=[])
     parser.add_argument("--failed", action="append", default=[])
     parser.add_argument("--log", default="testlog")
+    parser.add_argument("--most-again", type=int, default=1)
     parser.add_argument("--list-failed", action="store_true")
     parser.add_argument("builds", nargs="*")
     arguments = parser.parse_args()
@@ -115,8 +117,12 @@ def main():
             counts[result] += 1
             if result != "passed":
                 notes.append((result, f"{build}/ {name}", f": {reason}" if reason else ""))
+    if counts["passed only alone"] > arguments.most_again:
+        counts["failed"] += counts["passed only alone"]
     for result, name, reason in sorted(notes, key=lambda note: note[0], reverse=True):
         print(f"{result}: {name}{reason}")
+    if counts["passed only alone"]:
+        print(f"{counts['passed only alone']} passed only alone, of which {arguments.most_again} may be")
     print(f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
     sys.exit(1 if counts["failed"] else 0)
 
