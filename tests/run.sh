@@ -4,8 +4,9 @@
 # Installs missing packages (Debian), builds, and runs the tests, except for suites that take long or
 # need more than Debian's packages. The last line is `N passed, N failed, N skipped`; the exit status is
 # 0 when nothing failed.
-#   tests/run.sh        as a user builds it, in build/
-#   tests/run.sh --ci   the same on a bare Debian 12 where warnings are errors, as root; layout; and
+#   tests/run.sh        as a user builds it, in build/: whether it works on this machine, in pipelines and with devices
+#   tests/run.sh --all  that, and then the tests of every part
+#   tests/run.sh --ci   all of that on a bare Debian 12 where warnings are errors, as root; layout; and
 #                       again under the sanitizers, in build-ci*/
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,6 +17,7 @@ ahead=     # the process of build_ahead
 declare -A begun=()  # the processes of begin_check, by name
 builds=()  # folders with test results
 checks=()  # arguments for summary.py: what is no meson test
+most_again=5  # tests that may fail beside others and pass alone
 
 # With the minutes and seconds since the start.
 say() { printf '\n== %d:%02d %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
@@ -125,17 +127,47 @@ run_on_bare_debian() {
     else
         checks+=(--failed "$what: see above")
     fi
-    [[ ! -f $1/meson-logs/testlog.json ]] || builds+=("$1")
+    local folder
+    for folder in "$1"/first "$1"; do
+        [[ ! -f $folder/meson-logs/testlog.json ]] || builds+=("$folder")
+    done
+}
+
+# What shows that it works on this machine, in pipelines, with devices and from the command line; then the rest.
+first_suites=(api element pipelines spidar)
+other_suites=(core docs examples numerics window)
+
+# with_suites OPTION SUITE...: OPTION before each.
+with_suites() { printf -- "$1 %s " "${@:2}"; }
+
+run_first_tests() {
+    configure build "-Dtest_suites=$(IFS=, && echo "${first_suites[*]}")"
+    # shellcheck disable=SC2046
+    ! build build || run_tests build 2 $(with_suites --suite "${first_suites[@]}") $(with_suites --no-suite numerics long)
 }
 
 case ${1-} in
 "")
     install_packages build test
     continue_as_caller tests/run.sh
-    configure build
-    ! build build || run_tests build 2
+    run_first_tests
+    say "left out: the tests of every part, which take twice as long (tests/run.sh --all)"
+    ;;
+--all)
+    install_packages build test
+    continue_as_caller tests/run.sh --all
+    run_first_tests
+    # The log of the next run has its place.
+    if ((${#builds[@]})); then
+        mkdir -p build/first && rm -rf build/first/meson-logs && cp -r build/meson-logs build/first/
+        builds=(build/first)
+        meson configure build "-Dtest_suites=$(IFS=, && echo "${first_suites[*]},${other_suites[*]}")"
+        # shellcheck disable=SC2046
+        ! build build || run_tests build 2 $(with_suites --suite "${other_suites[@]}" long)
+    fi
     ;;
 --ci)
+    most_again=1
     install_packages build test ci
     check_layout
     use_cache
@@ -197,10 +229,10 @@ case ${1-} in
         "run each."
     ;;
 *)
-    echo "error: unknown option $1; usage: tests/run.sh [--ci]" >&2
+    echo "error: unknown option $1; usage: tests/run.sh [--all | --ci]" >&2
     exit 2
     ;;
 esac
 
 say "summary"
-python3 tests/summary.py "${checks[@]}" "${builds[@]}"
+python3 tests/summary.py --most-again "$most_again" "${checks[@]}" "${builds[@]}"
