@@ -6,8 +6,7 @@
 //   error   px a frame at a width of 640; of a frame without an object, what it moved
 //   missed  frames in which an object in view is not found; ghosts: with one in films that have
 //   none
-// "naive" is a first attempt with OpenCV: 200 new points and full size on each frame. motion=mean
-// uses the same functions with care.
+// Methods are those of flow_methods.h.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -20,11 +19,10 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include "core/analysis/motion_analyzer.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/call_timer.h"
 #include "tests/bench/film_frames.h"
-#include "tests/bench/opencv_flow.h"
+#include "tests/bench/flow_methods.h"
 #include "tests/support/motion_cases.h"
 
 namespace {
@@ -34,34 +32,22 @@ using namespace spidar::bench;
 using Eigen::Vector2d;
 
 constexpr int64_t kFrame_ns = 33'333'333;
-constexpr double kFrame_s = 1e-9 * static_cast<double>(kFrame_ns);
 constexpr double kReferenceWidth_px = 640;
-
-/// What frames are put through, one after the other.
-struct Method {
-  const char* name;
-  std::function<void(const ImageView&, int64_t now_ns)> take;
-  std::vector<double> ms;
-};
 
 /// Over all films of a size.
 class Errors {
  public:
-  void add(const test::Film& film, int frame, const MovingObject* found) {
+  /// `found_px`: motion since the frame before, zero where nothing is found.
+  void add(const test::Film& film, int frame, const Vector2d& found_px) {
+    const bool found = !found_px.isZero(0);
     ghost_frames_ += film.objects.empty();
     ghosts_ += film.objects.empty() && found;
     const double unit = kReferenceWidth_px / film.width();
     double least_px = -1;  // of several objects, that whose motion is nearest
     for (const test::FilmObject& object : film.objects) {
       if (!film.is_in_view(frame, object)) continue;
-      // Of an object that turns, the truth is that of the position that the velocity is said to be
-      // of.
-      const Vector2d position_px =
-          (found ? Vector2d(found->position_px - found->on_screen_px_s * kFrame_s)
-                 : object.centre_px(frame - 1)) +
-          film.middle_px();
-      const Vector2d moved_px = film.object_displacement_px(frame, object, position_px);
-      const Vector2d found_px = found ? found->relative_px_s * kFrame_s : Vector2d(0, 0);
+      const Vector2d moved_px = film.object_displacement_px(
+          frame, object, object.centre_px(frame - 1) + film.middle_px());
       const double error_px = unit * (found_px - moved_px).norm();
       if (least_px < 0 || error_px < least_px) least_px = error_px;
     }
@@ -87,19 +73,14 @@ double thread_ms() {
 }
 
 void measure(int width, int height) {
-  MotionAnalyzer object, mean{paper_settings()};
-  const Frame* found = nullptr;
-  std::unique_ptr<Flow> naive, dis;
-  Method methods[] = {
-      {"motion=object",
-       [&](const ImageView& view, int64_t now_ns) { found = &object.analyze(view, now_ns); },
-       {}},
-      {"motion=mean",
-       [&](const ImageView& view, int64_t now_ns) { mean.analyze(view, now_ns); },
-       {}},
-      {"DIS ultrafast at 480 px", [&](const ImageView& view, int64_t) { dis->find(view); }, {}},
-      {"naive wiring of OpenCV", [&](const ImageView& view, int64_t) { naive->find(view); }, {}}};
-  Errors errors;
+  struct Measured {
+    std::string name;
+    std::unique_ptr<Method> method;
+    std::vector<double> ms;
+    Errors errors;
+  };
+  std::vector<Measured> all;
+  for (const std::string& name : method_names()) all.push_back({name, nullptr, {}, {}});
   for (const test::MotionCase& each : test::motion_cases()) {
     if (each.group != test::CaseGroup::kUsual) continue;
     test::Film film = each.film(width, height, 1);
@@ -110,30 +91,26 @@ void measure(int width, int height) {
       std::printf("%s is left out: %s\n", each.name.c_str(), error.what());
       continue;
     }
-    object.reset();
-    mean.reset();
-    naive = make_naive();
-    dis = make_dis_ultrafast();
+    for (Measured& one : all) one.method = make_method(one.name);
     for (size_t n = 0; n < frames.size(); ++n) {
-      for (Method& method : methods) {  // in turn, so that what disturbs hits all
+      for (Measured& one : all) {  // in turn, so that what disturbs hits all
         const double begin_ms = thread_ms();
-        method.take(frames[n].view(), static_cast<int64_t>(n) * kFrame_ns);
-        if (n > 0) method.ms.push_back(thread_ms() - begin_ms);
+        const Vector2d found_px =
+            one.method->find(frames[n].view(), static_cast<int64_t>(n) * kFrame_ns);
+        if (n == 0) continue;
+        one.ms.push_back(thread_ms() - begin_ms);
+        one.errors.add(film, static_cast<int>(n), found_px);
       }
-      if (n > 0) errors.add(film, static_cast<int>(n), found->dominant_object());
     }
   }
   std::printf(
       "\n### %dx%d\n\n| | ms median | 99 %% | error median | 95 %% | missed %% | ghosts %% |\n"
       "|---|---|---|---|---|---|---|\n",
       width, height);
-  for (const Method& method : methods) {
-    std::printf("| %s | %.2f | %.2f ", method.name, quantile(method.ms, 0.5),
-                quantile(method.ms, 0.99));
-    if (&method == methods)
-      errors.print();
-    else
-      std::puts("| – | – | – | – |");
+  for (const Measured& one : all) {
+    std::printf("| %s | %.2f | %.2f ", one.name.c_str(), quantile(one.ms, 0.5),
+                quantile(one.ms, 0.99));
+    one.errors.print();
   }
 }
 

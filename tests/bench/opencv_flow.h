@@ -18,10 +18,6 @@ class Flow {
   virtual void find(const ImageView& frame) = 0;
 };
 
-/// The obvious wiring: a frame converted from BGR, 200 Shi–Tomasi points of it, Lucas–Kanade with
-/// windows of 21×21 px and 3 levels at full size.
-std::unique_ptr<Flow> make_naive();
-
 /// Flow of every pixel at a width of 480 px.
 std::unique_ptr<Flow> make_dis_ultrafast();
 

@@ -59,7 +59,7 @@ FELT_N = 0.04  # the least force that a hand feels
 FRAMES_A_SECOND = 24  # what FELT_PX_S is a speed of where times are not known
 UNSEEN = 2  # frames at the beginning of a film
 # Of `spidar-bench real_film`, and their names in the table.
-METHODS = {"dis": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
+METHODS = {"dis:medium:0.5": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
 CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
 COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %",
@@ -307,7 +307,7 @@ def main():
     for name, which, properties in runs:
         tally = Tally()
         for film in films:
-            times_ms = (measure(program, "paper" if properties else "default", film)[1]
+            times_ms = (measure(program, "paper" if properties else "object:1", film)[1]
                         if measures and which == build else ())
             frames, truth = play(which, film, properties), read_truth(film)
             played[film] = frames
