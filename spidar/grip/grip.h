@@ -61,7 +61,8 @@ struct GripTraits {
 /// What a grip receives in a tick.
 struct GripCommand {
   Wrench wrench;  ///< on the hand: within the limits, and except by the brake no faster
-  /// The grip is faster than a hand: what throws it ends at once, and a damper begins at once.
+  /// The grip is faster than a hand: what throws it ends at once, and a damper begins at once. What
+  /// pushes it comes no faster than ever.
   bool brakes = false;
   /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
   bool fresh = false;

@@ -148,6 +148,12 @@ void StringGrip::check_age(int64_t now_ns) noexcept {
   reading_.pose_fault = watch_.fault();
 }
 
+/// Whether a change of the wrench accelerates the grip.
+bool StringGrip::pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept {
+  const GripVelocity now = reading_.motion.velocity_in(0);
+  return change.head<3>().dot(now.linear_m_s) + change.tail<3>().dot(now.angular_rad_s) > 0;
+}
+
 void StringGrip::pull(const GripCommand& command) noexcept {
   tension_command_.leave_out(watch_.faulty_string());
   const StructureMatrix W = structure_matrix(profile_.geometry, watch_.pose());
@@ -162,7 +168,7 @@ void StringGrip::pull(const GripCommand& command) noexcept {
     wanted_N = tension_command_.fade(command.wrench, pace);
   }
   const StringVector all_N = command.power * wanted_N;
-  if (command.brakes) tension_slew_.reset(all_N);
+  if (command.brakes && !pushes(W * (all_N - acknowledged_N_))) tension_slew_.reset(all_N);
   const StringVector limited_N = tension_slew_.apply(all_N, profile_, command.dt_s);
   reading_.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * reading_.tension_N;

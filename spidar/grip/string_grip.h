@@ -110,6 +110,7 @@ class StringGrip final : public Grip {
   const std::string& name() const noexcept override { return device_.name(); }
 
  private:
+  bool pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept;
   void pull(const GripCommand& command) noexcept;
   void see(const DeviceReading& answer, const GripCommand& command) noexcept;
   void report() noexcept;
