@@ -31,7 +31,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar
-[ $# -gt 0 ] || set -- tracking camera films ${FILMS:+real_films changed_films} gyroscope davis skew lag loop cost tension pose safety hazards touch_strings turns study_errors paper
+[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films} gyroscope davis skew lag loop cost tension pose safety hazards touch_strings turns study_errors paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"
