@@ -25,6 +25,14 @@ namespace {
 
 std::atomic<bool> signalled{false};
 
+/// Few people read English faster: most 175 to 300 words a minute (M. Brysbaert, How many words do
+/// we read per minute?, 2019).
+constexpr int64_t kWord_ns = 60'000'000'000 / 300;
+
+int64_t reading_time_ns(const std::string& text) {
+  return kWord_ns * (1 + std::count(text.begin(), text.end(), ' '));
+}
+
 /// One with which the board can be read, and no motor can be pulled.
 Profile to_read_only(const BoardInfo& board) {
   const std::vector<std::string> fitting = fitting_profiles(board);
@@ -131,10 +139,17 @@ bool confirm(const std::string& question) {
     throw UsageError(
         "there is no terminal to ask for confirmation; use --yes to continue without it");
   }
-  forget_typed_ahead();
-  std::cerr << question << " [y/N] " << std::flush;
-  std::string answer;
-  return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
+  while (true) {
+    forget_typed_ahead();
+    std::cerr << question << " [y/N] " << std::flush;
+    const int64_t asked_ns = monotonic_now_ns();
+    std::string answer;
+    const bool agrees =
+        std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
+    if (!agrees) return false;
+    if (monotonic_now_ns() - asked_ns >= reading_time_ns(question)) return true;
+    std::cerr << "that was sooner than anybody reads it; read it, and answer again\n";
+  }
 }
 
 bool may_move(const std::string& device, bool yes, const std::string& question) {
