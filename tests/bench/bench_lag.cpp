@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,7 @@
 
 #include "spidar/realtime/monotonic.h"
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/busy_cores.h"
 #include "tests/bench/call_timer.h"
 #include "tests/bench/gst_pipeline.h"
 #include "tests/support/moving_scene.h"
@@ -156,16 +158,24 @@ constexpr Path kPaths[] = {
 }  // namespace
 
 int spidar::bench::lag(int, char**) {
-  std::printf("lag of the delivered force behind the motion on the screen, ms\n\n| frames/s |");
+  std::printf(
+      "lag of the delivered force behind the motion on the screen, ms; busy: with a computing\n"
+      "thread for every core\n\n| frames/s |");
   for (const Path& path : kPaths) std::printf(" %s |", path.name);
   std::printf("\n|---|---|---|---|\n");
-  for (const int rate_Hz : {24, 30, 60}) {
-    const test::TemporaryFolder folder;
-    const std::string film = folder.path / "circle.avi";
-    make_film(film, rate_Hz);
-    std::printf("| %d |", rate_Hz);
-    for (const Path& path : kPaths) std::printf(" %.1f |", measure(film, path.before, path.after));
-    std::printf("\n");
+  for (const bool is_busy : {false, true}) {
+    for (const int rate_Hz : {24, 30, 60}) {
+      const test::TemporaryFolder folder;
+      const std::string film = folder.path / "circle.avi";
+      make_film(film, rate_Hz);
+      std::printf("| %d%s |", rate_Hz, is_busy ? ", busy" : "");
+      std::optional<BusyCores> load;
+      if (is_busy) load.emplace();
+      for (const Path& path : kPaths) {
+        std::printf(" %.1f |", measure(film, path.before, path.after));
+      }
+      std::printf("\n");
+    }
   }
   return 0;
 }

@@ -2,20 +2,19 @@
 // Copyright 2026 the gst-spidar authors
 // Time from a picture to its force at the device, in real pipelines in real time, with the plugin
 // as GStreamer loads it and the simulated device.
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gst/gst.h>
 
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/busy_cores.h"
 #include "tests/bench/call_timer.h"
 #include "tests/bench/gst_pipeline.h"
 #include "tests/bench/skew/measure.h"
@@ -34,29 +33,6 @@ constexpr Scenario kScenarios[] = {
     {"file after 100 seeks", "playbin", 1, 100},
     {"file, clock +300 ppm", "playbin", 1, 0, true},
     {"the same after 100 seeks", "playbin", 1, 100, true},
-};
-
-/// Keeps every core computing, at normal priority, while it lives.
-class BusyCores {
- public:
-  BusyCores() {
-    for (unsigned i = 0; i < std::thread::hardware_concurrency(); ++i) {
-      threads_.emplace_back([this] {
-        while (!stop_.load(std::memory_order_relaxed)) {
-        }
-      });
-    }
-  }
-  ~BusyCores() {
-    stop_ = true;
-    for (std::thread& thread : threads_) thread.join();
-  }
-  BusyCores(const BusyCores&) = delete;
-  BusyCores& operator=(const BusyCores&) = delete;
-
- private:
-  std::atomic<bool> stop_{false};
-  std::vector<std::thread> threads_;
 };
 
 /// A ball jumps about for `seconds`: 1280x720, 29.97 frames/s, VP8 with a key frame every half

@@ -23,5 +23,6 @@ int tension(int argc, char** argv);
 int touch_strings(int argc, char** argv);
 int tracking(int argc, char** argv);
 int turns(int argc, char** argv);
+int workspace(int argc, char** argv);
 
 }  // namespace spidar::bench

@@ -41,6 +41,7 @@ const Benchmark kBenchmarks[] = {
     {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
     {"tracking", tracking, "[WIDTHxHEIGHT…] speed and error on films of known motion"},
     {"turns", turns, "                roll and growth of balls that turn and grow"},
+    {"workspace", workspace, "                what the strings of each profile leave of 3 N"},
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ run() { # NAME
     davis) BUILD=$build tests/bench/davis.py ${DAVIS_PUBLISHED:+--published "$DAVIS_PUBLISHED"} ${DAVIS:+"$DAVIS"} ;;
     films) BUILD=$build tests/bench/pathologies.sh ;;
     study_errors) tests/bench/study_errors.py ;;
+    error_bound) SPIDAR_SWEEP=1 "$build/tests/core/test_core" test_error_bound.cpp ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
     paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
     *) bench "$1" ;;
@@ -30,8 +31,8 @@ run() { # NAME
 }
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
-meson compile -C "$build" spidar-bench plugin/gstspidar
-[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films} gyroscope davis skew lag loop cost tension pose safety hazards touch_strings turns study_errors paper
+meson compile -C "$build" spidar-bench plugin/gstspidar tests/core/test_core
+[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films} gyroscope davis skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

@@ -24,6 +24,8 @@ try:
 except ImportError:
     sys.exit(77)
 
+sys.path.append(str(FOLDER.parent / "docs"))
+import check_figures  # noqa: E402
 import davis  # noqa: E402
 import gyroscope  # noqa: E402
 from real_films import Frame, Tally, read_other  # noqa: E402
@@ -147,6 +149,35 @@ class Gyroscope(unittest.TestCase):
         for script in "gyroscope.py", "davis.py":
             done = subprocess.run([sys.executable, FOLDER / script], capture_output=True, text=True, check=True)
             self.assertTrue(done.stdout.startswith("skipped: no folder"), done)
+
+
+class Figures(unittest.TestCase):
+    PAGE = "# Speed\n\nIt takes 3.5 ms.\n\n| size | time, ms |\n|---|---|\n| 640 | 0.25 (0.1–0.4) |\n| 1280 | −1.5 |\n"
+
+    def wrong(self, rows, results=None):
+        keys = check_figures.COLUMNS
+        return list(check_figures.check({"a.md": self.PAGE}, [dict(zip(keys, row)) for row in rows], FOLDER.parents[1], results))
+
+    def test_every_figure_of_a_page_has_a_command(self):
+        bench = "build/tests/bench/spidar-bench "
+        text, table = (["a.md", "Speed", part, bench + "cost", "cost", "0.1", ""] for part in ("text", "table"))
+        self.assertEqual(self.wrong([text, table]), [])
+        for rows, said in (([text], "the table below \"Speed\" has figures"), ([table], "the text below \"Speed\" has figures"),
+                           ([text, table, ["a.md", "Pace", *text[2:]]], "there is no text below \"Pace\""),
+                           ([text, [*table[:3], bench + "speed", *table[4:]]], "there is no \"build/tests/bench/spidar-bench speed\"")):
+            found = self.wrong(rows)
+            self.assertEqual((len(found), said in found[0]), (1, True), found)
+
+    def test_a_table_is_compared_with_what_the_command_printed(self):
+        row = ["a.md", "Speed", "table", "-", "cost", "0.1", ""]
+        rows = [row, ["a.md", "Speed", "text", "-", "-", "-", ""]]
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("is missing", self.wrong(rows, folder)[0])
+            Path(folder, "cost.txt").write_text("0.27 0.1 0.4 -1.4", encoding="ascii")
+            self.assertEqual(self.wrong(rows, folder), [])
+            Path(folder, "cost.txt").write_text("0.29 0.1 0.4 -1.4", encoding="ascii")
+            found = self.wrong(rows, folder)
+            self.assertEqual((len(found), "a.md: 0.25 below" in found[0]), (1, True), found)
 
 
 class Davis(unittest.TestCase):
