@@ -6,8 +6,11 @@
     test_scripts.py
 """
 
+import csv
 import json
 import math
+import random
+import re
 import struct
 import subprocess
 import sys
@@ -48,6 +51,31 @@ class OtherMethod(unittest.TestCase):
                 file.write_text(wrong, encoding="ascii")
                 with self.assertRaisesRegex(SystemExit, said):
                     read_other(Path(name), film, frames)
+
+
+class Benchmark(unittest.TestCase):
+    """tests/bench/real_films/, which others enter."""
+    ROWS = staticmethod(lambda name: list(csv.DictReader(open(FOLDER / "real_films" / name, encoding="utf-8"), delimiter="\t")))
+
+    def test_its_splits_are_drawn_as_it_says(self):
+        clips = self.ROWS("clips.tsv")
+        of = {kind: sorted(row["clip"] for row in clips if row["moves"] == kind) for kind in ("object", "camera")}
+        self.assertEqual([len(names) for names in of.values()], [35, 15])
+        source = random.Random(1)
+        third = source.sample(of["object"], 11) + source.sample(of["camera"], 5)
+        self.assertEqual({row["clip"] for row in clips if row["split"] == "third"}, set(third))
+        for row in clips:
+            self.assertTrue(row["data set"] and row["licence"] and row["redistribute"].split(",")[0] in ("yes", "no"), row)
+
+    def test_each_method_has_all_its_figures(self):
+        for row in self.ROWS("methods.tsv"):
+            self.assertIn(row["films"], ("all", "third", "rest"))
+            for name in "right %", "right % at 18.4°", "wrong %", "false %":
+                if row[name] != "-":
+                    value, low, high = map(float, re.fullmatch(r"([\d.]+) \((\d+)–(\d+)\)", row[name]).groups())
+                    self.assertTrue(low - 0.5 <= value <= high + 0.5, row)
+            self.assertRegex(row["mean of films, below half"], r"^-$|^[\d.]+, \d+ of \d+$")
+            self.assertTrue(row["method"] and row["version"] and row["where"], row)
 
 
 class Shares(unittest.TestCase):
