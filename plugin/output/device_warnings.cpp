@@ -175,7 +175,7 @@ void DeviceWarnings::check_strings(const LoopSnapshot& loop) {
   strings_ |= 1u << string;
   GST_ELEMENT_WARNING(
       element_, RESOURCE, READ,
-      ("String %d of the haptic device is slack, or its encoder is faulty.", string),
+      ("String %d of the haptic device is slack or broken, or its encoder is faulty.", string),
       ("Its length fits no pose that the other strings allow. The string is not used, and the "
        "force is limited to what the others can deliver. If all strings are taut, the grip was not "
        "at the centre when the device was opened: start again with the grip there, or calibrate "

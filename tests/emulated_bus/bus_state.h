@@ -58,12 +58,26 @@ struct SharedFile {
 
 constexpr size_t kSharedFiles = 64;
 
+/// What plug_in does to the board in port 0 and to the grip on its strings.
+struct Rehearsal {
+  std::array<char, 16> board{};               ///< DeviceKind::board, to plug it in again
+  std::atomic<int> strings{0};                ///< of the grip; 0: there is none
+  std::atomic<unsigned> broken{0};            ///< bit i: string i
+  std::atomic<int> restarts{0};               ///< how often the board was without power
+  std::atomic<bool> stopped{false};           ///< the emergency stop has cut the motors' supply
+  std::atomic<bool> moves_about{false};       ///< the hand, in all directions
+  std::array<std::atomic<int>, 3> hand_um{};  ///< where it holds the grip else
+  std::atomic<int> moves{0};                  ///< how often it was told to move
+  std::atomic<int> arrived{0};  ///< the last of these after which the grip stands still
+};
+
 struct BusState {
   std::atomic<int> last_address{0};
   std::array<UsbPort, kPorts> port;
   std::atomic<size_t> files_opened{0};
   std::array<SharedFile, kSharedFiles> file;  ///< the latest ones
   std::array<EvdevPort, kEvdevPorts> evdev;
+  Rehearsal rehearsal;
 };
 
 /// The bus of this process. If $SPIDAR_EMULATED_BUS is the name of a file, which is created if
