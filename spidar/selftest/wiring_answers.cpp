@@ -55,9 +55,16 @@ class Asking {
           !ask_reversed(i, answers)) {
         return false;
       }
-      if (settings_.asked) ++*settings_.asked;
+      tell(i, answers);
     }
     return true;
+  }
+
+  void tell(int motor, const WiringAnswers& answers) const {
+    if (!settings_.pulled) return;
+    const int sign = profile_.drives[static_cast<size_t>(motor)].encoder_sign;
+    const double length_m = sign * metres_per_count(motor) * answers.counts(motor, motor);
+    settings_.pulled->push({motor, length_m, !answers.unsteady[static_cast<size_t>(motor)]});
   }
 
   bool answered(const WiringAnswers& answers, int motor) const {

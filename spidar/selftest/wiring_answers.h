@@ -4,15 +4,25 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 
 #include <Eigen/Core>
 
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/realtime/spsc_ring.h"
 #include "spidar/selftest/hold.h"
 
 namespace spidar::selftest {
+
+/// A motor that has been pulled, for who waits for the others.
+struct PulledMotor {
+  int motor = 0;
+  double own_length_m = 0;  ///< change of the length that its own encoder reads
+  bool steady = true;       ///< see WiringAnswers::unsteady
+};
+
+/// Holds more than are pulled in all tries.
+using PulledMotors = SpscRing<PulledMotor, 64>;
 
 struct WiringSettings {
   double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
@@ -21,7 +31,7 @@ struct WiringSettings {
   double average_s = 0.1;
   /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
   bool try_reversed = false;
-  std::atomic<int>* asked = nullptr;  ///< counts the motors that have been pulled; null: nothing
+  PulledMotors* pulled = nullptr;  ///< gets each motor as soon as it has been pulled, if not null
 };
 
 /// Counts of encoder (row) for a pull of motor (column).

@@ -22,6 +22,7 @@
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/text.h"
 #include "spidar/tools/device_command.h"
+#include "spidar/tools/pull_rows.h"
 
 namespace spidar::tools {
 namespace {
@@ -112,8 +113,12 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
   };
   selftest::WiringSettings settings;
   settings.try_reversed = can_reverse(options.device, profile);
-  const selftest::WiringTest test =
-      selftest::test_wiring(bench.device(), profile, pace, settings, selftest::tell_to_hold_still);
+  const selftest::WiringTest test = [&] {
+    PullRows rows(profile.geometry.count);
+    settings.pulled = rows.pulled();
+    return selftest::test_wiring(bench.device(), profile, pace, settings,
+                                 selftest::tell_to_hold_still);
+  }();
   if (!test.answers.complete) return false;
   if (test.report.as_profile()) return true;
   selftest::print_wiring(std::cerr, profile, test.answers, test.report);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "core/grip/string_geometry.h"
@@ -22,6 +19,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/text.h"
 #include "spidar/tools/device_command.h"
+#include "spidar/tools/pull_rows.h"
 
 namespace spidar::tools {
 namespace {
@@ -168,42 +166,6 @@ selftest::DelayTest shake(StringDevice& device, const Profile& profile) {
   });
 }
 
-/// Says how many strings have been pulled, in a thread of its own: that which pulls does not wait
-/// for a terminal.
-class PullCount {
- public:
-  explicit PullCount(int strings) : thread_([this, strings] { tell(strings); }) {}
-  ~PullCount() {
-    ends_ = true;
-    thread_.join();
-  }
-  PullCount(const PullCount&) = delete;
-  PullCount& operator=(const PullCount&) = delete;
-
-  std::atomic<int>* pulled() { return &pulled_; }
-
- private:
-  void tell(int strings) const {
-    constexpr std::chrono::milliseconds kLook{50};
-    for (int told = 0;;) {
-      const bool ends = ends_;
-      const int now = pulled_;
-      // Those that are unclear are pulled again.
-      if (now > told) {
-        std::cerr << (now <= strings ? formatted("pulled %d of %d strings\n", now, strings)
-                                     : formatted("pulled %d again\n", now - strings));
-      }
-      told = now;
-      if (ends) return;
-      std::this_thread::sleep_for(kLook);
-    }
-  }
-
-  std::atomic<int> pulled_{0};
-  std::atomic<bool> ends_{false};
-  std::thread thread_;  ///< begins when all else is there
-};
-
 int interrupted_test() {
   std::cerr << "interrupted; the strings are released\n";
   return kInterrupted;
@@ -224,8 +186,8 @@ int run_selftest(const SelftestOptions& options) {
   settings.pull_N = options.newton;
   settings.try_reversed = can_reverse(options.device, profile);
   const auto [answers, report] = [&] {
-    PullCount count(profile.geometry.count);
-    settings.asked = count.pulled();
+    PullRows rows(profile.geometry.count);
+    settings.pulled = rows.pulled();
     return in_real_time([&] {
       return selftest::test_wiring(*chosen.device, profile, every_millisecond(), settings,
                                    selftest::tell_to_hold_still);
