@@ -46,6 +46,16 @@ inline double round_step(double least) {
   return 10 * power;
 }
 
+/// The smallest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `least` (> 0): an
+/// axis that ends there grows by little when it has to.
+inline double round_top(double least) {
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (factor * power >= least * (1 - PlotAxis::kRounding)) return factor * power;
+  }
+  return 10 * power;
+}
+
 /// An axis over exactly this range with at most `most_steps` (≥ 1) steps. A range that is empty,
 /// reversed or not finite becomes one of width 1 from `low`, or from 0.
 inline PlotAxis make_axis(double low, double high, int most_steps) {

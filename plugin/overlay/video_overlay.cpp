@@ -274,9 +274,9 @@ void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) 
     before_px = now_px;
   }
   if (before_px) sheet.circle(*before_px, 5 * thin_px, 0, kProxy);
-  const PlotAxis axis = curve.axis();
-  sheet.text(axis.label(axis.high) + " N", level_px(0, 1), turn.to_stored(Eigen::Vector2d(1, 0)),
-             turn);
+  char top[32];
+  std::snprintf(top, sizeof top, "%g N", curve.axis().high);
+  sheet.text(top, level_px(0, 1), turn.to_stored(Eigen::Vector2d(1, 0)), turn);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class ForceCurve {
 
   /// From 0 to a round number that no force of the stream has exceeded, so that heights can be
   /// compared.
-  PlotAxis axis() const { return make_axis(0, round_step(std::max(largest_N_, kLeastTop_N)), 1); }
+  PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kLeastTop_N)), 1); }
 
   /// Oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,
   /// the upper end of axis().

@@ -75,6 +75,9 @@ def check_files(it):
     require(headers == HEADERS, f"headers are installed that are not meant for others, or are missing: {headers ^ HEADERS}")
     for manual in MANUALS:
         require((it.folder / "share/man/man1" / manual).is_file(), f"no manual page {manual}")
+    window = it.folder / "share/man/man1/spidar-window.1"
+    built = any(it.folder.glob("libexec/**/spidar-window"))
+    require(window.is_file() == built, "the manual page of spidar-window is not installed as the program is")
     for link in it.libraries.glob("**/*.so*"):
         said = run(["readelf", "-d", str(link)], it.plain)
         require("RPATH" not in said and "RUNPATH" not in said, f"{link} looks for libraries in a folder of the build", said)

@@ -61,6 +61,20 @@ TEST(PlotAxis, ARangeThatIsNoneBecomesOne) {
   EXPECT_EQ(make_axis(0, 1, 0).ticks().size(), 2u) << "at least one step";
 }
 
+TEST(RoundTop, IsNeverFarAboveWhatItHasToHold) {
+  for (double least = 0.01; least < 100; least *= 1.003) {
+    const double top = round_top(least);
+    EXPECT_GE(top, least * (1 - 1e-9));
+    // The steps are furthest apart from 1 to 2.
+    EXPECT_LE(top, 2 * least * (1 + 1e-9));
+    if (least > 2 && least < 10) {
+      EXPECT_LE(top, 1.5 * least * (1 + 1e-9)) << "2 to 3";
+    }
+  }
+  EXPECT_EQ(round_top(2.1), 3);
+  EXPECT_EQ(round_top(3), 3);
+}
+
 TEST(ForceAxis, FitsWhatIsFelt) {
   EXPECT_NEAR(force_axis_end_N(0), 0.1, 1e-9);
   EXPECT_NEAR(force_axis_end_N(0.13), 0.15, 1e-9) << "0.143 N in steps of 0.05 N";

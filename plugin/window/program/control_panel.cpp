@@ -14,6 +14,8 @@ namespace {
 /// the first kFarLeft of it.
 constexpr double kLinear = 1e6, kFarLeft = 0.1;
 constexpr double kTooltip_px = 340, kNameFraction = 0.4;
+/// Room for a value to the right of its slider: "0.0025 s/px".
+constexpr double kValue_px = 84;
 
 /// "1 object", "2 objects".
 std::string count_of(size_t count, const std::string& noun) {
@@ -36,17 +38,28 @@ const char* unit_of(const std::string& setting) {
   return "";
 }
 
-/// True when it was moved.
-bool number_widget(const Setting& setting, double& value) {
+/// True when it was moved. The value is beside the slider, whose handle would be drawn over it;
+/// within is only what is being typed.
+bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   const double range = setting.high - setting.low;
   const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp |
       (range > kLinear || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool is_whole = setting.kind == Setting::Kind::kWhole;
-  const std::string format = std::string(is_whole ? "%.0f" : "%.4g") + unit_of(setting.name);
-  return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &setting.low, &setting.high,
-                             format.c_str(), flags);
+  const char* const format = setting.kind == Setting::Kind::kWhole ? "%.0f" : "%.4g";
+  const bool is_typing = ImGui::GetIO().WantTextInput;
+  ImGui::BeginGroup();
+  ImGui::SetNextItemWidth(-brush.px(kValue_px));
+  if (!is_typing) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_BLACK_TRANS);
+  const bool moved = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &setting.low,
+                                         &setting.high, format, flags);
+  if (!is_typing) ImGui::PopStyleColor();
+  ImGui::SameLine();
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  ImGui::TextUnformatted((text + std::string(unit_of(setting.name))).c_str());
+  ImGui::EndGroup();
+  return moved;
 }
 
 bool choice_widget(const Setting& setting, double& value) {
@@ -67,7 +80,7 @@ bool choice_widget(const Setting& setting, double& value) {
   return moved;
 }
 
-bool value_widget(const Setting& setting, double& value) {
+bool value_widget(const Brush& brush, const Setting& setting, double& value) {
   switch (setting.kind) {
     case Setting::Kind::kSwitch: {
       bool on = value != 0;
@@ -81,7 +94,7 @@ bool value_widget(const Setting& setting, double& value) {
     case Setting::Kind::kNumber:
       break;
   }
-  return number_widget(setting, value);
+  return number_widget(brush, setting, value);
 }
 
 /// Left of `panel`, so that it covers no widget in it.
@@ -109,7 +122,7 @@ void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
   double value = setting.value;
-  if (value_widget(setting, value) && value != setting.value) {
+  if (value_widget(brush, setting, value) && value != setting.value) {
     use.changes.emplace_back(setting.name, value);
   }
   explain(brush, panel, setting);
@@ -254,19 +267,17 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
                 1e-9 * static_cast<double>(report.frame.stamp.running_ns));
   parts.emplace_back(text);
   if (!report.track) {
-    std::snprintf(text, sizeof text, "analysis %.1f ms",
+    std::snprintf(text, sizeof text, "analysis %.1f ms a frame",
                   1e-6 * static_cast<double>(report.took_ns));
     parts.emplace_back(text);
-    parts.push_back(count_of(report.points.size(), "point"));
     parts.push_back(count_of(report.frame.objects.size(), "object"));
   }
   if (state.device) {
     const TickRecord& last = state.device->last;
-    parts.push_back(std::string(to_string(last.device)) + (last.playing ? "" : ", not playing"));
-    std::snprintf(text, sizeof text, "loop %.0f \xC2\xB5s late",
-                  1e-3 * static_cast<double>(last.lateness_ns));
-    parts.emplace_back(text);
-    parts.push_back(count_of(state.device->overruns, "overrun"));
+    parts.push_back(std::string("device ") + to_string(last.device) +
+                    (last.playing ? "" : ", film at rest"));
+    // Of a thousand a second; some are late on every machine that does other things, too.
+    if (state.device->overruns > 0) parts.push_back(count_of(state.device->overruns, "late force"));
   }
   double x = panel.right() - 10 * brush.scale;
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {

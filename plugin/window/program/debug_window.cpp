@@ -218,7 +218,9 @@ ShownPicture DebugWindow::shown_picture() const {
     const Eigen::Vector3d& asked_N = report_.frame.wrench.force_N;
     const TickRecord& last = state_.device->last;
     const bool is_arrow = (last.delivered.force_N - asked_N).norm() < kUnseen * asked_N.norm();
-    if (is_arrow && are_same(last.wanted, last.delivered)) {
+    // Two names beside one number would tell nothing.
+    if ((is_arrow && are_same(last.wanted, last.delivered)) ||
+        are_same(report_.frame.wrench, last.delivered)) {
       picture.delivered_N = last.delivered.force_N.norm();
     }
   }
@@ -248,7 +250,7 @@ void DebugWindow::draw_panels(int width, int height) {
   use_plots(mouse, layout);
   if (const std::string line = hint(); !line.empty()) draw_hint(brush, shown, line);
   if (keys_) draw_keys(brush, layout.picture);
-  draw_grip(brush, layout.grip, state_);
+  draw_grip(brush, layout.grip, state_, picture.delivered_N.has_value());
   draw_tensions(brush, layout.tensions, state_);
   draw_choices(brush, layout.timeline);
   draw_force(brush, layout.force, timeline_);

@@ -21,12 +21,6 @@ constexpr double kHalfBar = 0.25;
 /// Of the axis, where a device reports nothing of its motors.
 constexpr double kLeastTension_N = 0.1;
 
-/// Blue at the smallest tension, red at the largest.
-ImU32 tension_color(double fraction) {
-  const auto warm = static_cast<int>(255 * std::clamp(fraction, 0.0, 1.0));
-  return IM_COL32(warm, 120, 255 - warm, 255);
-}
-
 double fraction_of_range(const DeviceView& device, int string) {
   const double low_N = device.min_tension_N[string], high_N = device.max_tension_N[string];
   return high_N > low_N ? (device.last.tension_N[string] - low_N) / (high_N - low_N) : 0;
@@ -67,7 +61,7 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
   for (int i = 0; i < device.geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
     const double fraction = fraction_of_range(device, i);
-    const ImU32 color = i == last.faulty_string ? kWarnColor : tension_color(fraction);
+    const ImU32 color = i == last.faulty_string ? kWarnColor : kAccentColor;
     const Eigen::Vector2d exit = project(device.geometry.exit_m[k]);
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
                        color, brush.px(1.2 + 2.5 * std::clamp(fraction, 0.0, 1.0)));
@@ -136,7 +130,7 @@ void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& p
 
 }  // namespace
 
-void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state) {
+void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state, bool is_as_asked) {
   if (!state.device) {
     draw_panel(brush, panel, "Grip", "no device is open");
     return;
@@ -157,8 +151,7 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state)
   if (device.has_strings) draw_strings(brush, project, device);
   draw_grip_body(view, device);
   draw_force(view, content, last.wanted, last.max_force_N, nullptr);
-  draw_force(view, content, last.delivered, last.max_force_N,
-             are_same(last.wanted, last.delivered) ? "" : " delivered");
+  draw_force(view, content, last.delivered, last.max_force_N, is_as_asked ? "" : " delivered");
   brush.list.PopClipRect();
 }
 

@@ -39,8 +39,9 @@ Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameRepor
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const FrameReport& report);
 
-/// Frame, strings, the grip and its force; with no device a line that says so.
-void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state);
+/// Frame, strings (the thicker the harder they pull), the grip and its force; with no device a line
+/// that says so. `is_as_asked`: the picture has the same force, so that neither needs a name.
+void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state, bool is_as_asked);
 /// The tension of each string as a bar.
 void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state);
 

@@ -3,6 +3,7 @@
 /// The last minute of a window.
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace spidar::window {
 
 /// Whether two forces are one number to a reader, who sees a decimal.
 inline bool are_same(const Wrench& wanted, const Wrench& delivered) {
-  constexpr double kShown_N = 0.05;
-  return (wanted.force_N - delivered.force_N).norm() < kShown_N;
+  constexpr double kShown_per_N = 10;
+  return std::lround(kShown_per_N * wanted.force_N.norm()) ==
+         std::lround(kShown_per_N * delivered.force_N.norm());
 }
 
 /// What the plots of speed show of one moment. Times are those of CLOCK_MONOTONIC.
