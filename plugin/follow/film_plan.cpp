@@ -12,6 +12,7 @@
 
 #include "plugin/films/film_reader.h"
 #include "plugin/tracks/open_track.h"
+#include "plugin/tracks/script_set.h"
 #include "plugin/tracks/sidecar.h"
 
 namespace spidar::follow {
@@ -55,7 +56,7 @@ void find_track(const std::string& path, const Film& film, const std::atomic<boo
                 FilmPlan& plan) {
   const std::string beside = find_sidecar(path);
   if (beside.empty()) {
-    if (film.has_track) plan.track = path;
+    plan.track = film.has_track ? path : tracks::find_script(path);
     return;
   }
   try {

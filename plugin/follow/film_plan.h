@@ -13,7 +13,7 @@ struct FilmPlan {
   std::string name;      ///< for people: the path of a file, another address as it is
   std::string refused;   ///< why nothing of it is felt; empty: it is a film
   std::string uri;       ///< of the film
-  std::string track;     ///< file with its haptic track; empty: it is analysed
+  std::string track;     ///< file with its haptic track, or its script; empty: it is analysed
   int64_t later_ns = 0;  ///< how much later the film shows the pictures of its track
   int64_t frame_ns = 0;  ///< between two pictures; 0 if it is not known
   std::string remark;    ///< to be said when it is followed: why its track is not felt

@@ -4,6 +4,7 @@
 the position, so that each tick of the loop tells which position is felt."""
 
 import csv
+import json
 import os
 import shutil
 import signal
@@ -180,6 +181,14 @@ class Follow(FollowCase):
         self.assertIn("the haptic track " + str(self.film), self.said())
         self.assertRegex(self.said(), "these have no effect: overlay\\n")
         self.expect_followed_through_seeks(player)
+
+    def test_a_script_beside_the_film_is_followed(self):
+        """The picture stands still, so that only the script can be felt."""
+        self.path("film.avi.haptic.wav").unlink()
+        self.path("film.funscript").write_text(json.dumps({"actions": [{"at": 0, "pos": 0}, {"at": 60000, "pos": 0}]}))
+        player, _ = self.play(least_N=1)
+        self.assertIn(f"the script {self.path('film.funscript')} is felt", self.said())
+        self.expect_paused(player)
 
     def test_without_a_track_the_film_is_analysed(self):
         self.path("film.avi.haptic.wav").unlink()
