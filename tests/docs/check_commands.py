@@ -39,10 +39,10 @@ OPTIONAL = {"ffmpeg": "ffmpeg", "mkvmerge": "mkvtoolnix"}  # programs that lines
 ELEMENTS = ("sdpdemux", "srtsink", "srtsrc")  # of gstreamer1.0-plugins-bad, as optional
 # What a program inside a line needs, a command that says whether it is there, and who has it.
 INSIDE = {
-    "webrtcbin": (["gst-inspect-1.0", "nicesrc"], "gstreamer1.0-nice"),
-    '"GES"': ([PYTHON, "-c", "import gi; gi.require_version('GES', '1.0')"], "gir1.2-ges-1.0"),
-    '"Gtk"': ([PYTHON, "-c", "import gi; gi.require_version('Gtk', '4.0')"], "gir1.2-gtk-4.0"),
-    "import gi": ([PYTHON, "-c", "import gi; gi.require_version('Gst', '1.0')"], "gir1.2-gstreamer-1.0"),
+    "webrtc.py": (["gst-inspect-1.0", "nicesrc"], "gstreamer1.0-nice"),
+    "editing.py": ([PYTHON, "-c", "import gi; gi.require_version('GES', '1.0')"], "gir1.2-ges-1.0"),
+    **dict.fromkeys(("appsrc.py", "forces.py"),
+                    ([PYTHON, "-c", "import gi; gi.require_version('Gst', '1.0')"], "gir1.2-gstreamer-1.0")),
 }
 ENCODERS = ("x264enc", "openh264enc")  # one of which spidartrack needs to make a film
 WORKERS = 2
