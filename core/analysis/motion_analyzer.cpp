@@ -33,7 +33,8 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (is_comparable) {
-    step = cadence_.see(picture, running_ns, !tracked && reduced_.is_coded());
+    step = cadence_.see(picture, running_ns,
+                        tracked ? RepeatedPicture::Repeats() : reduced_.repeats());
     if (step.waits) {
       frame_.picture = Likeness::kWaiting;
       return false;
@@ -51,6 +52,7 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
     frame_.picture = picture;
   } else {
     cadence_.cut(running_ns);
+    if (!tracked) reduced_.cut();
     frame_.clear_motion();
   }
   return true;

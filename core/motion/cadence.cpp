@@ -21,6 +21,8 @@ constexpr size_t kAccident = 2 * 5;
 /// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kEnough = 2 * 2;
+/// Of fewer, none is unlike the others.
+constexpr size_t kMajority = 3;
 
 }  // namespace
 
@@ -33,6 +35,25 @@ void Cadence::remember(const Shown& shown) {
     if (std::abs(now - before) > kSameInterval * before) shown_.clear();
   }
   shown_.add(shown);
+}
+
+/// The first repetitions of a coded film pass for pictures, and cut the intervals of these in
+/// pieces.
+void Cadence::join_pieces(const RepeatedPicture::Repeats& repeats) {
+  const History<Shown, kPictures> pieces = shown_;
+  shown_.clear();
+  Shown whole{0, 0};
+  for (size_t i = pieces.size(); i-- > 0;) {
+    whole.interval_ns += pieces[i].interval_ns;
+    whole.frames += pieces[i].frames;
+    // The frame with which this piece ended.
+    const size_t age = i + 1;
+    if (age < repeats.size() && repeats[age]) continue;
+    if (whole.interval_ns <= kLongest_ns) shown_.add(whole);
+    whole = {0, 0};
+  }
+  picture_ns_ -= whole.interval_ns;
+  frames_ += whole.frames;
 }
 
 bool Cadence::knows_repeats() const {
@@ -104,14 +125,14 @@ bool Cadence::would_wait(int64_t time_ns) const {
   return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
 }
 
-Cadence::Step Cadence::see(Likeness picture, int64_t time_ns, bool is_coded) {
+Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
+                           const RepeatedPicture::Repeats& repeats) {
   const bool repeated = picture == Likeness::kSame;
   const bool waits = repeated && would_wait(time_ns);
   const int64_t frame_ns = begun_ ? std::max<int64_t>(time_ns - frame_ns_, 1) : 0;
   frame_ns_ = time_ns;
   if (repeated) {
-    // The first repetitions passed for pictures, and cut their intervals in pieces.
-    if (is_coded && !knows_repeats()) shown_.clear();
+    if (!knows_repeats()) join_pieces(repeats);
     ++frames_;
   }
   if (waits) return {true, 0, 0};
@@ -141,7 +162,7 @@ Cadence::Step Cadence::see(Likeness picture, int64_t time_ns, bool is_coded) {
     if (i < kAccident && !is_alike) ++unlike;
   }
   if (!knows_repeats()) return step;
-  if (shown_.size() >= kEnough && unlike <= 1) {
+  if (shown_.size() >= kMajority && unlike <= 1) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;
   } else if (const double even_ns = even_interval_ns(); even_ns > 0) {

@@ -46,9 +46,9 @@ class Cadence {
   bool would_wait(int64_t time_ns) const;
 
   /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
-  /// that waited for long enough to be analysed; or kOther. `is_coded`: it is kSame but for the
-  /// noise of coding, which is told from motion only after RepeatedPicture::kLeastDips repetitions.
-  Step see(Likeness picture, int64_t time_ns, bool is_coded = false);
+  /// that waited for long enough to be analysed; or kOther. `repeats`: which frames that were
+  /// kOther are known by now to have repeated the picture before, this frame first.
+  Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
@@ -68,6 +68,7 @@ class Cadence {
   };
 
   void remember(const Shown& shown);
+  void join_pieces(const RepeatedPicture::Repeats& repeats);
   bool knows_repeats() const;
   int64_t median_ns() const;
   int64_t expected_ns() const;

@@ -31,8 +31,7 @@ class ReducedFrame {
       return picture_ = Likeness::kFirst;
     }
     picture_ = repeated_picture_.look(before_.view(), base_.view());
-    is_coded_ = picture_ == Likeness::kAlike;
-    if (is_coded_ && may_wait) picture_ = Likeness::kSame;
+    if (picture_ == Likeness::kAlike && may_wait) picture_ = Likeness::kSame;
     if (picture_ == Likeness::kSame) std::swap(before_, base_);
     return picture_;
   }
@@ -47,9 +46,11 @@ class ReducedFrame {
   int height() const { return height_; }
   /// kFirst where the frame before had another size; kSame where it was skipped. Never kWaiting.
   Likeness picture() const { return picture_; }
-  /// It is the same but for the noise of coding.
-  bool is_coded() const { return is_coded_; }
+  /// Which of the latest frames repeated a picture, by what is known now.
+  RepeatedPicture::Repeats repeats() const { return repeated_picture_.repeats(); }
 
+  /// This frame was the first one after a cut.
+  void cut() { repeated_picture_.cut(); }
   /// The next frame will not be compared with this one.
   void reset() { width_ = 0; }
 
@@ -60,7 +61,6 @@ class ReducedFrame {
   int width_ = 0;
   int height_ = 0;
   Likeness picture_ = Likeness::kFirst;
-  bool is_coded_ = false;
   RepeatedPicture repeated_picture_;
 };
 

@@ -89,7 +89,9 @@ RepeatedPicture::Rhythm RepeatedPicture::rhythm(float fraction) const {
       if (!in_run) begin = i;
       in_run = true;
     } else {
+      rhythm.large_before = rhythm.large;
       rhythm.large = change;
+      rhythm.large_age = i;
       in_run = false;
     }
   }
@@ -110,14 +112,44 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 bool RepeatedPicture::is_small(float change) const {
   const Rhythm any = rhythm(kFraction);
   if (any.dips >= kLeastDips && change < kFraction * any.large) return true;
+  const float least =
+      had_rhythm_ ? kFraction * any.large : kFractionAtOnce * std::min(any.large, any.large_before);
+  if (any.large_age < kMostAtOnce && change < least) return true;
   const Rhythm periodic = rhythm(kFractionWhenDue);
   return change < kFractionWhenDue * periodic.large && is_due(periodic);
+}
+
+RepeatedPicture::Repeats RepeatedPicture::repeats() const {
+  Repeats repeats = rhythm(kFraction).is_dip;
+  // Those of the first picture have no larger change before them.
+  float largest = 0;
+  for (size_t i = changes_.size(); i-- > 0;) {
+    if (largest < kFraction * changes_[i]) {
+      std::fill(repeats.begin() + static_cast<ptrdiff_t>(i) + 1,
+                repeats.begin() + static_cast<ptrdiff_t>(changes_.size()), true);
+      if (i + 1 < changes_.size()) break;
+    }
+    largest = std::max(largest, changes_[i]);
+  }
+  for (auto begin = repeats.begin(); begin != repeats.end();) {
+    begin = std::find(begin, repeats.end(), true);
+    const auto end = std::find(begin, repeats.end(), false);
+    if (end - begin > static_cast<ptrdiff_t>(kMostAtOnce)) std::fill(begin, end, false);
+    begin = end;
+  }
+  return repeats;
+}
+
+void RepeatedPicture::cut() {
+  had_rhythm_ = had_rhythm_ || rhythm(kFraction).dips >= kLeastDips;
+  changes_.clear();
 }
 
 Likeness RepeatedPicture::look(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
   changes_.add(change);
+  if (changes_.size() == kFrames) had_rhythm_ = false;
   if (change == 0) return Likeness::kSame;
   return alike ? Likeness::kAlike : Likeness::kOther;
 }

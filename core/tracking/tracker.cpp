@@ -188,6 +188,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   if (result.picture == Likeness::kFirst) {
     features.clear();
   } else if (!follow()) {
+    reduced.cut();
     result.picture = Likeness::kFirst;
   }
   ++frames_since_selection;

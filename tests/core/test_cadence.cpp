@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The rhythm in which a film shows new pictures, and the recognition of repeated ones.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -24,15 +25,17 @@ std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double fra
                                  int unseen = 0) {
   std::vector<double> found;
   LostFrames lost;
-  const bool is_coded = unseen > 0;
   cadence.cut(0);
   int64_t before = 0;
+  RepeatedPicture::Repeats repeats{};
   for (int n = 1; n < frames; ++n) {
     const auto picture = static_cast<int64_t>(n * picture_Hz / frame_Hz + 1e-9);
     const bool again = picture == before;
     const bool is_seen = again && unseen-- <= 0;
+    std::rotate(repeats.begin(), repeats.end() - 1, repeats.end());
+    repeats.front() = again;  // see() does not ask for this one
     const Cadence::Step step = cadence.see(is_seen ? Shows::kSame : Shows::kOther,
-                                           std::llround(1e9 * n / frame_Hz), is_coded);
+                                           std::llround(1e9 * n / frame_Hz), repeats);
     if (!step.waits && !again) {
       const double interval_s = 1e-9 * static_cast<double>(step.interval_ns);
       found.push_back(1e3 * interval_s);
@@ -59,14 +62,29 @@ TEST(Cadence, LearnsTheIntervalOfThePictures) {
   }
 }
 
-TEST(Cadence, LearnsTheIntervalFromTheSecondRepetitionOn) {
-  // A telecined film: two repetitions pass until the noise of coding is known for what it is.
+// Two repetitions pass for pictures until the noise of coding is known for what it is. Before, what
+// had been seen until then was forgotten, and the rhythm learnt anew from two repetitions more.
+TEST(Cadence, KnowsTheIntervalFromTheFirstRepetitionThatIsSeen) {
   constexpr int kUnseen = 2;
   Cadence cadence;
   const std::vector<double> found = intervals_ms(cadence, 24, 30, 120, kUnseen);
-  // Four pictures for each repetition; a line through eight, see above.
-  for (size_t i = 4 * (kUnseen + 2); i < found.size(); ++i) {
+  // Four pictures for each repetition, and the first one has no interval; a line through at least
+  // eight, see above.
+  for (size_t i = 4 * (kUnseen + 1) - 1; i < found.size(); ++i) {
     EXPECT_NEAR(found[i], 1e3 / 24, 1.5 / 8 * 1e3 / 30) << i;
+  }
+}
+
+// Before, the fourth picture was half as fast as the others.
+TEST(Cadence, KeepsTheIntervalOverTheFirstRepetition) {
+  constexpr int64_t kFrame_ns = 33'333'333;
+  Cadence cadence;
+  cadence.cut(0);
+  for (int n = 1; n < 8; ++n) {
+    const bool again = n == 3;
+    const Cadence::Step step = cadence.see(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
+    if (again) continue;
+    EXPECT_EQ(step.interval_ns, kFrame_ns) << n;
   }
 }
 

@@ -87,6 +87,61 @@ TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
   }
 }
 
+// Before, two repetitions passed for rest.
+TEST(RepeatedPicture, HardlyAnyNoiseIsTheSamePictureAtOnce) {
+  constexpr uint32_t kGrey = 1;
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1, kGrey);
+  float large = 0;
+  for (uint32_t n = 1; n < 12; ++n) {
+    const bool again = n % 3 == 0;
+    const Picture now = moved(4.0 * (n - n / 3), n + 1, kGrey);
+    const float change = largest_change(before.view(), now.view());
+    if (again) {
+      ASSERT_LT(change, RepeatedPicture::kFractionAtOnce * large) << n;
+    } else {
+      large = change;
+    }
+    const Kind kind = repeated.look(before.view(), now.view());
+    EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
+    if (kind == Kind::kOther) before = now;
+  }
+}
+
+/// A film on twos, or one that moves by `step_px` from frame to frame, after a cut from one on
+/// twos.
+std::vector<Kind> after_a_cut(double step_px, bool on_twos, uint32_t grey) {
+  RepeatedPicture repeated;
+  Picture before = moved(0, 1, grey);
+  const auto look = [&](const Picture& now) {
+    const Kind kind = repeated.look(before.view(), now.view());
+    if (kind == Kind::kOther) before = now;
+    return kind;
+  };
+  uint32_t n = 1;
+  for (; n < 20; ++n) look(moved(4.0 * (n / 2), n + 1, grey));
+  constexpr double kElsewhere_px = 300;
+  EXPECT_EQ(look(moved(kElsewhere_px, ++n, grey)), Kind::kOther);
+  repeated.cut();
+  std::vector<Kind> kinds;
+  for (uint32_t k = 1; k < 10; ++k) {
+    const double moved_px = step_px * (on_twos ? k / 2 : k);
+    kinds.push_back(look(moved(kElsewhere_px + moved_px, ++n, grey)));
+  }
+  return kinds;
+}
+
+// Before, the change of the cut made all motion after it small.
+TEST(RepeatedPicture, ARhythmIsKnownAfterACutButItsChangeIsNoMotion) {
+  constexpr uint32_t kGrey = 3;  // more than hardly any
+  std::vector<Kind> kinds = after_a_cut(4, true, kGrey);
+  for (size_t k = 2; k < kinds.size(); ++k) {
+    EXPECT_EQ(kinds[k], k % 2 == 0 ? Kind::kAlike : Kind::kOther) << k;
+  }
+  kinds = after_a_cut(0.5, false, 1);
+  for (const Kind kind : kinds) EXPECT_EQ(kind, Kind::kOther);
+}
+
 TEST(RepeatedPicture, AMotionThatReversesIsNoRepeat) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1);
