@@ -24,6 +24,18 @@ void record(window::Timeline& timeline, int first, int last) {
   for (int i = first; i <= last; ++i) timeline.add(moment(0.1 * i));
 }
 
+TEST(AreSame, AreForcesWhoseNumberAReaderCannotTellApart) {
+  const auto force = [](double x_N, double y_N) {
+    Wrench wrench;
+    wrench.force_N = {x_N, y_N, 0};
+    return wrench;
+  };
+  EXPECT_TRUE(window::are_same(force(1.8, 0), force(0, 1.8)))
+      << "else \"1.8 N wanted\" and \"1.8 N\"";
+  EXPECT_TRUE(window::are_same(force(1.76, 0), force(1.84, 0)));
+  EXPECT_FALSE(window::are_same(force(1.84, 0), force(1.86, 0))) << "1.8 N and 1.9 N";
+}
+
 TEST(Timeline, RemembersAMinuteAndPlotsItsLastFiveSeconds) {
   window::Timeline timeline;
   EXPECT_TRUE(timeline.plotted().empty());
