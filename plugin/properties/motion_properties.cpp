@@ -141,8 +141,8 @@ std::vector<MotionRow> analysis_rows() {
           0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
       MotionRow::number(
           {"filter-beta", "Filter beta",
-           "How much the filter's cutoff rises with the motion's rate of change, in Hz per px/s^2 "
-           "at 480 lines"},
+           "How much the filter's cutoff (Hz) rises with the motion's rate of change (px/s^2), in "
+           "s/px at 480 lines"},
           0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
       MotionRow::number(
           {"washout", "Washout",

@@ -22,18 +22,16 @@ std::string count_of(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// Of the element's properties, as their descriptions have it; a factor has none.
-const char* unit_of(const std::string& setting) {
-  constexpr std::array<std::pair<const char*, const char*>, 8> kUnits{{{"max-force", " N"},
-                                                                       {"alpha", " s/px"},
-                                                                       {"filter-min-cutoff", " Hz"},
-                                                                       {"filter-beta", " s/px"},
-                                                                       {"washout", " Hz"},
-                                                                       {"touch-relief", " mm"},
-                                                                       {"touch-stiffness", " N/m"},
-                                                                       {"ts-offset", " ns"}}};
-  for (const auto& [name, unit] : kUnits) {
-    if (setting == name) return unit;
+/// As the description of a property has it: "…, in Hz: …"; a factor has none.
+const char* unit_of(const Setting& setting) {
+  constexpr std::pair<const char*, const char*> kUnits[] = {{", in newtons per metre", " N/m"},
+                                                            {", in newtons", " N"},
+                                                            {", in s/px", " s/px"},
+                                                            {", in Hz", " Hz"},
+                                                            {", in millimetres", " mm"},
+                                                            {", in nanoseconds", " ns"}};
+  for (const auto& [words, unit] : kUnits) {
+    if (setting.help.find(words) != std::string::npos) return unit;
   }
   return "";
 }
@@ -57,7 +55,7 @@ bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   ImGui::SameLine();
   char text[48];
   std::snprintf(text, sizeof text, format, value);
-  ImGui::TextUnformatted((text + std::string(unit_of(setting.name))).c_str());
+  ImGui::TextUnformatted((text + std::string(unit_of(setting))).c_str());
   ImGui::EndGroup();
   return moved;
 }
