@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 
 #include <Eigen/Cholesky>
 
@@ -18,6 +19,10 @@ using Eigen::Vector2f;
 /// How far an edge may be from where the motion has it in each step, px of the field's picture: the
 /// start is right to about a pixel, and a thing that bends a little to a quarter of one.
 constexpr float kEdge_px[] = {1, 0.5F, 0.25F, 0.25F};
+constexpr size_t kLastStep = std::size(kEdge_px) - 1;
+/// After a later step that is shorter than this, px, the last one follows: it begins as near as the
+/// one that is left out would have.
+constexpr float kSettled_px = kEdge_px[kLastStep] / 2;
 /// A slope that is less than this many standard deviations of noise is none.
 constexpr float kSlopeSigmas = 3;
 /// Standard error of the direction of a slope, rad: of central differences on the rim of a disc
@@ -254,12 +259,15 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   for (const Place& place : slopes_) pixels_.push_back(describe(place, motion, evidence));
   Sums all;
   Eigen::Matrix4f covariance;
-  for (const float edge_px : kEdge_px) {
-    all = sum_up(motion, edge_px, evidence.field.before());
+  for (size_t step = 0; step <= kLastStep;) {
+    all = sum_up(motion, kEdge_px[step], evidence.field.before());
     const Eigen::LDLT<Eigen::Matrix4f> ldlt(all.information);
     if (!is_determined(ldlt)) return turn;
-    motion -= ldlt.solve(all.gradient);
-    covariance = ldlt.solve(Eigen::Matrix4f::Identity());
+    const Parameters by = ldlt.solve(all.gradient);
+    motion -= by;
+    if (step == kLastStep) covariance = ldlt.solve(Eigen::Matrix4f::Identity());
+    const bool is_settled = step > 0 && step < kLastStep && by.cwiseAbs().maxCoeff() < kSettled_px;
+    step = is_settled ? kLastStep : step + 1;
   }
   const auto difference2 = [&](const Pixel& pixel, const Vector2f& there_px) {
     const Sample there(evidence.field.before(), there_px);
@@ -268,7 +276,8 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   // What bends says less of how the whole of it turns.
   int own = 0, explained = 0;
   for (const Pixel& pixel : pixels_) {
-    const float most2 = 4 * (noise_grey2_ + squared(kEdge_px[3]) * pixel.slope.squaredNorm());
+    const float most2 =
+        4 * (noise_grey2_ + squared(kEdge_px[kLastStep]) * pixel.slope.squaredNorm());
     if (pixel.behind2 < most2) continue;
     ++own;
     explained += difference2(pixel, before_px(pixel, motion)) < most2;
