@@ -96,7 +96,9 @@ int reduce_by_power_of_2(const Reader& reader, const SourceRows& row, uint8_t* t
   constexpr int kBlock = kFactor * Reader::kBytes;
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
-    for (int k = 0; k < row.rows; ++k) {
+    // Of a line that several vectors fill, once.
+    const bool begins_line = 8 * kBlock >= kCacheLine || x * kBlock % kCacheLine == 0;
+    for (int k = 0; begins_line && k < row.rows; ++k) {
       for (int i = 0; i < 8 * kBlock; i += kCacheLine) {
         __builtin_prefetch(row.ahead + k * row.step + x * kBlock + i);
       }
