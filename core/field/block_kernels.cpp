@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_kernels.h"
 
-#include <array>
-
 #include "core/picture/opencv.h"
 
 namespace spidar {
@@ -22,6 +20,16 @@ void add_rows(BlockPixels a, BlockPixels b, int from, int to, DifferenceSum& sum
 /// Eight pixels, 16 bit each.
 v_int16x8 load(const uint8_t* pixels) {
   return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels));
+}
+
+/// Twice the derivatives of eight pixels of one picture, `step` bytes between neighbours: Δ₁ + (2
+/// Δ₁ − Δ₂) / 4, see BlockSums. Δ₁ alone understates the slope of fine detail, and a Gauss–Newton
+/// step from it is too long: at a period of five pixels by a third. The sum is right to 5 % down to
+/// a period of four pixels.
+v_int16x8 slope(const uint8_t* pixels, ptrdiff_t step) {
+  const v_int16x8 near = load(pixels + step) - load(pixels - step);
+  const v_int16x8 far = load(pixels + 2 * step) - load(pixels - 2 * step);
+  return near + ((near + near - far) >> 2);
 }
 
 v_uint16x8 weighted(const v_uint16x8& values, const v_uint16x8& weights) {
@@ -178,52 +186,17 @@ int cell_difference(BlockPixels a, BlockPixels b) {
 
 namespace {
 
-/// p + q of the pixels of a block and of two around it, which its derivatives need several times.
-class BothPictures {
- public:
-  BothPictures(BlockPixels p, BlockPixels q) {
-    for (int y = 0; y < kSide; ++y) {
-      const uint8_t* const a = p.pixels + (y - kAround) * p.stride - kAround;
-      const uint8_t* const b = q.pixels + (y - kAround) * q.stride - kAround;
-      // The last vector begins within the one before: nothing beyond is read.
-      for (const int x : {0, 8, kSide - 8}) {
-        cv::v_store(&values_[static_cast<size_t>(y * kSide + x)], load(a + x) + load(b + x));
-      }
-    }
-  }
-
-  /// Twice the derivatives of the eight pixels from x, y on: Δ₁ + (2 Δ₁ − Δ₂) / 4, see BlockSums.
-  /// Δ₁ alone understates the slope of fine detail, and a Gauss–Newton step from it is too long: at
-  /// a period of five pixels by a third. The sum is right to 5 % down to a period of four pixels.
-  v_int16x8 x_slope(int x, int y) const { return slope(x, y, 1); }
-  v_int16x8 y_slope(int x, int y) const { return slope(x, y, kSide); }
-
- private:
-  static constexpr int kAround = 2;
-  static constexpr int kSide = kBlock_px + 2 * kAround;
-
-  v_int16x8 slope(int x, int y, int step) const {
-    const int16_t* const at = &values_[static_cast<size_t>((y + kAround) * kSide + x + kAround)];
-    const v_int16x8 near = cv::v_load(at + step) - cv::v_load(at - step);
-    const v_int16x8 far = cv::v_load(at + 2 * step) - cv::v_load(at - 2 * step);
-    return near + ((near + near - far) >> 2);
-  }
-
-  std::array<int16_t, kSide * kSide> values_;
-};
-
 /// `masked(lanes, x, y)` returns `lanes`, which are of the eight pixels from x, y on, with 0 for
 /// those that are not counted.
 template <typename Masked>
 BlockSums compare(BlockPixels now, BlockPixels before, Masked&& masked) {
-  const BothPictures both(now, before);
   v_int32x4 xx = cv::v_setzero_s32();
   v_int32x4 xy = xx;
   v_int32x4 yy = xx;
   v_int32x4 xd = xx;
   v_int32x4 yd = xx;
   v_int32x4 dd = xx;
-  // In 16 bits: of the two halves of 16 rows a lane is at most 2 · 16 · 893 = 28576.
+  // In 16 bits: of the two halves of 16 rows a lane is at most 2 · 16 · 892 = 28544.
   v_int16x8 sx = cv::v_setzero_s16();
   v_int16x8 sy = sx;
   v_int16x8 sd = sx;
@@ -231,8 +204,8 @@ BlockSums compare(BlockPixels now, BlockPixels before, Masked&& masked) {
     for (int x = 0; x < kBlock_px; x += 8) {
       const uint8_t* p = now.pixels + y * now.stride + x;
       const uint8_t* q = before.pixels + y * before.stride + x;
-      const v_int16x8 gx = masked(both.x_slope(x, y), x, y);
-      const v_int16x8 gy = masked(both.y_slope(x, y), x, y);
+      const v_int16x8 gx = masked(slope(p, 1) + slope(q, 1), x, y);
+      const v_int16x8 gy = masked(slope(p, now.stride) + slope(q, before.stride), x, y);
       const v_int16x8 d = masked(load(p) - load(q), x, y);
       xx = cv::v_dotprod(gx, gx, xx);
       xy = cv::v_dotprod(gx, gy, xy);
@@ -245,7 +218,7 @@ BlockSums compare(BlockPixels now, BlockPixels before, Masked&& masked) {
       sd = sd + d;
     }
   }
-  // Twice the derivative of both is at most 510 + 1530 / 4, so that Σ gx² < 893² · 256 < 2³¹.
+  // Twice the derivative of one picture is at most 255 + 765 / 4, so that Σ gx² < 892² · 256 < 2³¹.
   const auto total = [](const v_int32x4& sums) { return cv::v_reduce_sum(sums); };
   const auto total_of_lanes = [](const v_int16x8& sums) {
     return cv::v_reduce_sum(cv::v_dotprod(sums, cv::v_setall_s16(1)));

@@ -29,9 +29,10 @@ struct BlockPixels {
 /// Unit of the fraction of a pixel by which bilinear_difference() moves a block.
 constexpr int kFractionOne = 16;
 
-/// Σ over a block `now` and the block `before` that it is compared with. With p = now + before and
-/// Δₖ = p(x + k) − p(x − k), the derivative g is Δ₁ + (2 Δ₁ − Δ₂) / 4, rounded down: four times the
-/// mean derivative of both pictures in grey levels for each pixel. d is now − before.
+/// Σ over a block `now` and the block `before` that it is compared with. With Δₖ = p(x + k) −
+/// p(x − k), twice the derivative of a picture p is Δ₁ + (2 Δ₁ − Δ₂) / 4, rounded down. The
+/// derivatives g are those of both pictures together: four times the mean derivative in grey levels
+/// for each pixel. d is now − before.
 struct BlockSums {
   int32_t xx = 0;          ///< Σ gx²
   int32_t xy = 0;          ///< Σ gx gy

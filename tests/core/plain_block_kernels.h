@@ -93,12 +93,10 @@ inline int bilinear_difference(BlockPixels now, BlockPixels before, int fraction
   return sum;
 }
 
-/// Of p + q, from one pixel to the next `p_step` and `q_step` bytes away.
-inline int twice_slope(const uint8_t* p, ptrdiff_t p_step, const uint8_t* q, ptrdiff_t q_step) {
-  const auto across = [&](int k) {
-    return p[k * p_step] - p[-k * p_step] + q[k * q_step] - q[-k * q_step];
-  };
-  return across(1) + static_cast<int>(std::floor((2 * across(1) - across(2)) / 4.0));
+inline int twice_slope(const uint8_t* p, ptrdiff_t step) {
+  const int near = p[step] - p[-step];
+  const int far = p[2 * step] - p[-2 * step];
+  return near + static_cast<int>(std::floor((2 * near - far) / 4.0));
 }
 
 inline BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted) {
@@ -110,8 +108,8 @@ inline BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels
       ++sums.pixels;
       const uint8_t* p = now.pixels + y * now.stride + x;
       const uint8_t* q = before.pixels + y * before.stride + x;
-      const int gx = twice_slope(p, 1, q, 1);
-      const int gy = twice_slope(p, now.stride, q, before.stride);
+      const int gx = twice_slope(p, 1) + twice_slope(q, 1);
+      const int gy = twice_slope(p, now.stride) + twice_slope(q, before.stride);
       const int d = p[0] - q[0];
       sums.xx += gx * gx;
       sums.xy += gx * gy;
