@@ -13,7 +13,8 @@ namespace spidar {
 class ExampleBoard final : public boards::OnTransport<boards::Board> {
  public:
   ExampleBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
-      : OnTransport(std::move(name), std::move(transport)), dac_(boards::unipolar_dac(profile)) {
+      : OnTransport(std::move(name), std::move(transport)),
+        dac_{4095 / profile.dac_max_V, 0, 4095} {
     boards::require_fitting(name_, profile, {12, 0, false});  // bits, largest volts, negative ones
   }
 

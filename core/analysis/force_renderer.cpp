@@ -187,7 +187,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
   const double most_N = settings_.controller.max_force_N;
   const Wrench passed =
-      washout_.pass(amplified(wanted, gain, most_N), interval_s, settings_.washout_Hz, most_N);
+      washout_.apply(amplified(wanted, gain, most_N), interval_s, settings_.washout_Hz, most_N);
   frame.wrench = fade_.fade(passed, interval_s);
 }
 

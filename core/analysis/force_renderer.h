@@ -17,7 +17,7 @@
 #include "core/force/washout.h"
 #include "core/motion/cadence.h"
 #include "core/motion/image_motion.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 #include "core/wrench.h"
 
 namespace spidar {

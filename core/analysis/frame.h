@@ -36,7 +36,9 @@ struct Frame : MeasuredFrame {
 
   bool has_motion_before() const { return picture != Likeness::kFirst; }
   /// The picture before is shown again, and its wrench goes on. Rest has nothing that could go on.
-  bool goes_on() const { return picture == Likeness::kWaiting && !wrench.stacked().isZero(0); }
+  bool is_continuation() const {
+    return picture == Likeness::kWaiting && !wrench.stacked().isZero(0);
+  }
   /// Nothing is known. The memory stays.
   void clear() {
     std::vector<FollowedPoint> kept_points = std::move(points);

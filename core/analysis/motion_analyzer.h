@@ -12,7 +12,7 @@
 #include "core/motion/motion_estimator.h"
 #include "core/picture/image_view.h"
 #include "core/picture/reduced_frame.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 
 namespace spidar {
 

@@ -38,7 +38,7 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceInput
   return best;
 }
 
-const MovingObject* BoxedObject::see(const ChoiceInput& frame) {
+const MovingObject* BoxedObject::update(const ChoiceInput& frame) {
   const MovingObject* best = nullptr;  // the object itself, else the largest one
   missing_s_ += frame.interval_s;
   waited_s_ += frame.interval_s;
@@ -79,7 +79,7 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput
 }
 
 /// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
-bool goes_on(const FeelRule& before, const FeelRule& now) {
+bool continues(const FeelRule& before, const FeelRule& now) {
   return before.kind == now.kind && before.kind != FeelRule::Kind::kBox &&
          before.from_ns == now.from_ns && before.position == now.position &&
          before.far_corner == now.far_corner && before.direction == now.direction;
@@ -147,8 +147,9 @@ void FollowedObject::miss(double interval_s) {
   }
 }
 
-const MovingObject* FollowedObject::see(const std::vector<MovingObject>& objects, int frame_height,
-                                        double interval_s, const Background* background) {
+const MovingObject* FollowedObject::update(const std::vector<MovingObject>& objects,
+                                           int frame_height, double interval_s,
+                                           const Background* background) {
   const MovingObject* found = find_object(objects, id_);
   if (!found) {
     if (id_ != 0 && state_ != State::kLost) miss(interval_s);
@@ -172,7 +173,7 @@ void ObjectChoice::set_rules(std::shared_ptr<const FeelRules> rules) {
   if (rules == rules_) return;
   const FeelRule* going_on = nullptr;
   for (size_t i = 0; rule_ && rules && i < rules->rules().size(); ++i) {
-    if (goes_on(*rule_, rules->rules()[i])) going_on = &rules->rules()[i];
+    if (continues(*rule_, rules->rules()[i])) going_on = &rules->rules()[i];
   }
   rule_ = going_on;
   rules_ = std::move(rules);
@@ -220,12 +221,12 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chose
   if (rule.kind == FeelRule::Kind::kLargest || rule.kind == FeelRule::Kind::kFurthest) {
     choice.object = best(rule, frame);
   } else if (rule.kind == FeelRule::Kind::kBox) {
-    choice.object = boxed_.see(frame);
+    choice.object = boxed_.update(frame);
     choice.state = boxed_.state();
   } else if (rule.kind == FeelRule::Kind::kObjectAt && !seen_from_begin_) {
     choice.state = Chosen::State::kNotSeen;
   } else if (rule.kind == FeelRule::Kind::kObjectAt) {
-    choice.object = ruled_.see(frame.objects, frame.height, frame.interval_s, frame.background);
+    choice.object = ruled_.update(frame.objects, frame.height, frame.interval_s, frame.background);
     missed_ |= ruled_.state() == FollowedObject::State::kWaiting;
     if (ruled_.state() == FollowedObject::State::kLost) {
       choice.state = Chosen::State::kLost;
@@ -243,7 +244,7 @@ bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
     clicked_.begin(frame.px(kept_.position), 0);
   }
   const MovingObject* const object =
-      clicked_.see(frame.objects, frame.height, frame.interval_s, frame.background);
+      clicked_.update(frame.objects, frame.height, frame.interval_s, frame.background);
   const FollowedObject::State state = clicked_.state();
   if (state == FollowedObject::State::kLooking) return false;
   choice.is_kept = true;

@@ -89,7 +89,7 @@ class BoxedObject {
   void begin(const char* name);
 
   /// Takes the next frame. The object, as it is in `frame`; null when none is known.
-  const MovingObject* see(const ChoiceInput& frame);
+  const MovingObject* update(const ChoiceInput& frame);
 
   /// All objects have other ids.
   void cut() { id_ = 0; }
@@ -132,14 +132,14 @@ class FollowedObject {
     kLost,      ///< nobody knows where it is
   };
 
-  /// What is there `since_s` before the frame that see() takes next. Places are in px from the
+  /// What is there `since_s` before the frame that update() takes next. Places are in px from the
   /// middle of the frame.
   void begin(const Eigen::Vector2d& position_px, double since_s);
 
   /// Takes the next frame. The object, as it is in `objects`; null when it is not among them.
   /// `interval_s`, the time since the frame before, and `background` are those of the motion.
-  const MovingObject* see(const std::vector<MovingObject>& objects, int frame_height,
-                          double interval_s, const Background* background);
+  const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
+                             double interval_s, const Background* background);
 
   /// All objects have other ids.
   void cut() {
@@ -162,7 +162,7 @@ class FollowedObject {
   void miss(double interval_s);
 
   State state_ = State::kLost;
-  bool is_first_ = true;  ///< see()
+  bool is_first_ = true;  ///< update()
   uint32_t id_ = 0;
   Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< where it is, or would be
   Eigen::Vector2d velocity_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background

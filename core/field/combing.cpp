@@ -28,13 +28,12 @@ constexpr int kLines = 4;
 /// kLines of so many lines of the frame are looked at, to save time: some of every block, which
 /// covers at least as many.
 constexpr int kEvery = kBlock_px;
-using Lines = std::array<const uint8_t*, kLines>;
 
 /// Pixels are compared in vectors. What fills up the last one is the same in all lines: no comb.
 constexpr int kLanes = 16;
 
 /// Number of pixels that look like a comb.
-int combs_in(const Lines& lines, int width) {
+int combs_in(const std::array<const uint8_t*, kLines>& lines, int width) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
   const cv::v_uint8x16 same = cv::v_setall_u8(kSame_grey);
   const cv::v_uint8x16 one = cv::v_setall_u8(1);
@@ -61,7 +60,7 @@ double comb_fraction(const ImageView& frame, std::vector<uint8_t>& memory) {
   int64_t combs = 0;
   int64_t pixels = 0;
   for (int y = kEvery / 2; y + kLines <= frame.height; y += kEvery) {
-    Lines lines;
+    std::array<const uint8_t*, kLines> lines;
     for (size_t k = 0; k < kLines; ++k) {
       uint8_t* line = memory.data() + k * width;
       copy_row(frame, 0, y + static_cast<int>(k), frame.width, line);
@@ -73,7 +72,7 @@ double comb_fraction(const ImageView& frame, std::vector<uint8_t>& memory) {
   return pixels > 0 ? static_cast<double>(combs) / static_cast<double>(pixels) : 0;
 }
 
-bool Combing::see(const ImageView& frame) {
+bool Combing::update(const ImageView& frame) {
   if (row_step(halving_factor(frame.width, frame.height)) > 1) return false;
   if (comb_fraction(frame, lines_) >= kCombed) {
     frames_left_ = kFrames;

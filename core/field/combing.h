@@ -23,7 +23,7 @@ class Combing {
  public:
   /// Examines the next frame and returns whether to take only one field of it. Large frames need no
   /// answer, because the analysis reads only the lines of one field of them anyway (row_step()).
-  bool see(const ImageView& frame);
+  bool update(const ImageView& frame);
 
  private:
   int frames_left_ = 0;  ///< for which the film still counts as interlaced

@@ -22,8 +22,7 @@ Eigen::Matrix<double, N, 1> steady(OneEuroFilter<N>& filter, const Eigen::Matrix
 
 double steady(OneEuroFilter<1>& filter, double x_px_s, double interval_s,
               const FilterSettings& settings) {
-  using Scalar = Eigen::Matrix<double, 1, 1>;
-  return steady<1>(filter, Scalar(x_px_s), interval_s, settings)[0];
+  return steady<1>(filter, Eigen::Matrix<double, 1, 1>(x_px_s), interval_s, settings)[0];
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "core/force/gain_controller.h"
 #include "core/motion/image_motion.h"
+#include "core/points/tracker.h"
 #include "core/require.h"
-#include "core/tracking/tracker.h"
 #include "core/wrench.h"
 
 namespace spidar {

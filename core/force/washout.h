@@ -24,7 +24,7 @@ class Washout {
   /// `wrench` less its low-pass; no larger than `most_N` as one force (size_N()), because a force
   /// that turns round would be up to twice as large. With a cut-off of 0 it is `wrench`, to the
   /// bit. `interval_s` > 0 is that since the call before, in which that wrench stayed as it was.
-  Wrench pass(const Wrench& wrench, double interval_s, double cutoff_Hz, double most_N) {
+  Wrench apply(const Wrench& wrench, double interval_s, double cutoff_Hz, double most_N) {
     if (cutoff_Hz == 0) {
       reset();
       return wrench;

@@ -8,8 +8,6 @@
 namespace spidar {
 namespace {
 
-using Vector3d = Eigen::Vector3d;
-
 /// later − earlier ≥ 0, right for any two times: the difference may not fit into an int64_t.
 uint64_t elapsed_ns(int64_t earlier_ns, int64_t later_ns) {
   return static_cast<uint64_t>(later_ns) - static_cast<uint64_t>(earlier_ns);
@@ -21,13 +19,13 @@ double elapsed_s(int64_t earlier_ns, int64_t later_ns) {
 
 /// Slopes of the straight lines before and after a frame, and how long each of them is.
 struct Chord {
-  Vector3d slope;
+  Eigen::Vector3d slope;
   double duration_s;
 };
 
 /// Steffen's slope at the point where the lines meet, zero where that is not a number.
-Vector3d slope_between(const Chord& before, const Chord& after) {
-  Vector3d slope;
+Eigen::Vector3d slope_between(const Chord& before, const Chord& after) {
+  Eigen::Vector3d slope;
   for (int i = 0; i < 3; ++i) {
     const double a = before.slope[i];
     const double b = after.slope[i];

@@ -30,10 +30,8 @@ constexpr double kBesideStep = 1.5;
 // Nearer is the same minimum: searches end within some steps of kLastSearchStep_m.
 constexpr double kSamePose_m = 1e-6;
 
-using Weights = StringVector;
-
-Weights weights(int count, int left_out, int also = -1) {
-  Weights w = Weights::Zero();
+StringVector weights(int count, int left_out, int also = -1) {
+  StringVector w = StringVector::Zero();
   w.head(count).setOnes();
   if (left_out >= 0) w[left_out] = 0;
   if (also >= 0) w[also] = 0;
@@ -82,7 +80,7 @@ Twist weakest_direction(const NormalEquations& equations) {
 
 PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
                                  int also) const noexcept {
-  const Weights w = weights(model_.count, left_out, also);
+  const StringVector w = weights(model_.count, left_out, also);
   const int used = model_.count - (left_out >= 0) - (also >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;
@@ -102,7 +100,7 @@ PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& star
 
 PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
                                         int left_out) const noexcept {
-  const Weights w = weights(model_.count, left_out);
+  const StringVector w = weights(model_.count, left_out);
   const int used = model_.count - (left_out >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;

@@ -12,7 +12,7 @@
 
 #include "core/motion/camera/motion_models.h"
 #include "core/motion/objects/moving_object.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 
 namespace spidar {
 

@@ -12,7 +12,7 @@
 #include "core/motion/image_motion.h"
 #include "core/motion/objects/moving_object.h"
 #include "core/picture/repeated_picture.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 
 namespace spidar {
 

@@ -13,7 +13,7 @@
 #include "core/motion/objects/dominant_object.h"
 #include "core/motion/objects/object_tracker.h"
 #include "core/picture/reduced_frame.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 
 namespace spidar {
 

@@ -44,7 +44,7 @@ class TrackSampler {
   /// Time of the next sample.
   int64_t next_ns() const noexcept { return next_ns_; }
   /// The next sample; the one after it is a millisecond later.
-  Wrench take() noexcept {
+  Wrench next() noexcept {
     const TimelineResult result = timeline_.at(next_ns_);
     next_ns_ += kTrackPeriod_ns;
     if (result.found != Found::kExpired) {

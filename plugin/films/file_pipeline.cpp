@@ -82,7 +82,7 @@ GstElement* FilePipeline::add_fakesink() const {
   return sink;
 }
 
-void FilePipeline::link_streams(Take take) {
+void FilePipeline::link_streams(std::function<GstElement*(GstPad*)> take) {
   take_ = std::move(take);
   const auto add = +[](GstElement*, GstPad* pad, gpointer self) {
     constexpr auto kFlow =
@@ -108,7 +108,7 @@ GstPadProbeReturn FilePipeline::link(GstPad* pad, GstPadProbeInfo* info, gpointe
 
 void FilePipeline::pause() const {
   gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
-  const Bus messages = bus();
+  const std::unique_ptr<GstBus, void (*)(gpointer)> messages = bus();
   gst_bus_set_flushing(messages.get(), TRUE);
   gst_bus_set_flushing(messages.get(), FALSE);
 }
@@ -138,7 +138,7 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
   const auto types = static_cast<GstMessageType>(awaited | GST_MESSAGE_EOS | GST_MESSAGE_ERROR |
                                                  GST_MESSAGE_ELEMENT);
   std::string missing;  // plug-in
-  const Bus messages = bus();
+  const std::unique_ptr<GstBus, void (*)(gpointer)> messages = bus();
   bool failed =
       gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE;
   Progress progress{read_, 0};

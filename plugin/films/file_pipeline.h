@@ -34,8 +34,7 @@ class FilePipeline {
   /// Of a parsebin "parse": links each stream when it begins to flow, to the element that `take`
   /// returns, or to a sink that discards it if that is null. A stream may be found while others
   /// flow; linked only now, its parser leaves the data as they are in the file. Streaming threads.
-  using Take = std::function<GstElement*(GstPad*)>;
-  void link_streams(Take take);
+  void link_streams(std::function<GstElement*(GstPad*)> take);
   /// Plays until a message of `awaited` or EOS comes, and returns which; GST_MESSAGE_UNKNOWN when
   /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was
   /// read for `longest_silence`, because some demuxers stop at damage without an error, or when
@@ -60,8 +59,9 @@ class FilePipeline {
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
  private:
-  using Bus = std::unique_ptr<GstBus, void (*)(gpointer)>;
-  Bus bus() const { return {gst_element_get_bus(pipeline_.get()), gst_object_unref}; }
+  std::unique_ptr<GstBus, void (*)(gpointer)> bus() const {
+    return {gst_element_get_bus(pipeline_.get()), gst_object_unref};
+  }
 
   static GstBusSyncReply handle(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn link(GstPad* pad, GstPadProbeInfo* info, gpointer self);
@@ -69,7 +69,7 @@ class FilePipeline {
   const std::atomic<bool>* const stopped_;
   const GstClockTime longest_silence_;
   std::atomic<uint64_t> read_{0};
-  Take take_;
+  std::function<GstElement*(GstPad*)> take_;
   std::function<void(const std::string&)> take_error_;
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };

@@ -19,9 +19,7 @@
 namespace spidar {
 namespace {
 
-using Bytes = std::pair<const uint8_t*, size_t>;
-
-Bytes after_last_start_code(const uint8_t* data, size_t size) {
+std::pair<const uint8_t*, size_t> after_last_start_code(const uint8_t* data, size_t size) {
   for (size_t i = size; i >= 4; --i) {
     if (data[i - 4] == 0 && data[i - 3] == 0 && data[i - 2] == 1) {
       return {data + i - 1, size - i + 1};
@@ -30,8 +28,9 @@ Bytes after_last_start_code(const uint8_t* data, size_t size) {
   return {data, size};
 }
 
-Bytes after_last_length(const uint8_t* data, size_t size, size_t length_bytes) {
-  Bytes unit{data, size};
+std::pair<const uint8_t*, size_t> after_last_length(const uint8_t* data, size_t size,
+                                                    size_t length_bytes) {
+  std::pair<const uint8_t*, size_t> unit{data, size};
   for (size_t at = 0; at + length_bytes < size;) {
     size_t length = 0;
     for (size_t i = 0; i < length_bytes; ++i) length = length << 8 | data[at + i];
@@ -78,7 +77,7 @@ PacketFraming framing_of(const GstCaps* caps) {
 }
 
 std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing) {
-  Bytes unit{data, size};
+  std::pair<const uint8_t*, size_t> unit{data, size};
   while (unit.second > 0 && unit.first[unit.second - 1] == 0 &&
          framing.kind != PacketFraming::Kind::kLengths) {
     --unit.second;

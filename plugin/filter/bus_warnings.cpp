@@ -90,7 +90,6 @@ void BusWarnings::check_trace(int error) {
 }
 
 void BusWarnings::check_frame(const FrameReport& report) {
-  check_trace(report.trace_error);
   const FaultWords& words = words_for(report.fault);
   const guint bit = 1u << static_cast<guint>(report.fault);
   if (!words.warning || (frame_faults_ & bit)) return;

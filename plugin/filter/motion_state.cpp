@@ -65,7 +65,7 @@ void MotionState::set_muted(bool muted) {
   reliefs.set_muted(muted);
 }
 
-void MotionState::flush() {
+void MotionState::clear() {
   schedule.clear();
   track_samples.clear();
   reliefs.clear();
@@ -84,9 +84,9 @@ void MotionState::change_rate(double multiplier, GstClockTime running_time, GstC
   schedule.change_rate(multiplier, running_time, upstream);
 }
 
-void MotionState::reset_timing() {
+void MotionState::reset() {
   begin_epoch();
-  live.reset_timing();
+  live.reset();
   {
     const std::lock_guard<std::mutex> lock(skip_mutex_);
     schedule.reset();
@@ -111,44 +111,46 @@ GstStructure* MotionState::describe() const {
   return structure;
 }
 
-void MotionState::process(const GstVideoFrame& frame, const GstSegment& segment) {
-  report.begin();
-  if (!has_time(frame.buffer, segment)) return pass_untimed();
+const FrameReport& MotionState::process(const GstVideoFrame& frame, const GstSegment& segment) {
+  report_ = report_of(frame, segment);
+  if (!report_.has_wrench()) return report_;
+  warnings.check_trace(trace.write(report_));
+  if (report_.analyzed) stats.add(report_.frame, report_.took_ns);
+  return report_;
+}
+
+FrameReport MotionState::report_of(const GstVideoFrame& frame, const GstSegment& segment) {
+  FrameReport report;
+  const bool timed = has_time(frame.buffer, segment);
   const std::optional<FrameStamp> stamp =
-      stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch_);
-  if (!stamp) {
+      timed ? stamp_of(frame.buffer, nominal_duration(frame.info), segment, epoch_) : std::nullopt;
+  if (timed && !stamp) {
     report.fault = FrameReport::Fault::kNotShown;
-    return;
+    return report;
   }
-  if (!is_in_time(*stamp)) return pass_untimed();
+  if (!timed || !is_in_time(*stamp)) {  // it cannot be rendered in time
+    report.fault = FrameReport::Fault::kNoTimestamp;
+    live.begin_run();
+    return report;
+  }
   report.turn = orientation.turn();
   report.visible = visible_part(frame);
-  report.motion = frame_settings.analyzer.motion;
-  report.controller = frame_settings.analyzer.controller;
   const PassingFrame passing{frame, segment, frame_settings, *stamp};
   if (track.has_track()) {
-    track.take(passing, report);
+    track.process(passing, report);
   } else {
-    live.take(passing, report);
+    live.process(passing, report);
   }
   // The analysis has a time of its own, in which frames are as far apart as in the film.
   report.frame.stamp = *stamp;
-  if (!report.has_wrench()) return;
-  report.device_no_force = no_force.of_device(output.snapshot());
-  report.trace_error = trace.write(report);
-  if (report.analyzed) stats.add(report.frame, report.took_ns);
-}
-
-/// A frame that cannot be rendered in time.
-void MotionState::pass_untimed() {
-  report.fault = FrameReport::Fault::kNoTimestamp;
-  live.reset();
+  if (report.has_wrench()) report.device_no_force = no_force.of_device(output.snapshot());
+  return report;
 }
 
 void MotionState::pass_gap(GstBuffer* buffer, const GstSegment& segment) {
   const std::optional<FrameStamp> stamp =
       has_time(buffer, segment) ? stamp_of(buffer, 0, segment, epoch_) : std::nullopt;
-  if (!stamp || !is_in_time(*stamp)) return live.reset();
+  if (!stamp || !is_in_time(*stamp)) return live.begin_run();
   if (track.has_track()) {
     track.pass_gap(*stamp);
   } else {

@@ -20,8 +20,8 @@
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/output/no_force.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/timing/loop_queue.h"
 #include "plugin/timing/step_watch.h"
@@ -47,19 +47,21 @@ struct MotionState {
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
   /// What was scheduled is forgotten at once, and so is what can be touched.
-  void flush();
+  void clear();
   /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
   /// The sink has stepped over so much of running time: it shows what follows as much earlier.
   void skip(GstClockTime duration);
   /// Running time begins anew: after a flush, and before a stream. Streaming thread.
-  void reset_timing();
+  void reset();
   GstStructure* describe() const;
 
   // --- streaming thread
 
-  /// A frame with the settings `frame_settings`. What is only shown of it is not filled in yet.
-  void process(const GstVideoFrame& frame, const GstSegment& segment);
+  /// A frame with the settings `frame_settings`; what was found of it.
+  const FrameReport& process(const GstVideoFrame& frame, const GstSegment& segment);
+  /// Of the newest frame.
+  const FrameReport& report() const { return report_; }
   /// The next frame does not follow the one before: a seek, another film, another rate.
   void begin_epoch() { ++epoch_; }
   /// In place of a frame that has no picture.
@@ -89,15 +91,15 @@ struct MotionState {
   LiveSource live{schedule, no_force, reliefs, output};
   TrackSource track{output, track_samples, schedule, no_force, reliefs};
   FrameTrace trace;
-  FrameReport report;  ///< of the newest frame
   tracks::FeltTrack felt;
   BusWarnings warnings;
 
  private:
-  void pass_untimed();
+  FrameReport report_of(const GstVideoFrame& frame, const GstSegment& segment);
 
   std::mutex skip_mutex_;  ///< what is skipped reaches schedule and output in the same order
   uint32_t epoch_ = 0;     ///< FrameStamp; streaming thread
+  FrameReport report_;
 };
 
 }  // namespace spidar::filter
@@ -105,11 +107,11 @@ struct MotionState {
 // What the files of the element share besides.
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 
-struct _GstSpidarMotion {
+struct _GstSpidarMotionFilter {
   GstVideoFilter parent;
 
   spidar::filter::MotionState* state;
 };
 
 /// Class initialisation: frames and events on their way.
-void gst_spidar_motion_install_stream(GstSpidarMotionClass* klass);
+void gst_spidar_motion_install_stream(GstSpidarMotionFilterClass* klass);

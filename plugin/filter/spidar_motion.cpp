@@ -67,13 +67,34 @@ static GstStaticPadTemplate motion_sink_template =
 static GstStaticPadTemplate motion_src_template =
     GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS(CAPS));
 
-G_DEFINE_TYPE_WITH_CODE(GstSpidarMotion, gst_spidar_motion, GST_TYPE_VIDEO_FILTER,
-                        G_IMPLEMENT_INTERFACE(GST_TYPE_PRESET, nullptr)
-                            GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
-                                                    "motion of a video to a SPIDAR"))
+static void gst_spidar_motion_init(GstSpidarMotionFilter* self);
+static void gst_spidar_motion_class_init(GstSpidarMotionFilterClass* klass);
+static gpointer gst_spidar_motion_parent_class = nullptr;
+
+/// Not by a macro, which would name the type as the structure: GstSpidarMotion is one of the C API.
+GType gst_spidar_motion_get_type() {
+  static const GType type = [] {
+    const GType registered = g_type_register_static_simple(
+        GST_TYPE_VIDEO_FILTER, "GstSpidarMotion", sizeof(GstSpidarMotionFilterClass),
+        [](gpointer klass, gpointer) {
+          gst_spidar_motion_class_init(static_cast<GstSpidarMotionFilterClass*>(klass));
+        },
+        sizeof(GstSpidarMotionFilter),
+        [](GTypeInstance* self, gpointer) {
+          gst_spidar_motion_init(reinterpret_cast<GstSpidarMotionFilter*>(self));
+        },
+        GTypeFlags{});
+    const GInterfaceInfo presets{};
+    g_type_add_interface_static(registered, GST_TYPE_PRESET, &presets);
+    GST_DEBUG_CATEGORY_INIT(gst_spidar_motion_debug, "spidarmotion", 0,
+                            "motion of a video to a SPIDAR");
+    return registered;
+  }();
+  return type;
+}
 GST_ELEMENT_REGISTER_DEFINE(spidarmotion, "spidarmotion", GST_RANK_NONE, GST_TYPE_SPIDAR_MOTION)
 
-MotionState& gst_spidar_motion_state(GstSpidarMotion* self) {
+MotionState& gst_spidar_motion_state(GstSpidarMotionFilter* self) {
   return *self->state;
 }
 
@@ -82,7 +103,7 @@ MotionState& gst_spidar_motion_state(GstSpidarMotion* self) {
 /// Opens or closes the debug window according to the property and the state. If several threads
 /// change these at the same time, one of them does the work for all. The others must not be waited
 /// for, because one of them may be the window's own thread.
-static void follow_debug_window(GstSpidarMotion* self) {
+static void follow_debug_window(GstSpidarMotionFilter* self) {
   MotionState& state = *self->state;
   if (g_atomic_int_add(&state.window_changes, 1) > 0) return;
   gint seen;
@@ -99,14 +120,14 @@ static void follow_debug_window(GstSpidarMotion* self) {
   } while (!g_atomic_int_compare_and_exchange(&state.window_changes, seen, 0));
 }
 
-static void set_opened(GstSpidarMotion* self, bool opened) {
+static void set_opened(GstSpidarMotionFilter* self, bool opened) {
   GST_OBJECT_LOCK(self);
   self->state->opened = opened;
   GST_OBJECT_UNLOCK(self);
   follow_debug_window(self);
 }
 
-static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char* path) {
+static gboolean gst_spidar_motion_save_window(GstSpidarMotionFilter* self, const char* path) {
   const std::string error = path ? self->state->display.save_window(path) : "no file is named";
   if (error.empty()) return TRUE;
   GST_WARNING_OBJECT(self, "cannot save the debug window as %s: %s", path, error.c_str());
@@ -117,7 +138,7 @@ static gboolean gst_spidar_motion_save_window(GstSpidarMotion* self, const char*
 
 static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
                                                            GstStateChange transition) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(element);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(element);
   MotionState& state = *self->state;
   if (transition == GST_STATE_CHANGE_NULL_TO_READY) {
     GST_OBJECT_LOCK(self);
@@ -165,7 +186,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 // --- object ------------------------------------------------------------------------------------
 
 /// What does not read the properties with each frame.
-static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
+static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
     {"ts-offset",
      [](auto* self, auto* value) {
        self->state->output.follower().set_offset(g_value_get_int64(value));
@@ -194,13 +215,13 @@ static constexpr spidar::PropertyEffect<GstSpidarMotion> kEffects[] = {
 };
 
 /// The window's own thread may wait for `setting`, so these are followed without it.
-static constexpr spidar::PropertyEffect<GstSpidarMotion> kUnlockedEffects[] = {
+static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kUnlockedEffects[] = {
     {"debug-window", [](auto* self, auto*) { follow_debug_window(self); }},
 };
 
 static void gst_spidar_motion_set_property(GObject* object, guint id, const GValue* value,
                                            GParamSpec* spec) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(object);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(object);
   spidar::set_property(spidar::motion_properties(), self, kEffects, id, value, spec);
   spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
@@ -216,8 +237,8 @@ static void find_presets() {
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
                                            GParamSpec* spec) {
-  const auto stats = [](GstSpidarMotion* self) { return self->state->describe(); };
-  spidar::get_property<MotionProperties, GstSpidarMotion>(
+  const auto stats = [](GstSpidarMotionFilter* self) { return self->state->describe(); };
+  spidar::get_property<MotionProperties, GstSpidarMotionFilter>(
       spidar::motion_properties(), GST_SPIDAR_MOTION(object), stats, id, value, spec);
 }
 
@@ -226,7 +247,7 @@ static void gst_spidar_motion_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_motion_parent_class)->finalize(object);
 }
 
-static void gst_spidar_motion_init(GstSpidarMotion* self) {
+static void gst_spidar_motion_init(GstSpidarMotionFilter* self) {
   self->state = new MotionState(GST_ELEMENT(self));
   // GstVideoFilter would drop late frames before they are analysed; here the application decides
   // that with `qos`.
@@ -234,10 +255,11 @@ static void gst_spidar_motion_init(GstSpidarMotion* self) {
   gst_base_transform_set_qos_enabled(GST_BASE_TRANSFORM(self), FALSE);
 }
 
-static void gst_spidar_motion_class_init(GstSpidarMotionClass* klass) {
+static void gst_spidar_motion_class_init(GstSpidarMotionFilterClass* klass) {
   GObjectClass* object_class = G_OBJECT_CLASS(klass);
   GstElementClass* element_class = GST_ELEMENT_CLASS(klass);
 
+  gst_spidar_motion_parent_class = g_type_class_peek_parent(klass);
   object_class->set_property = gst_spidar_motion_set_property;
   object_class->get_property = gst_spidar_motion_get_property;
   object_class->finalize = gst_spidar_motion_finalize;

@@ -9,7 +9,7 @@
 G_BEGIN_DECLS
 
 #define GST_TYPE_SPIDAR_MOTION (gst_spidar_motion_get_type())
-G_DECLARE_FINAL_TYPE(GstSpidarMotion, gst_spidar_motion, GST, SPIDAR_MOTION, GstVideoFilter)
+G_DECLARE_FINAL_TYPE(GstSpidarMotionFilter, gst_spidar_motion, GST, SPIDAR_MOTION, GstVideoFilter)
 
 GST_ELEMENT_REGISTER_DECLARE(spidarmotion)
 
@@ -20,4 +20,4 @@ struct MotionState;
 }  // namespace spidar::filter
 
 /// For tests that step the element by hand.
-spidar::filter::MotionState& gst_spidar_motion_state(GstSpidarMotion* self);
+spidar::filter::MotionState& gst_spidar_motion_state(GstSpidarMotionFilter* self);

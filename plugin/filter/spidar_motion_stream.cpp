@@ -28,7 +28,7 @@ static GstBaseTransformClass* parent_class() {
 
 /// Takes the settings of the frame, which stay as they are on its way.
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
   const GstClockTime time = spidar::stream_time_of(trans->segment, GST_BUFFER_PTS(buffer));
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
@@ -43,7 +43,7 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
 
 /// How long a stream waits for its track to be opened; frames that come before are analysed.
 static constexpr std::chrono::seconds kLongestWait{3};
-static void begin_to_load_track(GstSpidarMotion* self) {
+static void begin_to_load_track(GstSpidarMotionFilter* self) {
   MotionState& state = *self->state;
   GST_OBJECT_LOCK(self);
   const std::string track = state.settings.track;
@@ -77,7 +77,7 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   state.choice.complete(frame, state.orientation.turn(), settings);
 }
 
-static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffer* buffer) {
+static void log_frame(GstSpidarMotionFilter* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.has_wrench()) {
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
                      GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), spidar::filter::words_of(report.fault));
@@ -93,10 +93,10 @@ static void log_frame(GstSpidarMotion* self, const FrameReport& report, GstBuffe
                  found.objects.size(), found.wrench.force_N.x(), found.wrench.force_N.y(),
                  static_cast<gint64>(report.took_ns / 1000),
                  found.has_motion_before() ? "" : ", restarted",
-                 found.goes_on() ? ", goes on" : "");
+                 found.is_continuation() ? ", goes on" : "");
 }
 
-static bool device_goes_on(MotionState& state) {
+static bool check_device(MotionState& state) {
   return state.warnings.device().check(state.output.session(),
                                        state.frame_settings.on_device_error);
 }
@@ -105,15 +105,15 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
                                                           GstVideoFrame* frame) {
   const AnalysisPermit permit;
   if (!permit) return GST_FLOW_OK;
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(filter);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(filter);
   MotionState& state = *self->state;
   const spidar::FrameSettings& settings = state.frame_settings;
-  const FrameReport& report = state.report;
+  const FrameReport& report = state.report();
   const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
     complete_settings(state, *frame);
     take_track(state, frame->info);
-    state.process(*frame, GST_BASE_TRANSFORM(filter)->segment);
-    state.display.show(state.report, settings, *frame);
+    state.display.show(state.process(*frame, GST_BASE_TRANSFORM(filter)->segment), settings,
+                       *frame);
   });
   if (!processed) {
     // The application may leave the pipeline in PLAYING.
@@ -131,7 +131,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
     post_motion_message(GST_ELEMENT(self), GST_BUFFER_PTS(frame->buffer),
                         GST_BUFFER_DURATION(frame->buffer), report, &state.unread_messages);
   }
-  return device_goes_on(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
+  return check_device(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// A frame without a picture is not mapped, because mapping may have to wait for its memory.
@@ -142,8 +142,8 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
   MotionState& state = *GST_SPIDAR_MOTION(trans)->state;
   const bool passed = spidar::guarded(GST_ELEMENT(trans), "passing a gap",
                                       [&] { state.pass_gap(buffer, trans->segment); });
-  state.display.skip();
-  return passed && device_goes_on(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
+  state.display.reset();
+  return passed && check_device(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// In passthrough the buffer may not be writable. A meta belongs to the buffer and not to its
@@ -165,13 +165,13 @@ static bool same_playback(const GstSegment& a, const GstSegment& b) {
 }
 
 static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* event) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       GST_DEBUG_OBJECT(self, "flush: scheduled wrenches are cancelled");
       state.loader.interrupt();
-      state.flush();
+      state.clear();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
@@ -179,8 +179,8 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
       state.loader.resume();
       // Flushes again, because a frame may have been in progress when the flush began.
-      state.flush();
-      state.reset_timing();
+      state.clear();
+      state.reset();
       if (reset_time) state.output.follower().expect_base_time();
       break;
     }
@@ -195,7 +195,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_TAG: {
       GstTagList* tags;
       gst_event_parse_tag(event, &tags);
-      if (!spidar::filter::follows_tag_upstream(trans->sinkpad)) state.orientation.take(tags);
+      if (!spidar::filter::follows_tag_upstream(trans->sinkpad)) state.orientation.update(tags);
       break;
     }
     case GST_EVENT_SEGMENT: {
@@ -229,7 +229,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   return parent_class()->sink_event(trans, event);
 }
 
-static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
+static void process_mouse(GstSpidarMotionFilter* self, GstEvent* event) {
   MotionState& state = *self->state;
   GST_OBJECT_LOCK(self);
   const bool points = state.settings.pointer == Pointer::Kind::kMouse;
@@ -238,9 +238,9 @@ static void take_mouse(GstSpidarMotion* self, GstEvent* event) {
   const auto mouse = spidar::filter::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
   if (!mouse) return;
   // A hand that is led points, too, but its clicks are no choice of objects.
-  const bool leads_hand = state.display.hand().take(*mouse);
+  const bool leads_hand = state.display.hand().update(*mouse);
   if (!leads_hand || mouse->act == spidar::filter::SinkMouse::Act::kMove) {
-    state.choice.mouse().take(*mouse);
+    state.choice.mouse().update(*mouse);
   }
 }
 
@@ -252,7 +252,7 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
     GST_DEBUG_OBJECT(trans, "latency: %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
     state.output.follower().set_latency(latency);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_NAVIGATION) {
-    take_mouse(GST_SPIDAR_MOTION(trans), event);
+    process_mouse(GST_SPIDAR_MOTION(trans), event);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
     state.output.follower().look_for_sink();
@@ -268,7 +268,7 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
 }
 
 static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
-  GstSpidarMotion* self = GST_SPIDAR_MOTION(trans);
+  GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
   GST_OBJECT_LOCK(self);
   const std::string trace = state.settings.trace;
@@ -277,7 +277,7 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   state.warnings.start();
   state.warnings.check_bins();
   state.stats.reset();
-  state.reset_timing();
+  state.reset();
   const std::string reason = trace.empty() ? "" : state.trace.open(trace);
   if (!reason.empty()) {
     GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
@@ -291,7 +291,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   MotionState& state = *GST_SPIDAR_MOTION(trans)->state;
   GST_DEBUG_OBJECT(trans, "stop");
   state.loader.stop();
-  state.flush();
+  state.clear();
   const spidar::LineWriter::Status trace = state.trace.close();
   // Reported here, because messages during the change to NULL are discarded.
   state.warnings.check_trace(trace.error);
@@ -302,7 +302,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   return TRUE;
 }
 
-void gst_spidar_motion_install_stream(GstSpidarMotionClass* klass) {
+void gst_spidar_motion_install_stream(GstSpidarMotionFilterClass* klass) {
   GstBaseTransformClass* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   GstVideoFilterClass* filter_class = GST_VIDEO_FILTER_CLASS(klass);
   transform_class->start = gst_spidar_motion_start;

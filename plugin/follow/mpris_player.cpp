@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::follow {
@@ -17,15 +18,9 @@ constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
 constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
 constexpr const char* kBus = "org.freedesktop.DBus";
 
-struct Unref {
-  void operator()(GVariant* value) const { g_variant_unref(value); }
-  void operator()(GError* error) const { g_error_free(error); }
-};
-using Variant = std::unique_ptr<GVariant, Unref>;
-
 /// What came of a question: an answer, or one of these, or another error.
 struct Answer {
-  Variant reply;
+  Ref<GVariant> reply;
   bool is_cancelled = false;  ///< whoever asked is destroyed
   bool is_gone = false;       ///< whoever was asked
   bool is_refused = false;    ///< it has answered with an error
@@ -35,7 +30,7 @@ Answer finish(GObject* bus, GAsyncResult* result) {
   GError* found = nullptr;
   Answer answer;
   answer.reply.reset(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &found));
-  const std::unique_ptr<GError, Unref> error(found);
+  const std::unique_ptr<GError, void (*)(GError*)> error(found, g_error_free);
   if (!error) return answer;
   answer.is_cancelled = g_error_matches(found, G_IO_ERROR, G_IO_ERROR_CANCELLED);
   answer.is_gone = g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NAME_HAS_NO_OWNER) ||
@@ -63,7 +58,8 @@ PlayerState state_of(GVariant* properties) {
   if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kLeast && rate <= kMost) {
     state.rate = rate;
   }
-  const Variant metadata(g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
+  const Ref<GVariant> metadata(
+      g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
   if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text)) state.uri = text;
   return state;
 }
@@ -77,7 +73,7 @@ int64_t ns_of(gint64 position_us) {
 /// Of the reply to Properties.GetAll.
 std::optional<PlayerState> state_in(GVariant* reply) {
   if (!reply || !g_variant_is_of_type(reply, G_VARIANT_TYPE("(a{sv})"))) return std::nullopt;
-  const Variant properties(g_variant_get_child_value(reply, 0));
+  const Ref<GVariant> properties(g_variant_get_child_value(reply, 0));
   return state_of(properties.get());
 }
 
@@ -90,10 +86,10 @@ std::string short_name(const std::string& bus_name) {
 }
 
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
-                  TakeNames take) {
+                  std::function<void(std::optional<std::vector<std::string>>)> take) {
   struct Question {
     std::string name;
-    TakeNames take;
+    std::function<void(std::optional<std::vector<std::string>>)> take;
   };
   const auto answered = [](GObject* source, GAsyncResult* result, gpointer user) {
     const std::unique_ptr<Question> question(static_cast<Question*>(user));
@@ -192,7 +188,7 @@ void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   if (!g_variant_is_of_type(reply, G_VARIANT_TYPE("(v)"))) return;
   GVariant* inner = nullptr;
   g_variant_get(reply, "(v)", &inner);
-  const Variant position(inner);
+  const Ref<GVariant> position(inner);
   self.has_position_ = g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64) != FALSE;
   if (self.has_position_ && self.is_watched_) {
     self.told_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));

@@ -31,9 +31,8 @@ std::string short_name(const std::string& bus_name);
 /// Asks for the bus names of the players that there are; of those called `name`, unless that is
 /// empty. `take` gets them in the main loop, or nothing when the bus does not answer, and nothing
 /// at all once `ended` is cancelled.
-using TakeNames = std::function<void(std::optional<std::vector<std::string>>)>;
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
-                  TakeNames take);
+                  std::function<void(std::optional<std::vector<std::string>>)> take);
 
 /// One of them. Callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
 class Player {

@@ -202,7 +202,7 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
     // In a crop that begins on an odd line, the other field comes first.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
-  } else if (combing_.see(luma)) {
+  } else if (combing_.update(luma)) {
     // It is unknown which field is earlier, so always the same one is taken.
     luma = first_field(luma, true);
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The result of processing one frame of video.
+/// The result of processing one frame of video, and what is shown of it.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/analysis/frame.h"
@@ -15,8 +14,8 @@
 #include "core/motion/image_motion.h"
 #include "core/orientation.h"
 #include "plugin/frame/frame_luma.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/frame/touch_view.h"
+#include "plugin/output/no_force.h"
 
 namespace spidar {
 
@@ -45,8 +44,7 @@ struct OwnedPoint {
   bool is_new = false;  ///< not in the previous frame
 };
 
-/// The steps of the element fill it in, one after the other; message, metas, trace, overlay and
-/// window read it.
+/// What was found of a frame, and why nothing was: message, trace and warnings are made from it.
 struct FrameReport {
   enum class Fault {
     kNone,
@@ -73,35 +71,22 @@ struct FrameReport {
   NoForceReason no_force = NoForceReason::kNone;         ///< of this frame, in the film
   NoForceReason device_no_force = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchScene touch;
-  std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
-  int trace_error = 0;                  ///< errno of the write that ended the trace, or 0
-  // Of the settings with which it was analysed:
-  MotionKind motion = MotionKind::kObject;  ///< which motion is felt
-  ControllerSettings controller;
-  uint32_t click = 0;  ///< number of the click whose object is kept; 0: none
-  // Where it is drawn, or a meta is attached:
-  FilmScene film;
-  double speed_px_s = 0;  ///< that the controller was given, of the reference frame
-  std::vector<OwnedPoint> points;
-  std::vector<ImagePoint> lost;  ///< last positions of the lost points
-  std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
 
   /// There is a wrench, be it of the analysis or of a haptic track.
   bool has_wrench() const { return analyzed || track; }
+};
 
-  /// Nothing is known of the next frame. The memory of this one stays.
-  void begin() {
-    FrameReport next;
-    frame.clear();
-    std::swap(next.frame, frame);
-    points.clear();
-    next.points.swap(points);
-    lost.clear();
-    next.lost.swap(lost);
-    felt.clear();
-    next.felt.swap(felt);
-    *this = std::move(next);
-  }
+/// A frame with what is only shown of it, by overlay and window, or attached to it as metas.
+struct DrawnFrame : FrameReport {
+  MotionKind motion = MotionKind::kObject;  ///< which motion is felt
+  ControllerSettings controller;
+  uint32_t click = 0;                   ///< number of the click whose object is kept; 0: none
+  std::optional<TouchMark> touch_mark;  ///< where the grip is when the frame passes the element
+  FilmScene film;                       ///< for the window
+  double speed_px_s = 0;  ///< that the controller was given, of the reference frame; for the window
+  std::vector<OwnedPoint> points;
+  std::vector<ImagePoint> lost;  ///< last positions of the lost points
+  std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
 };
 
 }  // namespace spidar

@@ -8,7 +8,7 @@
 
 #include "core/wrench.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force.h"
+#include "plugin/output/no_force.h"
 
 namespace spidar {
 

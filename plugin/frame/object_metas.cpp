@@ -135,7 +135,7 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer) {
   return boxes;
 }
 
-void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height) {
+void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height) {
   remove_ours(buffer);
   for (const MovingObject& object : report.frame.objects) {
     if (object.points == 0) continue;

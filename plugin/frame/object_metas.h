@@ -33,7 +33,7 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
 /// Attaches the objects in sight to `buffer`, which is writable, as both. Regions that another
 /// spidarmotion has attached are replaced.
-void attach_object_metas(GstBuffer* buffer, const FrameReport& report, int width, int height);
+void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
 std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,

@@ -57,7 +57,7 @@ void find_owner(const Frame& frame, const VisiblePart& visible, OwnedPoint& poin
 
 }  // namespace
 
-std::vector<uint32_t> felt_objects(const FrameReport& report) {
+std::vector<uint32_t> felt_objects(const DrawnFrame& report) {
   std::vector<uint32_t> felt;
   if (report.touch.on && !(report.touch.motion_fraction > 0)) return felt;
   const bool all = report.frame.choice.is_free() && report.motion == MotionKind::kObjects;
@@ -72,7 +72,7 @@ ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible)
   return {centre_px(visible) + object.drawn_low_px(), centre_px(visible) + object.drawn_high_px()};
 }
 
-Eigen::Vector2d force_origin_px(const FrameReport& report) {
+Eigen::Vector2d force_origin_px(const DrawnFrame& report) {
   const Eigen::Vector2d middle_px = centre_px(report.visible);
   if (report.felt.size() != 1) return middle_px;
   const uint32_t felt = report.felt.front();
@@ -96,7 +96,7 @@ Eigen::Vector2d force_origin_px(const FrameReport& report) {
   });
 }
 
-void PointOwners::find(FrameReport& report) {
+void PointOwners::find(DrawnFrame& report) {
   report.felt = felt_objects(report);
   report.points.clear();
   report.lost.clear();
@@ -120,7 +120,7 @@ void PointOwners::find(FrameReport& report) {
   before_ = report.points;
 }
 
-void PointOwners::compare(FrameReport& report) {
+void PointOwners::compare(DrawnFrame& report) {
   std::sort(before_.begin(), before_.end(), by_id);
   std::vector<OwnedPoint> now = report.points;
   std::sort(now.begin(), now.end(), by_id);

@@ -12,11 +12,11 @@ namespace spidar {
 
 /// Ids of the objects in sight whose motion is felt: one, or with MotionKind::kObjects all of which
 /// nobody chose one; none while only the surface is felt.
-std::vector<uint32_t> felt_objects(const FrameReport& report);
+std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 
 /// Where the arrow of the force begins, in pixels of the frame: on the one object that is
 /// felt, where its points are and not merely its box, else in the middle of the picture.
-Eigen::Vector2d force_origin_px(const FrameReport& report);
+Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 
 /// Corners of an object's box, in pixels of the frame.
 struct ObjectCorners {
@@ -28,12 +28,12 @@ ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible)
 class PointOwners {
  public:
   /// Fills in points, lost and felt of a frame that was analysed.
-  void find(FrameReport& report);
+  void find(DrawnFrame& report);
   /// Call before frames that are not analysed.
   void reset() { compares_ = false; }
 
  private:
-  void compare(FrameReport& report);
+  void compare(DrawnFrame& report);
 
   std::vector<OwnedPoint> before_;
   bool compares_ = false;  ///< the previous frame was analysed for points

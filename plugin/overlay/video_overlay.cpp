@@ -281,7 +281,7 @@ void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) 
 
 }  // namespace
 
-void draw_overlay(const FrameReport& report, bool has_points, double scale, GstVideoFrame& frame,
+void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve) {
   const VisiblePart& visible = report.visible;
   const std::vector<uint32_t>& felt = report.felt;

@@ -64,7 +64,7 @@ class ForceCurve {
 /// force, and the contact force from that point. With `has_points`, also draws one arrow per point
 /// and a cross at each lost point; with a `curve`, that along the lower edge. `frame` must be
 /// mapped for writing.
-void draw_overlay(const FrameReport& report, bool has_points, double scale, GstVideoFrame& frame,
+void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve = nullptr);
 
 }  // namespace spidar

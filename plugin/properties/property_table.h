@@ -161,9 +161,9 @@ struct Property {
 template <typename Settings>
 class PropertyTable {
  public:
-  using Rows = std::vector<Property<Settings>>;
-  PropertyTable(std::initializer_list<Rows> parts) {
-    for (const Rows& part : parts) rows_.insert(rows_.end(), part.begin(), part.end());
+  PropertyTable(std::initializer_list<std::vector<Property<Settings>>> parts) {
+    for (const std::vector<Property<Settings>>& part : parts)
+      rows_.insert(rows_.end(), part.begin(), part.end());
   }
 
   /// Class initialisation. The id of a property is its position in the table, from 1 on.
@@ -188,7 +188,7 @@ class PropertyTable {
   }
 
  private:
-  Rows rows_;
+  std::vector<Property<Settings>> rows_;
 };
 
 /// What a change of a property does besides, for what does not read the settings by itself.

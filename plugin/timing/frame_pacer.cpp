@@ -76,13 +76,13 @@ PacedTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
   return time;
 }
 
-void FramePacer::take(const PacedTime& time, bool moved) {
-  pass(time);
+void FramePacer::push(const PacedTime& time, bool moved) {
+  advance(time);
   ++frames_in_segment_;
   if (moved && time.since_ns > 0) last_interval_ns_ = time.since_ns;
 }
 
-void FramePacer::pass(const PacedTime& time) {
+void FramePacer::advance(const PacedTime& time) {
   last_running_ns_ = time.running_ns;
   last_paced_ns_ = time.paced_ns;
 }

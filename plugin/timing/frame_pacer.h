@@ -57,9 +57,9 @@ class FramePacer {
   PacedTime at(int64_t running_ns, double rate_multiplier) const;
 
   /// A frame was analysed; `moved` when something was measured since the frame before.
-  void take(const PacedTime& time, bool moved);
+  void push(const PacedTime& time, bool moved);
   /// A frame was passed that has no picture.
-  void pass(const PacedTime& time);
+  void advance(const PacedTime& time);
   void begin_segment() { frames_in_segment_ = 0; }
   /// Running time begins anew.
   void reset();

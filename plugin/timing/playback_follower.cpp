@@ -93,8 +93,8 @@ GstClockTimeDiff PresentationDelay::value_ns() const {
   return shown_ns.value_or(pads_ns + told_ns_);
 }
 
-void PlaybackFollower::begin(Publish publish, PlaybackSync::Now now, void* now_user,
-                             bool threaded) {
+void PlaybackFollower::begin(std::function<void(const PlaybackClock&)> publish,
+                             PlaybackSync::Now now, void* now_user, bool threaded) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (threaded) thread_ = start_thread("spidar-clock", [this] { run(); });
   publish_ = std::move(publish);

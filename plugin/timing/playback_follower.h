@@ -56,14 +56,13 @@ class PresentationDelay {
 /// changes the base time and an audio clock drifts. Thread-safe.
 class PlaybackFollower {
  public:
-  using Publish = std::function<void(const PlaybackClock&)>;
-
   explicit PlaybackFollower(GstElement* element) : element_(element) {}
   ~PlaybackFollower() { end(); }
 
   /// A device begins to follow playback, which is not playing yet. `now` as in PlaybackSync.
   /// Without a thread the owner calls refresh().
-  void begin(Publish publish, PlaybackSync::Now now, void* now_user, bool threaded);
+  void begin(std::function<void(const PlaybackClock&)> publish, PlaybackSync::Now now,
+             void* now_user, bool threaded);
   /// Publishes nothing any more.
   void end();
 
@@ -86,7 +85,7 @@ class PlaybackFollower {
   GstElement* const element_;  ///< owns the owner of this
   std::mutex mutex_;
   std::condition_variable changed_;
-  Publish publish_;  ///< null: there is no device
+  std::function<void(const PlaybackClock&)> publish_;  ///< null: there is no device
   PlaybackSync sync_{nullptr, nullptr};
   PresentationDelay delay_;
   bool sink_outdated_ = false;

@@ -41,20 +41,6 @@
 
 namespace spidar::tools {
 
-/// Records the haptic track of one film.
-struct FilmOutcome {
-  std::string felt;    ///< how much of the film is felt, and why the rest is not
-  std::string remark;  ///< what else is to be known of it; usually empty
-};
-
-/// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
-/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
-/// is called in another thread with the percentage that is done, whenever it rises. Throws
-/// std::runtime_error.
-FilmOutcome record_film(const std::string& film, const PartFile& track,
-                        const RecordProperties& properties,
-                        const std::function<void(int percent)>& tell);
-
 namespace {
 
 /// Which file it is, and how it was left.
@@ -94,11 +80,13 @@ void tag(GstElement* extract, const tracks::Notes& notes) {
   tracks::tag(wrench.get(), notes);
 }
 
-}  // namespace
-
-FilmOutcome record_film(const std::string& film, const PartFile& track,
-                        const RecordProperties& properties,
-                        const std::function<void(int percent)>& tell) {
+/// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
+/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
+/// is called in another thread with the percentage that is done, whenever it rises. Throws
+/// std::runtime_error.
+FilmResult record_film(const std::string& film, const PartFile& track,
+                       const RecordProperties& properties,
+                       const std::function<void(int percent)>& tell) {
   struct stat at_first {
   }, at_last{};
   stat(film.c_str(), &at_first);
@@ -142,10 +130,8 @@ FilmOutcome record_film(const std::string& film, const PartFile& track,
   if (!why.empty()) throw std::runtime_error(why);
   if (film_end(film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   stored.check(track);
-  return {watch.felt(), watch.remark()};
+  return {watch.felt(), watch.remark(), {}, {}};
 }
-
-namespace {
 
 constexpr const char* kMark = "--film-process";
 constexpr int kNoPart = -1;
@@ -274,31 +260,23 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
   });
   await_end(process);
   if (last.contains("error")) throw std::runtime_error(last["error"].get<std::string>());
-  return {last["felt"], last["remark"], last["summary"]};
+  return {last["felt"], last["remark"], last["other"], last["summary"]};
 }
 
 // --- the process of a film
 
-class Answering {
- public:
-  explicit Answering(int descriptor) : descriptor_(descriptor) {}
-
-  void say(const Json& answer) const {
-    std::string bytes;
-    Json::to_msgpack(answer, bytes);
-    const auto length = static_cast<uint32_t>(bytes.size());
-    bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
-    for (size_t at = 0; at < bytes.size();) {
-      const ssize_t written = write(descriptor_, bytes.data() + at, bytes.size() - at);
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) _exit(kFailed);  // nobody waits for it
-      at += static_cast<size_t>(written);
-    }
+void say(int descriptor, const Json& answer) {
+  std::string bytes;
+  Json::to_msgpack(answer, bytes);
+  const auto length = static_cast<uint32_t>(bytes.size());
+  bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
+  for (size_t at = 0; at < bytes.size();) {
+    const ssize_t written = write(descriptor, bytes.data() + at, bytes.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) _exit(kFailed);  // nobody waits for it
+    at += static_cast<size_t>(written);
   }
-
- private:
-  const int descriptor_;
-};
+}
 
 /// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
 /// be felt), largest_force_N, fingerprint and settings.
@@ -314,19 +292,19 @@ Json summary_of(const std::string& track) {
           {"settings", condition.notes.settings.value_or("")}};
 }
 
-void inspect(const std::string& film, const std::string& track, const std::string& settings) {
+/// FilmResult::other
+std::string why_other(const std::string& film, const std::string& track,
+                      const std::string& settings) {
   const std::string again = "; --force records it again";
-  if (std::filesystem::is_empty(track)) throw std::runtime_error(track + " is empty" + again);
+  if (std::filesystem::is_empty(track)) return track + " is empty" + again;
   const tracks::Notes notes = tracks::notes_of(track);
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
-    throw std::runtime_error(track + " was recorded with " + shown(*notes.settings) +
-                             ", and not with " + shown(settings) + again);
+    return track + " was recorded with " + shown(*notes.settings) + ", and not with " +
+           shown(settings) + again;
   }
-  if (notes.film.empty()) return;
-  if (!find_picture(notes.film, read_film(film).packets)) {
-    throw std::runtime_error(track + " is the track of another film: " + kOtherPictures + again);
-  }
+  if (notes.film.empty() || find_picture(notes.film, read_film(film).packets)) return {};
+  return track + " is the track of another film: " + kOtherPictures + again;
 }
 
 /// Its descriptors are of this process alone.
@@ -343,7 +321,7 @@ FilmResult record_in_process(const FilmJob& job, const PartFile& part,
   return run(job, part.descriptor(), tell);
 }
 
-FilmResult inspect_in_process(const FilmJob& job) {
+FilmResult check_in_process(const FilmJob& job) {
   return run(job, kNoPart, [](int) {});
 }
 
@@ -352,7 +330,7 @@ int run_film_process(int argc, char** argv) {
   // It ends with its parent, also when that is killed; signals that end the parent are blocked.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
-  const Answering answers(number_of_descriptor(argv[kAnswers]));
+  const int answers = number_of_descriptor(argv[kAnswers]);
   const int descriptor = number_of_descriptor(argv[kPart]);
   const std::string film = argv[kFilm], track = argv[kTrack];
   RecordProperties properties;
@@ -363,22 +341,24 @@ int run_film_process(int argc, char** argv) {
   try {
     gst_init(nullptr, nullptr);
     std::string recorded = track;
-    Json result = {{"felt", ""}, {"remark", ""}};
+    FilmResult result;
     if (descriptor == kNoPart) {
-      inspect(film, track, properties.settings);
+      result.other = why_other(film, track, properties.settings);
     } else {
       const PartFile part(track, descriptor);
       recorded = part.path();
-      const FilmOutcome outcome = record_film(film, part, properties, [&answers](int percent) {
-        answers.say({{"percent", percent}});
+      result = record_film(film, part, properties, [answers](int percent) {
+        say(answers, {{"percent", percent}});
       });
-      result = {{"felt", outcome.felt}, {"remark", outcome.remark}};
     }
-    result["summary"] = std::atoi(argv[kIsSummarised]) ? summary_of(recorded) : Json::object();
-    answers.say(result);
+    const bool is_summarised = std::atoi(argv[kIsSummarised]) && result.other.empty();
+    say(answers, {{"felt", result.felt},
+                  {"remark", result.remark},
+                  {"other", result.other},
+                  {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
     return kDone;
   } catch (const std::exception& error) {
-    answers.say({{"error", error.what()}});
+    say(answers, {{"error", error.what()}});
     return kFailed;
   }
 }

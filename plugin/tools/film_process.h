@@ -24,6 +24,7 @@ struct FilmJob {
 struct FilmResult {
   std::string felt;    ///< how much of the film is felt, and why the rest is not
   std::string remark;  ///< what else is to be known of it; usually empty
+  std::string other;   ///< why the track that is there is another than would be recorded, or empty
   Json summary;        ///< of the track, an object; without is_summarised, it is empty
 };
 
@@ -33,10 +34,10 @@ struct FilmResult {
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
                              const std::function<void(int percent)>& tell);
 
-/// Whether the track that is there is what would be made; one that says nothing of itself was made
-/// by hand, or by an older version, and may be. Throws std::runtime_error, which says why it is
-/// not.
-FilmResult inspect_in_process(const FilmJob& job);
+/// Compares the track that is there with the one that would be recorded. A track without notes was
+/// made by hand or by an older version, and counts as the same. Throws std::runtime_error when the
+/// film cannot be read, or the process fails.
+FilmResult check_in_process(const FilmJob& job);
 
 /// The main function of such a process; −1 when these are arguments of a user. Before gst_init().
 int run_film_process(int argc, char** argv);

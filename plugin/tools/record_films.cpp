@@ -116,9 +116,6 @@ class FilmBatch {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  using Result = RecordReport::Result;
-
   struct Film {
     size_t index;
     bool is_elsewhere = false;  ///< another process is recording it
@@ -156,7 +153,7 @@ class FilmBatch {
       if (is_new) {
         waiting_.push_back({i});
       } else if (fs::equivalent(film.path, other, none)) {
-        report_.done(i, Result::kTwice, "is given twice");
+        report_.done(i, RecordReport::Result::kTwice, "is given twice");
       } else {
         fail(i, options_.file_of(film).string() + " is for " + other +
                     "; give films of the same name different folders");
@@ -197,15 +194,15 @@ class FilmBatch {
     if (!part) return false;
     if (is_done(index, track)) return true;  // in the meantime
     report_.progress(index, 0);
-    const Clock::time_point begin = Clock::now();
+    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     const auto tell = [&](int percent) { report_.progress(index, percent); };
     const FilmResult result = record_in_process(job_of(index), *part, tell);
     const std::string more = part->publish();
     const std::string remark = with_warning(
         result.remark + (result.remark.empty() || more.empty() ? "" : "; ") + more, film, track);
-    const std::chrono::duration<double> taken = Clock::now() - begin;
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     manifest_.add({film, track, "recorded", remark, taken.count(), result.summary});
-    report_.done(index, Result::kRecorded,
+    report_.done(index, RecordReport::Result::kRecorded,
                  track.string() + "; " + result.felt + (remark.empty() ? "" : "; " + remark));
     return true;
   }
@@ -236,15 +233,17 @@ class FilmBatch {
     } catch (const std::exception& error) {
       cause += std::string("; ") + error.what();
     }
-    report_.done(index, Result::kError, cause);
+    report_.done(index, RecordReport::Result::kError, cause);
   }
 
   bool is_done(size_t index, const fs::path& track) {
     if (options_.force || !fs::exists(track)) return false;
     const std::string& film = options_.films[index].path;
-    const FilmResult result = inspect_in_process(job_of(index));
+    const FilmResult result = check_in_process(job_of(index));
+    if (!result.other.empty()) throw std::runtime_error(result.other);
     manifest_.add({film, track, "there", "", 0, result.summary});
-    report_.done(index, Result::kThere, with_warning(track.string() + " is there", film, track));
+    report_.done(index, RecordReport::Result::kThere,
+                 with_warning(track.string() + " is there", film, track));
     return true;
   }
 

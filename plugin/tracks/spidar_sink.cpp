@@ -40,9 +40,9 @@
 #include "core/track/track_format.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/frame/motion_message.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/output/device_warnings.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/output/no_force.h"
 #include "plugin/properties/device_rows.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/timing/instant_rate.h"
@@ -86,41 +86,43 @@ struct SinkProperties {
 
 /// All of spidarsink, `stats` included; `ts-offset` is that of every sink.
 inline const PropertyTable<SinkProperties>& sink_properties() {
-  using SinkRow = Property<SinkProperties>;
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<SinkProperties>{{
-      SinkRow::text({"device", "Device",
-                     "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, "
-                     "or 'auto' (what is plugged in). Opened from NULL to READY"},
-                    kNull, KEPT_IN(device)),
+      Property<SinkProperties>::text(
+          {"device", "Device",
+           "Haptic device: 'sim' (simulated SPIDAR), one that 'spidarctl list' prints, "
+           "or 'auto' (what is plugged in). Opened from NULL to READY"},
+          kNull, KEPT_IN(device)),
       profile_row<SinkProperties>(),
-      SinkRow::number({"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0,
-                      20, kControllable, KEPT_IN(max_force_N)),
-      SinkRow::number(
+      Property<SinkProperties>::number(
+          {"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0, 20,
+          kControllable, KEPT_IN(max_force_N)),
+      Property<SinkProperties>::number(
           {"gain", "Gain",
            "Factor on force and torque of the track. A change takes effect after the 0.2 s "
            "of samples that are already queued"},
           0, 100, kControllable, KEPT_IN(gain)),
-      SinkRow::on_off(
+      Property<SinkProperties>::on_off(
           {"mute", "Mute",
            "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
            "property is set to false"},
           kControllable, KEPT_IN(mute)),
-      SinkRow::on_off(
+      Property<SinkProperties>::on_off(
           {"post-messages", "Post messages",
            "Post a 'spidar-motion' element message for each 40 ms of the track, as long as fewer "
            "than 1000 of them wait on the bus"},
           kPlaying, KEPT_IN(post_messages)),
-      SinkRow::on_off(
+      Property<SinkProperties>::on_off(
           {"accept-unmarked", "Accept unmarked",
            "Feel sound of six channels that nothing marks as a haptic track. Tracks that "
            "spidarextract and spidartrack make are marked by a tag; other sound is not felt"},
           kReady, KEPT_IN(accept_unmarked)),
       on_device_error_row<SinkProperties>(),
       haptic_trace_row<SinkProperties>(),
-      SinkRow::statistics({"stats", "Statistics",
-                           "Statistics: samples and their faults, state and timing of the haptic "
-                           "loop"}),
+      Property<SinkProperties>::statistics(
+          {"stats", "Statistics",
+           "Statistics: samples and their faults, state and timing of the haptic "
+           "loop"}),
   }};
   return table;
 }

@@ -140,7 +140,7 @@ TrackSample Input::sample(size_t i, double gain) {
 }
 
 GstFlowReturn Input::read(GstBuffer* buffer, const GstSegment& segment, double gain,
-                          const Give& give) {
+                          const std::function<GstFlowReturn(const TrackBlock&)>& give) {
   const int rate_Hz = GST_AUDIO_INFO_RATE(&info_);
   const size_t count = samples_in(buffer);
   const auto length = [rate_Hz](size_t samples) {

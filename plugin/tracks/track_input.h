@@ -41,8 +41,8 @@ class Input {
   /// Gives the samples of `buffer` that lie in `segment`, times `gain`, in blocks of rising running
   /// time, until `give` returns something else than GST_FLOW_OK. Played backwards the last sample
   /// comes first. A buffer without a timestamp follows the one before.
-  using Give = std::function<GstFlowReturn(const TrackBlock&)>;
-  GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain, const Give& give);
+  GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain,
+                     const std::function<GstFlowReturn(const TrackBlock&)>& give);
 
   /// Running time of the end of what was read; GST_CLOCK_TIME_NONE before.
   GstClockTime end() const { return end_; }

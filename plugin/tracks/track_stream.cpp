@@ -207,7 +207,7 @@ void Stream::reset() {
 GstFlowReturn Stream::put_until(int64_t time_ns) {
   while (sampler_.next_ns() < time_ns) {
     const auto pts = static_cast<GstClockTime>(sampler_.next_ns());
-    const GstFlowReturn flow = put(to_track_sample(sampler_.take()), pts);
+    const GstFlowReturn flow = put(to_track_sample(sampler_.next()), pts);
     if (flow != GST_FLOW_OK) return flow;
   }
   return GST_FLOW_OK;

@@ -25,8 +25,6 @@
 namespace spidar::window {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* kNotOpen = "the debug window is not open";
 
 }  // namespace
@@ -47,7 +45,7 @@ class Window::Session {
 
   void close();
   bool wants_frame() const { return is_asking_ && !is_full_; }
-  bool give(const GstVideoFrame& frame, FrameReport report);
+  bool give(const GstVideoFrame& frame, DrawnFrame report);
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
   void say(ToWindow message);
 
@@ -99,7 +97,7 @@ std::shared_ptr<PictureSlots> Window::Session::slots_for(const GstVideoFrame& fr
   return slots_->is_there() ? slots_ : nullptr;
 }
 
-bool Window::Session::give(const GstVideoFrame& frame, FrameReport report) {
+bool Window::Session::give(const GstVideoFrame& frame, DrawnFrame report) {
   std::shared_ptr<PictureSlots> slots;
   std::optional<uint32_t> slot;
   {
@@ -184,7 +182,7 @@ void Window::Session::fail(const std::string& error) {
 /// Until the window has closed its end, or has had its time for that. False when it sends what is
 /// no message.
 bool Window::Session::serve(Channel& channel) {
-  std::optional<Clock::time_point> latest;
+  std::optional<std::chrono::steady_clock::time_point> latest;
   while (!channel.is_gone()) {
     const auto events = static_cast<short>(POLLIN | (channel.has_unsent() ? POLLOUT : 0));
     std::array<pollfd, 2> files{{{channel.socket(), events, 0}, {wake_, POLLIN, 0}}};
@@ -201,8 +199,8 @@ bool Window::Session::serve(Channel& channel) {
       handle(channel, std::move(*message));
     }
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_closing_ && !latest) latest = Clock::now() + kPatience;
-    if (latest && Clock::now() > *latest) break;
+    if (is_closing_ && !latest) latest = std::chrono::steady_clock::now() + kPatience;
+    if (latest && std::chrono::steady_clock::now() > *latest) break;
   }
   return !channel.is_not_understood();
 }
@@ -326,7 +324,7 @@ bool Window::wants_frame() const {
   return session_->wants_frame();
 }
 
-bool Window::give(const GstVideoFrame& frame, FrameReport report) {
+bool Window::give(const GstVideoFrame& frame, DrawnFrame report) {
   return session_->give(frame, std::move(report));
 }
 

@@ -59,7 +59,7 @@ class Window {
   bool wants_frame() const;
   /// Copies the frame. False when it is left out, because the window is slow or there is no memory:
   /// the next will do.
-  bool give(const GstVideoFrame& frame, FrameReport report);
+  bool give(const GstVideoFrame& frame, DrawnFrame report);
 
   // --- any thread
 

@@ -341,7 +341,7 @@ const std::string& Device::name() const {
 
 std::vector<std::string> list_devices() {
   std::vector<std::string> names;
-  for (const spidar::BoardInfo& board : spidar::list_boards()) names.push_back(board.device);
+  for (const spidar::DeviceInfo& board : spidar::list_boards()) names.push_back(board.device);
   return names;
 }
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 #include "spidar/api/vectors.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/realtime/monotonic.h"

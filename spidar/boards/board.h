@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -34,34 +35,12 @@ struct Settings {
   bool threaded = true;
 };
 
-/// How far a driver has been tested.
-enum class Verification {
-  kHardware,  ///< on the real board
-  kEmulated,  ///< on an emulated board that follows the published description
-  kInferred,  ///< parts of it are inferred, which an emulation cannot confirm
-};
-
-/// "tried on hardware", "emulated", "inferred".
-inline const char* to_string(Verification verification) noexcept {
-  switch (verification) {
-    case Verification::kHardware:
-      return "tried on hardware";
-    case Verification::kEmulated:
-      return "emulated";
-    case Verification::kInferred:
-      return "inferred";
-  }
-  return "unknown";
-}
-
-/// `OutputType` is what it puts out, `ReadingType` what it reads. To be used by one thread at a
-/// time.
-template <typename OutputType, typename ReadingType>
+/// `Output` is what it puts out, `Reading` what it reads. To be used by one thread at a time.
+template <typename Output, typename Reading>
 class BoardOf {
  public:
-  using Output = OutputType;
-  using Reading = ReadingType;
-
+  /// `name` is for messages: "usb:1-2", …
+  explicit BoardOf(std::string name) : name_(std::move(name)) {}
   virtual ~BoardOf() = default;
 
   /// Claims, identifies and resets the board and reads it once with the motors at zero. Throws
@@ -100,8 +79,10 @@ class BoardOf {
   /// Describes for people what open() found.
   virtual std::string description() const = 0;
 
-  /// Name for messages: "usb:1-2", …
-  virtual const std::string& name() const noexcept = 0;
+  const std::string& name() const noexcept { return name_; }
+
+ protected:
+  const std::string name_;
 };
 
 /// Motors and encoders: puts out volts, reads counts.
@@ -132,6 +113,7 @@ struct ForceReading {
 /// Shortens a force that it cannot give, and gives none for one that is not a number.
 class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
  public:
+  using BoardOf::BoardOf;
   /// See Grip::abilities(). Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
   /// See Grip::warning(). Any thread.

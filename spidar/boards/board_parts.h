@@ -15,8 +15,6 @@
 #include "spidar/guardian/guardian.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/protocols/bytes.h"
-#include "spidar/protocols/cyverse.h"
-#include "spidar/protocols/uart_motor.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/transports/transport.h"
 
@@ -27,14 +25,13 @@ template <typename BoardType>
 class OnTransport : public BoardType {
  public:
   OnTransport(std::string name, std::unique_ptr<Transport> transport)
-      : name_(std::move(name)), transport_(std::move(transport)) {}
+      : BoardType(std::move(name)), transport_(std::move(transport)) {}
 
   void recover() noexcept override { transport_->recover(); }
   void close() noexcept override { transport_->close(); }
-  const std::string& name() const noexcept final { return name_; }
 
  protected:
-  const std::string name_;
+  using BoardType::name_;
   const std::unique_ptr<Transport> transport_;
 };
 
@@ -94,25 +91,12 @@ struct DacScale {
   double volt(int digits) const noexcept { return digits / digits_per_V; }
 };
 
-/// D/A converters of the CyVerse boards, from zero to the profile's largest voltage. Their range is
-/// not published (inferred, because all published digits are positive).
-inline DacScale unipolar_dac(const Profile& profile) noexcept {
-  return {sh4::kMaxDigit / profile.dac_max_V, 0, sh4::kMaxDigit};
-}
-
-inline DacScale uart_dac(const Profile&) noexcept {
-  return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
-}
-
 /// What the protocol of a board defines for every board of its kind.
 struct Traits {
   int dac_bits = 12;
   double max_V = 0;      ///< of its D/A; 0: not published, the profile has it
   bool negative = true;  ///< whether it puts out negative volts
 };
-
-constexpr Traits kCyverseTraits{sh4::kDacBits, 0, false};
-constexpr Traits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
 
 /// Why the profile describes a board that this one cannot be, as the end of a sentence with the
 /// field's name: "has dac_bits = 16, …". Empty if it fits.

@@ -12,7 +12,7 @@ namespace spidar::boards {
 Cyverse::Cyverse(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
                  int counter_bits)
     : OnTransport(std::move(name), std::move(transport)),
-      dac_(unipolar_dac(profile)),
+      dac_(cyverse_dac(profile)),
       counts_(counter_bits) {
   require_fitting(name_, profile, kCyverseTraits);
 }
@@ -34,7 +34,7 @@ void Cyverse::open() {
 
 LinkFault Cyverse::cycle(const MotorVolts& volts, DeviceReading& reading,
                          int64_t deadline_ns) noexcept {
-  DacDigits digits{};
+  CyverseDigits digits{};
   for (size_t i = 0; i < digits.size(); ++i) {
     digits[i] = static_cast<uint16_t>(dac_.digit(volts.volt[i]));
   }
@@ -61,7 +61,8 @@ LinkFault Sh4::reset(int64_t) noexcept {
   return LinkFault::kNone;
 }
 
-LinkFault Sh4::exchange(const DacDigits& digits, Readout& readout, int64_t deadline_ns) noexcept {
+LinkFault Sh4::exchange(const CyverseDigits& digits, Readout& readout,
+                        int64_t deadline_ns) noexcept {
   sent_[sent_at_] = digits;
   sent_at_ = (sent_at_ + 1) % kEchoes;
   sh4::encode_update(digits, out_);
@@ -80,7 +81,7 @@ LinkFault Sh4::exchange(const DacDigits& digits, Readout& readout, int64_t deadl
 }
 
 std::string Sh4::description() const {
-  return "CyVerse USB 2.0 SH4, rotary switch " + std::to_string(rotary());
+  return transport_->where() + "CyVerse USB 2.0 SH4, rotary switch " + std::to_string(rotary());
 }
 
 std::vector<uint8_t> Sh4::zero_packet() const {
@@ -106,7 +107,7 @@ LinkFault Simple::reset(int64_t deadline_ns) noexcept {
   return transport_->exchange({direction}, {}, deadline_ns).fault;
 }
 
-LinkFault Simple::exchange(const DacDigits& digits, Readout& readout,
+LinkFault Simple::exchange(const CyverseDigits& digits, Readout& readout,
                            int64_t deadline_ns) noexcept {
   usb_simple::encode_set_dac(digits, set_dac_);
   const Transfer transfer = transport_->exchange({set_dac_, latch_}, in_, deadline_ns);
@@ -124,7 +125,7 @@ LinkFault Simple::exchange(const DacDigits& digits, Readout& readout,
 }
 
 std::string Simple::description() const {
-  return "CyVerse USB 2.0 Simple, rotary switch " + std::to_string(rotary());
+  return transport_->where() + "CyVerse USB 2.0 Simple, rotary switch " + std::to_string(rotary());
 }
 
 std::vector<uint8_t> Simple::zero_packet() const {

@@ -17,6 +17,14 @@
 
 namespace spidar::boards {
 
+constexpr Traits kCyverseTraits{sh4::kDacBits, 0, false};
+
+/// From zero to the profile's largest voltage. The range is not published (inferred, because all
+/// published digits are positive).
+inline DacScale cyverse_dac(const Profile& profile) noexcept {
+  return {sh4::kMaxDigit / profile.dac_max_V, 0, sh4::kMaxDigit};
+}
+
 class Cyverse : public OnTransport<Board> {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
@@ -33,8 +41,6 @@ class Cyverse : public OnTransport<Board> {
   int rotary() const noexcept final { return rotary_; }
 
  protected:
-  using DacDigits = std::array<uint16_t, kMaxStrings>;
-
   struct Readout {
     std::array<uint32_t, kMaxStrings> counter{};
     uint16_t inputs = 0;
@@ -43,7 +49,7 @@ class Cyverse : public OnTransport<Board> {
 
   /// Called before the first exchange after opening.
   virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
-  virtual LinkFault exchange(const DacDigits& digits, Readout& readout,
+  virtual LinkFault exchange(const CyverseDigits& digits, Readout& readout,
                              int64_t deadline_ns) noexcept = 0;
   /// The packet that sets all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
@@ -66,13 +72,13 @@ class Sh4 final : public Cyverse {
   static constexpr size_t kEchoes = 4;
 
   LinkFault reset(int64_t deadline_ns) noexcept override;
-  LinkFault exchange(const DacDigits& digits, Readout& readout,
+  LinkFault exchange(const CyverseDigits& digits, Readout& readout,
                      int64_t deadline_ns) noexcept override;
   std::vector<uint8_t> zero_packet() const override;
 
   sh4::Packet out_{};
   sh4::Packet in_{};
-  std::array<DacDigits, kEchoes> sent_{};
+  std::array<CyverseDigits, kEchoes> sent_{};
   size_t sent_at_ = 0;
 };
 
@@ -85,7 +91,7 @@ class Simple final : public Cyverse {
 
  private:
   LinkFault reset(int64_t deadline_ns) noexcept override;
-  LinkFault exchange(const DacDigits& digits, Readout& readout,
+  LinkFault exchange(const CyverseDigits& digits, Readout& readout,
                      int64_t deadline_ns) noexcept override;
   std::vector<uint8_t> zero_packet() const override;
 

@@ -93,8 +93,6 @@ class CountUnwrapper {
 
 class EncoderCounts {
  public:
-  using Raw = std::array<uint32_t, kMaxStrings>;
-
   /// 35 m/s at 17 µm per count, 16 m/s at the finest resolution of the profiles.
   static constexpr int32_t kMaxStepPer_ms = 2048;
   static_assert(8 * kMaxStepPer_ms <= CountUnwrapper::kMaxStep);
@@ -102,7 +100,7 @@ class EncoderCounts {
   explicit EncoderCounts(int bits) noexcept : unwrapper_(bits) {}
 
   /// First reading after opening.
-  void open(const Raw& raw, size_t channels) noexcept {
+  void open(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     first_ = raw;
     channels_ = channels;
     if (!counted_) unwrapper_.begin(raw, channels);
@@ -124,7 +122,7 @@ class EncoderCounts {
   /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores it if a counter
   /// changed by more than a hand can cause since the last reading, whether that one was good or
   /// not: the counters of a board that loses its power for a moment jump, and do not jump back.
-  bool follow(const Raw& raw, int64_t now_ns) noexcept {
+  bool follow(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {
     const int64_t passed_ms = std::clamp<int64_t>((now_ns - last_ns_) / 1'000'000, 0, 7);
     last_ns_ = now_ns;
     return unwrapper_.follow(raw, channels_, kMaxStepPer_ms * static_cast<int32_t>(1 + passed_ms));
@@ -134,7 +132,7 @@ class EncoderCounts {
 
  private:
   CountUnwrapper unwrapper_;
-  Raw first_{};
+  std::array<uint32_t, kMaxStrings> first_{};
   size_t channels_ = 0;
   int64_t last_ns_ = 0;
   bool counted_ = false;

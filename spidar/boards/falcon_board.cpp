@@ -141,11 +141,11 @@ void Falcon::open() {
     if (fault == LinkFault::kNone) fault = start();
   }
   if (fault != LinkFault::kNone) throw no_answer(name_, fault);
-  see();
+  update();
 }
 
 /// From the counts, if they are counted from the marks.
-void Falcon::see() noexcept {
+void Falcon::update() noexcept {
   position_.reset();
   if (!seen_.all_homed()) return;
   const Eigen::Vector3d angles_rad(falcon::angle_rad(seen_.count[0]),
@@ -176,7 +176,7 @@ LinkFault Falcon::cycle(const ForceOutput& output, ForceReading& reading,
   command.light = seen_.all_homed() ? falcon::Light::kGreen : falcon::Light::kRed;
   const LinkFault fault = ask(command, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  see();
+  update();
   reading.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   if (position_) reading.position_m = position_->position_m;
   reading.pose_fault = seen_.all_homed() ? PoseFault::kNoFit : PoseFault::kNotHomed;
@@ -196,7 +196,7 @@ std::vector<LastWill> Falcon::last_wills() const {
 }
 
 std::string Falcon::description() const {
-  return std::string("Novint Falcon") +
+  return transport_->where() + "Novint Falcon" +
          (seen_.all_homed() ? "" : "; pull its grip all the way out, then push it all the way in");
 }
 

@@ -54,7 +54,7 @@ class Falcon final : public OnTransport<ForceBoard> {
   LinkFault start() noexcept;
   LinkFault greet_loader() noexcept;
   LinkFault load(const std::vector<uint8_t>& firmware) noexcept;
-  void see() noexcept;
+  void update() noexcept;
   std::array<int, 3> digits_for(const Eigen::Vector3d& force_N) const noexcept;
 
   falcon::Packet out_{};

@@ -25,10 +25,9 @@ namespace spidar::boards {
 class ForceFeedback final : public ForceBoard {
  public:
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
-  using Updates = StickEffects::Updates;
   ForceFeedback(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
-                Updates updates, const StickEffects::Options& options = {})
-      : name_(std::move(name)),
+                StickEffects::Updates updates, const StickEffects::Options& options = {})
+      : ForceBoard(std::move(name)),
         reach_m_(half_picture_m(profile.geometry)),
         effects_(std::make_shared<StickEffects>(name_, std::move(transport), updates, options)) {}
   ~ForceFeedback() override { effects_->close(false); }
@@ -82,10 +81,8 @@ class ForceFeedback final : public ForceBoard {
             1000 / kUpdate_ms,
             buttons_};
   }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
-  const std::string name_;
   const Eigen::Vector2d reach_m_;  ///< of the stick, x and y
   const std::shared_ptr<StickEffects> effects_;
   std::atomic<int> force_axes_{2};     ///< 1: only x; 0: it only rumbles

@@ -20,12 +20,11 @@ namespace spidar::boards {
 /// takes the position from it. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:
-  /// Only the settings of the guardian and of the thread are used.
-  ForceGrip(std::unique_ptr<ForceBoard> board, const Settings& settings)
-      : board_(*board), traits_(traits_of(board_.abilities())), link_(std::move(board), settings) {}
+  explicit ForceGrip(std::unique_ptr<ForceLink> link)
+      : link_(std::move(link)), traits_(traits_of(link_->board().abilities())) {}
 
   void open() override {
-    link_.open();
+    link_->open();
     trust_ = {};
     reading_.delivered = {};
     reading_.pose = {};
@@ -39,10 +38,10 @@ class ForceGrip final : public Grip {
   LinkFault exchange(const GripCommand& command) noexcept override {
     const ForceOutput output = output_for(command);
     ForceReading answer;
-    const LinkFault fault = link_.exchange(output, answer);
+    const LinkFault fault = link_->exchange(output, answer);
     if (fault == LinkFault::kNone) {
       reading_.delivered.force_N = output.force_N;
-      see(answer, command);
+      update(answer, command);
     } else {
       // The device may not have received this tick.
       trust_.miss(command.now_ns);
@@ -52,13 +51,13 @@ class ForceGrip final : public Grip {
     return fault;
   }
   const GripReading& reading() const noexcept override { return reading_; }
-  void close() noexcept override { link_.close(); }
+  void close() noexcept override { link_->close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
-  std::string description() const override { return link_.description(); }
-  GripAbilities abilities() const noexcept override { return board_.abilities(); }
-  std::string warning() const override { return board_.warning(); }
-  LinkHealth health() const noexcept override { return link_.health(); }
-  const std::string& name() const noexcept override { return board_.name(); }
+  std::string description() const override { return link_->description(); }
+  GripAbilities abilities() const noexcept override { return link_->board().abilities(); }
+  std::string warning() const override { return link_->board().warning(); }
+  LinkHealth health() const noexcept override { return link_->health(); }
+  const std::string& name() const noexcept override { return link_->name(); }
 
  private:
   /// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not
@@ -69,7 +68,7 @@ class ForceGrip final : public Grip {
     return {false, free, 0, free ? Profile::kDriveLag_s : 0};
   }
   ForceOutput output_for(const GripCommand& command) const noexcept {
-    const GripAbilities can = board_.abilities();
+    const GripAbilities can = link_->board().abilities();
     ForceOutput output;
     output.on = command.power > 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,7 +80,7 @@ class ForceGrip final : public Grip {
     if (wanted_N > can.largest_force_N) output.force_N *= can.largest_force_N / wanted_N;
     return output;
   }
-  void see(const ForceReading& answer, const GripCommand& command) noexcept {
+  void update(const ForceReading& answer, const GripCommand& command) noexcept {
     reading_.buttons = answer.buttons;
     reading_.lag_ns = answer.lag_ns;
     const int64_t read_ns = PoseTrust::time_of(answer.read_ns, command.now_ns);
@@ -97,7 +96,7 @@ class ForceGrip final : public Grip {
       trust_.fail(fault, fault == PoseFault::kJump);
     }
     if (trust_.trusted()) {
-      reading_.motion.see(reading_.pose, trust_.located_ns());
+      reading_.motion.update(reading_.pose, trust_.located_ns());
     } else {
       reading_.motion.reset();
     }
@@ -109,11 +108,10 @@ class ForceGrip final : public Grip {
     return traits_.can_fly && trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
   }
 
-  const ForceBoard& board_;  ///< of the link
+  const std::unique_ptr<ForceLink> link_;
   const GripTraits traits_;
   GripReading reading_;
   PoseTrust trust_;
-  ForceLink link_;
 };
 
 }  // namespace spidar::boards

@@ -29,28 +29,45 @@ bool wait_until(sem_t& semaphore, int64_t monotonic_ns) noexcept {
   return true;
 }
 
+template <typename BoardType>
+std::vector<std::unique_ptr<BoardType>> one(std::unique_ptr<BoardType> board) {
+  std::vector<std::unique_ptr<BoardType>> boards;
+  boards.push_back(std::move(board));
+  return boards;
+}
+
 }  // namespace
 
-template <typename Output, typename Reading>
-LinkThread<Output, Reading>::LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board,
-                                        const Settings& settings)
-    : board_(std::move(board)), settings_(settings) {
+template <typename BoardType, typename Output, typename Reading>
+LinkThread<BoardType, Output, Reading>::LinkThread(std::vector<std::unique_ptr<BoardType>> boards,
+                                                   std::function<BoardType&()> open,
+                                                   const Settings& settings)
+    : boards_(std::move(boards)),
+      open_board_(std::move(open)),
+      board_(boards_.front().get()),
+      settings_(settings) {
   sem_init(&requested_, 0, 0);
   sem_init(&replied_, 0, 0);
 }
 
-template <typename Output, typename Reading>
-LinkThread<Output, Reading>::~LinkThread() {
+template <typename BoardType, typename Output, typename Reading>
+LinkThread<BoardType, Output, Reading>::LinkThread(std::unique_ptr<BoardType> board,
+                                                   const Settings& settings)
+    : LinkThread(one(std::move(board)), {}, settings) {}
+
+template <typename BoardType, typename Output, typename Reading>
+LinkThread<BoardType, Output, Reading>::~LinkThread() {
   close();
   sem_destroy(&requested_);
   sem_destroy(&replied_);
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::open() {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::open() {
   close();
+  if (open_board_) board_ = &open_board_();
   try {
-    board_->open();
+    if (!open_board_) board_->open();
     if (settings_.guardian) {
       for (const LastWill& will : board_->last_wills()) {
         guardians_.push_back(std::make_unique<Guardian>(board_->name(), will));
@@ -70,8 +87,8 @@ void LinkThread<Output, Reading>::open() {
   open_ = true;
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::zero_counts() {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::zero_counts() {
   if (settings_.count_zero != CountZero::kNever && !zeroed_) board_->zero_counts();
   zeroed_ = true;
   if (!board_->counts_restarted()) return;
@@ -81,8 +98,8 @@ void LinkThread<Output, Reading>::zero_counts() {
                     "hold the grip at the centre, and stop and start again");
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::start() {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::start() {
   stop_ = false;
   thread_ = start_thread("spidar-link", [this] {
     request_exact_timers();
@@ -91,8 +108,8 @@ void LinkThread<Output, Reading>::start() {
   });
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::stop() noexcept {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::stop() noexcept {
   if (!thread_.joinable()) return;
   stop_ = true;
   sem_post(&requested_);
@@ -112,8 +129,8 @@ void LinkThread<Output, Reading>::stop() noexcept {
   }
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::run() noexcept {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::run() noexcept {
   while (!stop_) {
     if (sem_wait(&requested_) != 0) continue;
     Request request;
@@ -126,23 +143,23 @@ void LinkThread<Output, Reading>::run() noexcept {
 }
 
 /// Returns false when a connection has lost its guardian.
-template <typename Output, typename Reading>
-bool LinkThread<Output, Reading>::guarded(bool pulling) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+bool LinkThread<BoardType, Output, Reading>::guarded(bool pulling) noexcept {
   bool all = true;
   for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
   return all;
 }
 
-template <typename Output, typename Reading>
-LinkFault LinkThread<Output, Reading>::why_unguarded() const noexcept {
+template <typename BoardType, typename Output, typename Reading>
+LinkFault LinkThread<BoardType, Output, Reading>::why_unguarded() const noexcept {
   const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
                                   [](const auto& guardian) { return guardian->zeroed(); });
   return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
 }
 
-template <typename Output, typename Reading>
-typename LinkThread<Output, Reading>::Reply LinkThread<Output, Reading>::answer(
-    const Request& request) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+typename LinkThread<BoardType, Output, Reading>::Reply
+LinkThread<BoardType, Output, Reading>::answer(const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
   reply.fault = unguarded_;
@@ -161,8 +178,9 @@ typename LinkThread<Output, Reading>::Reply LinkThread<Output, Reading>::answer(
   return reply;
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::exchange_now(const Request& request, Reply& reply) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::exchange_now(const Request& request,
+                                                          Reply& reply) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
   reply.fault = board_->cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
@@ -178,14 +196,15 @@ void LinkThread<Output, Reading>::exchange_now(const Request& request, Reply& re
   }
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::count(LinkFault fault) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::count(LinkFault fault) noexcept {
   faults_[static_cast<size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
   if (fault != LinkFault::kNone) last_fault_.store(fault, std::memory_order_relaxed);
 }
 
-template <typename Output, typename Reading>
-LinkFault LinkThread<Output, Reading>::exchange(const Output& output, Reading& reading) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+LinkFault LinkThread<BoardType, Output, Reading>::exchange(const Output& output,
+                                                           Reading& reading) noexcept {
   if (!open_) return LinkFault::kGone;
   last_ = output;
   const Request request{++number_, output};
@@ -198,9 +217,9 @@ LinkFault LinkThread<Output, Reading>::exchange(const Output& output, Reading& r
 /// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
 /// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
 /// is none, the newest with a fault, or nothing.
-template <typename Output, typename Reading>
-std::optional<typename LinkThread<Output, Reading>::Reply> LinkThread<Output, Reading>::ask(
-    const Request& request) noexcept {
+template <typename BoardType, typename Output, typename Reading>
+std::optional<typename LinkThread<BoardType, Output, Reading>::Reply>
+LinkThread<BoardType, Output, Reading>::ask(const Request& request) noexcept {
   // When the queue is full, the board has not answered for some time, and this output is dropped.
   if (requests_.push(request)) sem_post(&requested_);
   const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
@@ -215,8 +234,8 @@ std::optional<typename LinkThread<Output, Reading>::Reply> LinkThread<Output, Re
   return best;
 }
 
-template <typename Output, typename Reading>
-bool LinkThread<Output, Reading>::bring_to_zero() noexcept {
+template <typename BoardType, typename Output, typename Reading>
+bool LinkThread<BoardType, Output, Reading>::bring_to_zero() noexcept {
   // What a guardian has set to zero must not be restored.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
@@ -229,8 +248,8 @@ bool LinkThread<Output, Reading>::bring_to_zero() noexcept {
   return put_out_zero();
 }
 
-template <typename Output, typename Reading>
-bool LinkThread<Output, Reading>::put_out_zero() noexcept {
+template <typename BoardType, typename Output, typename Reading>
+bool LinkThread<BoardType, Output, Reading>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
@@ -245,8 +264,8 @@ bool LinkThread<Output, Reading>::put_out_zero() noexcept {
   return false;
 }
 
-template <typename Output, typename Reading>
-void LinkThread<Output, Reading>::close() noexcept {
+template <typename BoardType, typename Output, typename Reading>
+void LinkThread<BoardType, Output, Reading>::close() noexcept {
   if (!open_) return;
   open_ = false;
   stop();
@@ -260,8 +279,8 @@ void LinkThread<Output, Reading>::close() noexcept {
   guardians_.clear();
 }
 
-template <typename Output, typename Reading>
-LinkHealth LinkThread<Output, Reading>::health() const noexcept {
+template <typename BoardType, typename Output, typename Reading>
+LinkHealth LinkThread<BoardType, Output, Reading>::health() const noexcept {
   LinkHealth health;
   for (size_t i = 0; i < kLinkFaults; ++i) {
     health.faults[i] = faults_[i].load(std::memory_order_relaxed);
@@ -274,7 +293,7 @@ LinkHealth LinkThread<Output, Reading>::health() const noexcept {
   return health;
 }
 
-template class LinkThread<MotorVolts, DeviceReading>;
-template class LinkThread<ForceOutput, ForceReading>;
+template class LinkThread<Board, MotorVolts, DeviceReading>;
+template class LinkThread<ForceBoard, ForceOutput, ForceReading>;
 
 }  // namespace spidar::boards

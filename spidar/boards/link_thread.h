@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <semaphore.h>
@@ -31,8 +32,8 @@ namespace spidar::boards {
 /// at once, and the device is lost until it is opened again with a new guardian.
 ///
 /// `Output` has a function pulls(output), whether it differs from rest, and scaled(output,
-/// fraction).
-template <typename Output, typename Reading>
+/// fraction). `BoardType` derives from BoardOf<Output, Reading>.
+template <typename BoardType, typename Output, typename Reading>
 class LinkThread final : public DeviceOf<Output, Reading> {
  public:
   /// Fraction of a tick of 1 ms; the loop uses the rest.
@@ -44,7 +45,10 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   static constexpr int kRamp_ms = 20;
 
   /// CountZero::kByProfile is for make_grip(); here it means kFirstOpen.
-  LinkThread(std::unique_ptr<BoardOf<Output, Reading>> board, const Settings& settings);
+  LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
+  /// Boards of which `open` opens and returns one; what it throws leaves none open.
+  LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
+             const Settings& settings);
   ~LinkThread() override;
 
   void open() override;
@@ -55,6 +59,8 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   std::string description() const override { return open_ ? board_->description() : ""; }
   const std::string& name() const noexcept override { return board_->name(); }
   LinkHealth health() const noexcept override;
+  /// The one that was opened last; before that, the first.
+  const BoardType& board() const noexcept { return *board_; }
 
  private:
   struct Request {
@@ -81,7 +87,9 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
 
-  const std::unique_ptr<BoardOf<Output, Reading>> board_;
+  const std::vector<std::unique_ptr<BoardType>> boards_;
+  const std::function<BoardType&()> open_board_;
+  BoardType* board_;  ///< that was opened last
   const Settings settings_;
   bool zeroed_ = false;  ///< the counts have been zeroed once
   std::vector<std::unique_ptr<Guardian>> guardians_;
@@ -108,7 +116,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   LatencyHistogram round_trip_;
 };
 
-using StringLink = LinkThread<MotorVolts, DeviceReading>;
-using ForceLink = LinkThread<ForceOutput, ForceReading>;
+using StringLink = LinkThread<Board, MotorVolts, DeviceReading>;
+using ForceLink = LinkThread<ForceBoard, ForceOutput, ForceReading>;
 
 }  // namespace spidar::boards

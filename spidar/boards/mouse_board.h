@@ -67,7 +67,7 @@ class Mouse final : public OnTransport<ForceBoard> {
     mouse::encode_stop(stop);
     return wills(*transport_, {zero, stop});
   }
-  std::string description() const override { return "SPIDAR-mouse"; }
+  std::string description() const override { return transport_->where() + "SPIDAR-mouse"; }
   GripAbilities abilities() const noexcept override { return kAbilities; }
 
  private:

@@ -21,13 +21,14 @@ namespace spidar::boards {
 /// update took. This costs no delay: a level is set in the same update that brings the next
 /// reading, when the position has just arrived.
 ///
-/// see() is called by the thread that makes the updates, everything else by the one that exchanges.
+/// update() is called by the thread that makes the updates, everything else by the one that
+/// exchanges.
 class StickPosition {
  public:
   /// The slowest that a position moves to a new reading.
   static constexpr int64_t kLongest_ns = 100'000'000;
 
-  /// Before see() is called for the first time.
+  /// Before update() is called for the first time.
   void start(const ff::Position& position, int64_t now_ns) noexcept {
     seen_ns_ = shown_ns_ = now_ns;
     aim_ = {position, now_ns};
@@ -35,7 +36,7 @@ class StickPosition {
     shown_ = fraction_of(position);
   }
 
-  void see(const ff::Position& position, int64_t now_ns) noexcept {
+  void update(const ff::Position& position, int64_t now_ns) noexcept {
     newest_.store({position, now_ns + std::min(now_ns - seen_ns_, kLongest_ns)});
     seen_ns_ = now_ns;
   }

@@ -238,7 +238,7 @@ LinkFault StickEffects::read_and_set() noexcept {
   ff::Position position;
   LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
   if (fault != LinkFault::kNone) return fault;
-  position_.see(position, now_ns());
+  position_.update(position, now_ns());
   fault = take_settings();
   if (fault == LinkFault::kNone) fault = set_one_level();
   return fault == LinkFault::kNone ? refresh() : fault;

@@ -17,7 +17,7 @@ static_assert(LastWill::kMaxLength >= uart_motor::kZerosBefore + uart_motor::kMa
 }  // namespace
 
 Uart::Uart(std::string name, const Profile& profile, std::vector<std::unique_ptr<Transport>> lines)
-    : name_(std::move(name)),
+    : Board(std::move(name)),
       strings_(static_cast<size_t>(profile.geometry.count)),
       dac_(uart_dac(profile)),
       lines_(std::move(lines)) {

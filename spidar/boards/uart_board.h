@@ -16,6 +16,12 @@
 
 namespace spidar::boards {
 
+constexpr Traits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
+
+inline DacScale uart_dac(const Profile&) noexcept {
+  return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
+}
+
 /// Strings are numbered by line, then by board number, then by motor.
 class Uart final : public Board {
  public:
@@ -31,7 +37,6 @@ class Uart final : public Board {
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   struct Station {
@@ -50,7 +55,6 @@ class Uart final : public Board {
   LinkFault exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
                          int64_t deadline_ns) noexcept;
 
-  const std::string name_;
   const size_t strings_;
   const DacScale dac_;
   const std::vector<std::unique_ptr<Transport>> lines_;

@@ -136,8 +136,7 @@ void describe_parameters(const Fit& fit, Result& result) {
 }
 
 void describe_motion(const std::vector<Pose>& poses, Result& result) {
-  using Range = Eigen::AlignedBox3d;
-  Range positions, turns;
+  Eigen::AlignedBox3d positions, turns;
   for (const Pose& pose : poses) {
     positions.extend(pose.position_m);
     turns.extend(rotation_vector(pose.orientation));

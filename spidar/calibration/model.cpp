@@ -103,10 +103,9 @@ namespace {
 using PoseManifold =
     ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
 constexpr int kPoseSize = 7;
-using PoseBlock = Eigen::Matrix<double, kPoseSize, 1>;
 
-PoseBlock to_block(const Pose& pose) {
-  PoseBlock block;
+Eigen::Matrix<double, kPoseSize, 1> to_block(const Pose& pose) {
+  Eigen::Matrix<double, kPoseSize, 1> block;
   block << pose.position_m, pose.orientation.coeffs();
   return block;
 }
@@ -166,7 +165,7 @@ void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, dou
   owned_here.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(owned_here);
 
-  std::vector<PoseBlock> blocks(bundle.poses.size());
+  std::vector<Eigen::Matrix<double, kPoseSize, 1>> blocks(bundle.poses.size());
   auto elimination_order = std::make_shared<ceres::ParameterBlockOrdering>();
   double* parameters = bundle.parameters.data();
   problem.AddParameterBlock(parameters, model.size());

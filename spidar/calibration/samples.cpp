@@ -101,16 +101,17 @@ CountSamples to_samples(const std::vector<DeviceReading>& readings, int strings)
 
 }  // namespace
 
-CountSamples record_counts(StringDevice& device, const Profile& profile,
-                           const RecordingSettings& settings, const NextTick& next_tick) {
+CountSamples record_counts(StringDevice& device, const Profile& profile, double seconds,
+                           double sample_period_s,
+                           const std::function<bool(double time_s)>& next_tick) {
   constexpr auto kRise = static_cast<int64_t>(HapticLoop::kEnergise_s / kTick_s + 0.5);
-  const auto period = static_cast<int64_t>(std::lround(settings.sample_period_s / kTick_s));
+  const auto period = static_cast<int64_t>(std::lround(sample_period_s / kTick_s));
   std::vector<DeviceReading> kept;
   int64_t tick = -kRise;  // the next one
   selftest::StringHold hold(device, profile,
                             [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
   if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) {
-    hold.stay(settings.seconds, [&](const DeviceReading& reading) {
+    hold.stay(seconds, [&](const DeviceReading& reading) {
       if ((tick - 1) % period == 0) kept.push_back(reading);
       return true;
     });

@@ -34,23 +34,17 @@ std::vector<StringVector> distinct_lengths_m(const Model& model, const CountSamp
 /// The pose at which the counters are zero.
 Pose pose_at_zero_count(const StringGeometry& geometry, const StringVector& home_offset_m);
 
-struct RecordingSettings {
-  double seconds = 20;             ///< > 0
-  double sample_period_s = 0.002;  ///< at least one tick, which is a millisecond
-};
-
-/// Called before every exchange with the time since recording began, which is negative while the
-/// strings are being energised. Waits until that time. Returning false ends the recording.
-using NextTick = std::function<bool(double time_s)>;
-
 /// Opens the device and sets the strings to their minimum tension, which keeps them taut without a
-/// deliberate force on the hand. Then reads counts once a millisecond and stores one row in each
-/// sample period. In every case, a ramp releases the strings at the end, and the device is closed.
-/// Failed exchanges give no sample.
+/// deliberate force on the hand. Then reads counts once a millisecond for `seconds` and stores one
+/// row in each sample period, which lasts a millisecond or longer. `next_tick` is called before
+/// every exchange with the time since recording began, which is negative while the strings are
+/// being energised, waits until that time, and returns false to end the recording. In every case, a
+/// ramp releases the strings at the end, and the device is closed. Failed exchanges give no sample.
 ///
 /// Throws DeviceError when the device cannot be opened or is lost, and whatever `next_tick` throws.
-CountSamples record_counts(StringDevice& device, const Profile& profile,
-                           const RecordingSettings& settings, const NextTick& next_tick);
+CountSamples record_counts(StringDevice& device, const Profile& profile, double seconds,
+                           double sample_period_s,
+                           const std::function<bool(double time_s)>& next_tick);
 
 /// Moves and rotates in all six directions at once, with incommensurable periods of about two to
 /// four seconds: by up to 0.4 of the frame's half-width and 0.45 rad in each direction. At the

@@ -10,23 +10,23 @@
 
 #include "spidar/boards/board.h"
 #include "spidar/boards/board_parts.h"
-#include "spidar/boards/usb_board.h"
 #include "spidar/emulation/emulated_transport.h"
 #include "spidar/emulation/simulated_motors.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/transports/usb_transport.h"
 
 namespace spidar {
 
 /// A device that make_grip() can open.
-struct BoardInfo {
-  std::string device;  ///< for make_grip(): "usb:1-2", "sim"
-  std::string name;    ///< "CyVerse USB 2.0 SH4"
-  std::string path;    ///< on the bus: "1-2"; empty for simulated devices
-  std::string serial;  ///< empty when it has none
-  std::string usb_id;  ///< "0cec:0205"; empty when not on USB
-  boards::Verification verification = boards::Verification::kEmulated;
-  std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
-  bool accessible = true;  ///< this process may open it
+struct DeviceInfo {
+  std::string device;         ///< for make_grip(): "usb:1-2", "sim"
+  std::string name;           ///< "CyVerse USB 2.0 SH4"
+  std::string path;           ///< on the bus: "1-2"; empty for simulated devices
+  std::string serial;         ///< empty when it has none
+  std::string usb_id;         ///< "0cec:0205"; empty when not on USB
+  const char* evidence = "";  ///< DeviceKind::evidence
+  std::string note;           ///< what is inferred, or why the device cannot be used; may be empty
+  bool accessible = true;     ///< this process may open it
   /// The profile with which it is driven if none is named: that of a simulation, that of a device
   /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
   /// no force until one is named (see profile_choice.h).
@@ -39,10 +39,19 @@ struct BoardInfo {
   bool directional = true;  ///< otherwise only the strength of the force is rendered
 };
 
-/// BoardInfo::note of a device that 70-spidar.rules would make accessible.
+/// DeviceInfo::note of a device that 70-spidar.rules would make accessible.
 constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
 
-struct DeviceKind : boards::BoardKind {
+struct DeviceKind {
+  const char* device = "";  ///< what its name for make_grip() begins with: "usb"
+  const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
+  /// Profile::board of profiles for it; empty for one without strings.
+  const char* profile_board = "";
+  UsbId usb;  ///< nothing for one that is not on USB
+  /// The board at the other end of this transport. Throws DeviceError when it cannot drive the
+  /// profile.
+  boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
+                             std::unique_ptr<Transport> transport) = nullptr;
   const char* board = "";  ///< "sh4", for sim:sh4; that of the real device if there is one only
   const char* names = "";  ///< how a real one may be named, separated by ", "
   /// With which it is driven if none is named: its simulation, and the real one, too, if it has no
@@ -51,10 +60,12 @@ struct DeviceKind : boards::BoardKind {
   /// What device=auto says that it has chosen, of a device without strings: "a Novint Falcon".
   /// Empty: it is used only if it is named.
   const char* chosen_as = "";
-  boards::Verification verification = boards::Verification::kEmulated;
+  /// How far the driver has been tested: "emulated", on a board that follows the published
+  /// description, or "inferred", in parts of it, which an emulation cannot confirm.
+  const char* evidence = "emulated";
   const char* note = "";  ///< what is inferred
   boards::Traits traits;  ///< of a board with strings: what profiles have to fit
-  /// The emulation of the board, connected to these motors.
+  /// The emulation of the board, connected to these motors; null when there is none.
   std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
   /// The motors of the simulation, and the hand that holds them.
   std::shared_ptr<emulated::Motors> (*simulated_motors)(
@@ -67,8 +78,9 @@ struct DeviceKind : boards::BoardKind {
   boards::AnyBoard (*make)(const std::string& name, const std::string& rest,
                            const Profile& profile) = nullptr;
   /// What is plugged in, as far as the system tells: the name, and what the kind does not say.
-  std::vector<BoardInfo> (*list)() = nullptr;
+  std::vector<DeviceInfo> (*list)() = nullptr;
 
+  bool has_strings() const noexcept { return *profile_board != '\0'; }
   /// Whether the name has to state which one is meant.
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };

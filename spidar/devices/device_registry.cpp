@@ -45,7 +45,7 @@ std::vector<const DeviceKind*> kinds_called(const std::string& device) {
 
 const DeviceKind* simulated_kind(const DeviceName& name) {
   for (const DeviceKind& kind : devices()) {
-    if (name.device == "sim" && name.rest == kind.board) return &kind;
+    if (name.device == "sim" && name.rest == kind.board && kind.emulate) return &kind;
   }
   return nullptr;
 }
@@ -53,6 +53,10 @@ const DeviceKind* simulated_kind(const DeviceName& name) {
 boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
                                  const Profile& profile,
                                  const emulated::SimulatedMechanics& mechanics) {
+  if (!kind.emulate) {
+    throw DeviceError(name + ": the driver of " + kind.title + " has no emulated board",
+                      DeviceErrorCode::kSettings);
+  }
   auto emulated = kind.emulate(kind.simulated_motors(profile, mechanics));
   return kind.attach(name, profile,
                      std::make_unique<emulated::Transport>(std::move(emulated),

@@ -49,19 +49,19 @@ boards::AnyBoard make_force_feedback(const std::string& name, const std::string&
   }
   return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),
-      boards::ForceFeedback::Updates::kOwnThread, options));
+      boards::StickEffects::Updates::kOwnThread, options));
 }
 
 boards::AnyBoard attach_force_feedback(const std::string& name, const Profile& profile,
                                        std::unique_ptr<Transport> transport) {
   return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
-      name, profile, std::move(transport), boards::ForceFeedback::Updates::kInCycle));
+      name, profile, std::move(transport), boards::StickEffects::Updates::kInCycle));
 }
 
-std::vector<BoardInfo> list_force_feedback_boards() {
-  std::vector<BoardInfo> boards;
+std::vector<DeviceInfo> list_force_feedback_boards() {
+  std::vector<DeviceInfo> boards;
   for (const EvdevInfo& device : list_force_feedback()) {
-    BoardInfo& board = boards.emplace_back();
+    DeviceInfo& board = boards.emplace_back();
     board.device = "ff:" + device.path;
     board.name = device.name;
     board.path = device.path;

@@ -36,9 +36,9 @@ boards::AnyBoard attach_inverse3(const std::string& name, const Profile&,
 }
 
 /// To ask the service would be a session there.
-std::vector<BoardInfo> list_inverse3() {
+std::vector<DeviceInfo> list_inverse3() {
   if (!is_listening(inverse3::kPort)) return {};
-  BoardInfo board;
+  DeviceInfo board;
   board.device = "inverse3";
   board.path = "localhost:" + std::to_string(inverse3::kPort);
   board.note = "if it is plugged in, which only Haply's service knows";
@@ -54,7 +54,7 @@ std::vector<DeviceKind> inverse3_kinds() {
   kind.board = "inverse3";
   kind.names = "inverse3, inverse3:ID";
   kind.chosen_as = "a Haply Inverse3";
-  kind.verification = boards::Verification::kInferred;
+  kind.evidence = "inferred";
   kind.attach = attach_inverse3;
   kind.emulate = emulate<emulated::Inverse3>;
   kind.simulated_motors = simulated_hand<0>;

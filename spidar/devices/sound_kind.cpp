@@ -19,10 +19,10 @@ boards::AnyBoard make_sound(const std::string& name, const std::string& rest, co
       name, std::make_unique<SoundTransport>(name, settings), settings));
 }
 
-std::vector<BoardInfo> list_sound() {
-  std::vector<BoardInfo> boards;
+std::vector<DeviceInfo> list_sound() {
+  std::vector<DeviceInfo> boards;
   for (const SoundCard& card : list_sound_cards()) {
-    BoardInfo& board = boards.emplace_back();
+    DeviceInfo& board = boards.emplace_back();
     board.device = "sound:" + card.id;
     board.name = printable(card.name);
     board.path = card.id;

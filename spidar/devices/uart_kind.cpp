@@ -51,11 +51,11 @@ std::unique_ptr<emulated::Board> emulate_uart(std::shared_ptr<emulated::Motors> 
       std::move(motors), std::vector<emulated::Uart::Station>{{0, kB3M}, {1, kB3M}});
 }
 
-std::vector<BoardInfo> list_uart() {
-  std::vector<BoardInfo> boards;
+std::vector<DeviceInfo> list_uart() {
+  std::vector<DeviceInfo> boards;
   for (const TtyLine& line : list_tty_lines()) {
     if (!line.named) continue;
-    BoardInfo& board = boards.emplace_back();
+    DeviceInfo& board = boards.emplace_back();
     board.device = "uart:" + line.path;
     board.path = line.path;
     board.accessible = access(line.path.c_str(), R_OK | W_OK) == 0;

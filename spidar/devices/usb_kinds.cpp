@@ -27,7 +27,7 @@ DeviceKind cyverse_kind() {
   kind.profile = kPositiveProfile;
   kind.note = "endpoints and D/A range are inferred";
   kind.traits = boards::kCyverseTraits;
-  kind.simulated_motors = simulated_strings<boards::unipolar_dac>;
+  kind.simulated_motors = simulated_strings<boards::cyverse_dac>;
   return kind;
 }
 
@@ -79,7 +79,7 @@ DeviceKind mouse_kind() {
   kind.usb.shared = kind.usb.full_speed = true;
   kind.board = "mouse";
   kind.names = "mouse, mouse:ID";
-  kind.verification = boards::Verification::kInferred;
+  kind.evidence = "inferred";
   kind.note = "other devices have this id; asked when it is opened";
   kind.attach = attach<boards::Mouse>;
   kind.emulate = emulate<emulated::Mouse>;

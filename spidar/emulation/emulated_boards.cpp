@@ -26,7 +26,7 @@ size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
 }  // namespace
 
 void Sh4::receive(ByteView bytes) noexcept {
-  sh4::DacDigits digits{};
+  CyverseDigits digits{};
   if (!sh4::decode_update(bytes, digits)) return;
   motors_->put_out(as_ints(digits));
   const std::array<int32_t, kMaxStrings> counts = motors_->counts();

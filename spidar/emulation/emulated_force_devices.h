@@ -44,7 +44,7 @@ class SpringHand final : public Motors {
     force_N_ = 1e-3 * Eigen::Vector3d(milli_N[0], milli_N[1], milli_N[2]);
   }
   std::array<int32_t, kMaxStrings> counts() noexcept override {
-    pass(std::min<int64_t>(monotonic_now_ns() - now_ns_, kLongest_ns));
+    advance(std::min<int64_t>(monotonic_now_ns() - now_ns_, kLongest_ns));
     now_ns_ = monotonic_now_ns();
     std::array<int32_t, kMaxStrings> at_um{};
     for (size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ class SpringHand final : public Motors {
   static constexpr double kMass_kg = 0.15, kSpring_N_m = 300, kDamper_Ns_m = 8;
   static constexpr int64_t kStep_ns = 100'000, kLongest_ns = 50'000'000;
 
-  void pass(int64_t time_ns) noexcept {
+  void advance(int64_t time_ns) noexcept {
     for (; time_ns > 0; time_ns -= kStep_ns) {
       const double dt_s = 1e-9 * static_cast<double>(std::min(time_ns, kStep_ns));
       v_m_s_ += dt_s / kMass_kg * (force_N_ - kSpring_N_m * at_m_ - kDamper_Ns_m * v_m_s_);

@@ -16,7 +16,7 @@ namespace spidar::emulated {
 /// The mechanics that a simulated board drives.
 struct SimulatedMechanics {
   std::optional<GripModel> model;  ///< none: that of the profile
-  SimulatedClock clock;            ///< none: CLOCK_MONOTONIC
+  std::function<int64_t()> clock;  ///< none: CLOCK_MONOTONIC
 };
 
 /// Grip, hand and motors are those of SimulatedDevice, which moves when the board puts out digits.

@@ -113,7 +113,7 @@ class Grip {
   virtual void open() = 0;
 
   /// Time passes, also while the device is lost.
-  virtual void pass(double) noexcept {}
+  virtual void advance(double) noexcept {}
 
   /// To be called before the wrench of a tick is found: forgets a pose that is too old.
   virtual void check_age(int64_t now_ns) noexcept = 0;

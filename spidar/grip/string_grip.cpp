@@ -75,7 +75,7 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& comma
   return frozen_;
 }
 
-void GripWatch::see(const DeviceReading& reading, const GripCommand& command) noexcept {
+void GripWatch::update(const DeviceReading& reading, const GripCommand& command) noexcept {
   const int64_t read_ns = PoseTrust::time_of(reading.read_ns, command.now_ns);
   const bool frozen = is_frozen(reading, command);
   const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
@@ -137,9 +137,9 @@ void StringGrip::open() {
   report();
 }
 
-void StringGrip::pass(double passed_s) noexcept {
+void StringGrip::advance(double passed_s) noexcept {
   // The last acknowledged tensions have acted until now.
-  heat_.pass(acknowledged_N_, passed_s);
+  heat_.update(acknowledged_N_, passed_s);
   reading_.motor_heat = heat_.hottest();
 }
 
@@ -186,7 +186,7 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
   const LinkFault fault = device_.exchange(to_volts(reading_.tension_N, profile_), answer);
   if (fault == LinkFault::kNone) {
     acknowledged_N_ = reading_.tension_N;
-    see(answer, command);
+    update(answer, command);
   } else {
     // The motors may not have received this tick.
     reading_.tension_N = acknowledged_N_;
@@ -197,10 +197,10 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
   return fault;
 }
 
-void StringGrip::see(const DeviceReading& answer, const GripCommand& command) noexcept {
-  watch_.see(answer, command);
+void StringGrip::update(const DeviceReading& answer, const GripCommand& command) noexcept {
+  watch_.update(answer, command);
   if (watch_.trusted()) {
-    reading_.motion.see(watch_.pose(), watch_.located_ns());
+    reading_.motion.update(watch_.pose(), watch_.located_ns());
   } else {
     reading_.motion.reset();
   }

@@ -41,7 +41,7 @@ class GripWatch {
   void reset() noexcept;
 
   /// Takes the reading of a tick in which the device has answered `command`.
-  void see(const DeviceReading& reading, const GripCommand& command) noexcept;
+  void update(const DeviceReading& reading, const GripCommand& command) noexcept;
   /// For a tick in which the device did not answer.
   void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
   /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
@@ -98,7 +98,7 @@ class StringGrip final : public Grip {
   StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device);
 
   void open() override;
-  void pass(double passed_s) noexcept override;
+  void advance(double passed_s) noexcept override;
   void check_age(int64_t now_ns) noexcept override;
   LinkFault exchange(const GripCommand& command) noexcept override;
   const GripReading& reading() const noexcept override { return reading_; }
@@ -112,7 +112,7 @@ class StringGrip final : public Grip {
  private:
   bool pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept;
   void pull(const GripCommand& command) noexcept;
-  void see(const DeviceReading& answer, const GripCommand& command) noexcept;
+  void update(const DeviceReading& answer, const GripCommand& command) noexcept;
   void report() noexcept;
 
   const Profile profile_;

@@ -34,7 +34,7 @@ class MotorHeat {
   }
 
   /// The motors have produced `tension_N` for `dt_s`.
-  void pass(const StringVector& tension_N, double dt_s) noexcept {
+  void update(const StringVector& tension_N, double dt_s) noexcept {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
       const double load = tension_N[i] / drive.continuous_tension_N;

@@ -69,7 +69,7 @@ bool HapticLoop::reopen() noexcept {
 
 void HapticLoop::refuse(const std::string& reason) {
   const bool again = reason == std::exchange(newest_refusal_, reason);
-  Text text{};
+  std::array<char, 512> text{};
   if (again) reason.copy(text.data(), text.size() - 1);
   refusal_.store(text);
 }
@@ -138,7 +138,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     limits_.restart();
   }
   find_wanted(record);
-  grip_->pass(1e-9 * static_cast<double>(passed_ns));
+  grip_->advance(1e-9 * static_cast<double>(passed_ns));
   if (is_open) {
     grip_->check_age(now_ns);
     touch(record, passed_ns);

@@ -179,8 +179,7 @@ class HapticLoop {
   Seqlock<PlaybackClock> shared_clock_;
   ForceLimits limits_;
   Seqlock<LoopSnapshot> snapshot_;
-  using Text = std::array<char, 512>;
-  Seqlock<Text> refusal_{Text{}};  ///< ends with zeros
+  Seqlock<std::array<char, 512>> refusal_{std::array<char, 512>{}};  ///< ends with zeros
   // Loop thread only.
   PlaybackClock clock_;
   Wrench exerted_;  ///< delivered by the last acknowledged command

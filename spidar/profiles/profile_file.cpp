@@ -23,8 +23,6 @@ namespace {
 /// document and to `file`, which outlive it.
 class TomlField {
  public:
-  using Names = std::initializer_list<std::string_view>;
-
   TomlField(const std::string& file, const toml::node& node, std::string name = "")
       : file_(&file), node_(&node), name_(std::move(name)) {}
 
@@ -49,7 +47,7 @@ class TomlField {
     return {*file_, *node, member(key)};
   }
 
-  void allow_only(Names keys) const {
+  void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, node] : table()) {
       if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
         fail(*file_, key.source().begin.line, member(key.str()),
@@ -76,7 +74,7 @@ class TomlField {
     return node_->as_string()->get();
   }
 
-  std::string one_of(Names allowed) const {
+  std::string one_of(std::initializer_list<std::string_view> allowed) const {
     const std::string value = string();
     if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
       fail("is \"" + value + "\", must be one of " + listed(allowed));
@@ -126,7 +124,7 @@ class TomlField {
     return (name_.empty() ? "" : name_ + ".") + std::string(key);
   }
 
-  static std::string listed(Names names) {
+  static std::string listed(std::initializer_list<std::string_view> names) {
     std::string text;
     for (const std::string_view name : names) text.append(text.empty() ? "" : ", ").append(name);
     return text;
@@ -140,9 +138,6 @@ class TomlField {
 }  // namespace
 
 namespace {
-
-using Values = std::array<double, kMaxStrings>;
-using Signs = std::array<int, kMaxStrings>;
 
 constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
 // Larger values are a mistaken unit: the largest SPIDAR fills a room, and a count is some
@@ -258,8 +253,8 @@ StringGeometry read_geometry(const TomlField& in) {
 }
 
 /// One number for all strings, or an array with one for each; all above zero.
-Values per_string(const TomlField& field, int count) {
-  Values values{};
+std::array<double, kMaxStrings> per_string(const TomlField& field, int count) {
+  std::array<double, kMaxStrings> values{};
   if (!field.is_array()) {
     values.fill(field.positive());
     return values;
@@ -269,9 +264,9 @@ Values per_string(const TomlField& field, int count) {
   return values;
 }
 
-Signs signs(const TomlField& field, int count) {
+std::array<int, kMaxStrings> signs(const TomlField& field, int count) {
   check_length(field, count);
-  Signs values{};
+  std::array<int, kMaxStrings> values{};
   for (size_t i = 0; i < field.size(); ++i) {
     values[i] = field[i].integer(-1, 1);
     if (values[i] == 0) field[i].fail("is 0, must be 1 or -1");
@@ -280,8 +275,9 @@ Signs signs(const TomlField& field, int count) {
 }
 
 /// Zero when it is missing.
-Values home_offsets(const TomlField& strings, const StringGeometry& geometry) {
-  Values values{};
+std::array<double, kMaxStrings> home_offsets(const TomlField& strings,
+                                             const StringGeometry& geometry) {
+  std::array<double, kMaxStrings> values{};
   if (!strings.has("home_offset_m")) return values;
   const TomlField field = strings["home_offset_m"];
   check_length(field, geometry.count);
@@ -355,7 +351,7 @@ void read_strings(const TomlField& in, Profile& profile) {
                  "home_offset_m"});
   const int count = profile.geometry.count;
   const auto read = [&](const char* key, double StringDrive::*member) {
-    const Values values = per_string(in[key], count);
+    const std::array<double, kMaxStrings> values = per_string(in[key], count);
     for (size_t i = 0; i < static_cast<size_t>(count); ++i) profile.drives[i].*member = values[i];
   };
   read("min_tension_N", &StringDrive::min_tension_N);
@@ -369,9 +365,9 @@ void read_strings(const TomlField& in, Profile& profile) {
   if (in.has("continuous_tension_N")) {
     read("continuous_tension_N", &StringDrive::continuous_tension_N);
   }
-  const Signs motor_sign = signs(in["motor_sign"], count);
-  const Signs encoder_sign = signs(in["encoder_sign"], count);
-  const Values home_offset_m = home_offsets(in, profile.geometry);
+  const std::array<int, kMaxStrings> motor_sign = signs(in["motor_sign"], count);
+  const std::array<int, kMaxStrings> encoder_sign = signs(in["encoder_sign"], count);
+  const std::array<double, kMaxStrings> home_offset_m = home_offsets(in, profile.geometry);
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     StringDrive& drive = profile.drives[i];
     drive.motor_sign = motor_sign[i];
@@ -446,9 +442,15 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
                   [](unsigned char c) { return c < ' '; })) {
     description.fail("has a control character, must be one line");
   }
-  // DeviceKind::profile_board of all with strings, one that has no driver (ahs), and a source that
-  // names none.
-  profile.board = root["board"].one_of({"usb-sh4", "usb-simple", "uart", "ahs", kUnknownBoard});
+  const TomlField board = root["board"];
+  profile.board = board.string();
+  if (profile.board.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") !=
+          std::string::npos ||
+      profile.board.empty()) {
+    board.fail(
+        "is \"" + profile.board +
+        "\", must be a kind of board in small letters, digits and hyphens, such as \"uart\"");
+  }
   profile.dac_bits = root["dac_bits"].integer(kMinDacBits, kMaxDacBits);
   const TomlField dac_max = root["dac_max_V"];
   profile.dac_max_V = at_most(dac_max, dac_max.positive(), kMaxDac_V, "volts");

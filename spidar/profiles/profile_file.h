@@ -5,7 +5,7 @@
 /// A profile is TOML. All keys but `source` and `note` must be there, others must not:
 ///
 ///     description = "…"           one line
-///     board = "uart"              DeviceKind::profile_board, "ahs" or "unknown"
+///     board = "uart"              DeviceKind::profile_board, or "unknown"
 ///     dac_bits = 12               8 … 16
 ///     dac_max_V = 3.3             0 … 60
 ///     [geometry]

@@ -20,7 +20,7 @@ constexpr size_t kInfoAt = 50;
 
 }  // namespace
 
-void encode_update(const DacDigits& digits, Packet& packet) noexcept {
+void encode_update(const CyverseDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   const MutableBytes bytes(packet);
   bytes.put_u8(0, kUpdateAll);
@@ -30,7 +30,7 @@ void encode_update(const DacDigits& digits, Packet& packet) noexcept {
   }
 }
 
-bool decode_update(ByteView packet, DacDigits& digits) noexcept {
+bool decode_update(ByteView packet, CyverseDigits& digits) noexcept {
   if (packet.size != kPacketSize || packet.u8(0) != kUpdateAll || packet.u8(1) != kBaseAnalyzer) {
     return false;
   }
@@ -88,7 +88,7 @@ void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
   packet[2] = channels;
 }
 
-void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept {
+void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   packet[0] = kSetDac;
   for (size_t i = 0; i < kChannels; ++i) {

@@ -14,6 +14,13 @@
 
 #include "spidar/protocols/bytes.h"
 
+namespace spidar {
+
+/// For the D/A converters of either board.
+using CyverseDigits = std::array<uint16_t, 8>;
+
+}  // namespace spidar
+
 namespace spidar::sh4 {
 
 constexpr uint16_t kVendor = 0x0CEC;
@@ -27,11 +34,10 @@ constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
 
 using Packet = std::array<uint8_t, kPacketSize>;
-using DacDigits = std::array<uint16_t, kChannels>;
 
 /// A reply of the board.
 struct Reading {
-  DacDigits dac_echo{};
+  CyverseDigits dac_echo{};
   /// 16 bits, counting in the opposite direction to the Simple board: its host negates them.
   std::array<uint16_t, kChannels> counter{};
   std::array<uint16_t, kChannels> adc{};  ///< digits of kAdc_V
@@ -43,9 +49,9 @@ struct Reading {
 
 /// The only command: sets the D/A digits, which are clamped to kMaxDigit, and asks for all
 /// readings.
-void encode_update(const DacDigits& digits, Packet& packet) noexcept;
+void encode_update(const CyverseDigits& digits, Packet& packet) noexcept;
 /// Returns false when it is not that command, or does not have kPacketSize bytes.
-bool decode_update(ByteView packet, DacDigits& digits) noexcept;
+bool decode_update(ByteView packet, CyverseDigits& digits) noexcept;
 
 void encode_reading(const Reading& reading, Packet& packet) noexcept;
 /// Returns false when it does not have kPacketSize bytes.
@@ -65,7 +71,6 @@ constexpr int kDacBits = 12;
 constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 
 using Packet = std::array<uint8_t, kPacketSize>;
-using DacDigits = std::array<uint16_t, kChannels>;
 
 enum class Command {
   kEncoderDirection,  ///< one bit for each channel: order of the encoder's phases
@@ -83,14 +88,14 @@ struct Reading {
 
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
 /// Digits are clamped to kMaxDigit.
-void encode_set_dac(const DacDigits& digits, Packet& packet) noexcept;
+void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept;
 void encode_latch(Packet& packet) noexcept;
 
 /// A packet to the board, decoded.
 struct HostPacket {
   Command command = Command::kLatchCounters;
-  uint8_t channels = 0;  ///< of kEncoderDirection
-  DacDigits digits{};    ///< of kSetDac
+  uint8_t channels = 0;    ///< of kEncoderDirection
+  CyverseDigits digits{};  ///< of kSetDac
 };
 
 /// Returns false when it is none of the commands, or does not have kPacketSize bytes.

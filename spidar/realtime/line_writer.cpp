@@ -154,16 +154,15 @@ bool LineWriter::is_stuck() {
 /// still.
 template <typename Condition>
 void LineWriter::await(Condition condition) {
-  using Clock = std::chrono::steady_clock;
   std::unique_lock<std::mutex> lock(output_->mutex);
-  const auto begin = Clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   auto progress = begin;
   uint64_t written = output_->written_bytes;
   while (!is_stuck() && !condition()) {
     output_->hurries = true;
     output_->changed.notify_all();
     output_->changed.wait_for(lock, kPeriod, condition);
-    const auto now = Clock::now();
+    const auto now = std::chrono::steady_clock::now();
     if (output_->written_bytes != written) progress = now;
     written = output_->written_bytes;
     stuck_ = now - progress > kStandstill || now - begin > kLongestWait;

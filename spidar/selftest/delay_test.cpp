@@ -38,7 +38,7 @@ double envelope(double time_s) {
 class DelayRun {
  public:
   DelayRun(StringDevice& device, const Profile& profile, const Pace& pace,
-           const MonotonicClock& now_ns, const DelaySettings& settings)
+           const std::function<int64_t()>& now_ns, const DelaySettings& settings)
       : device_(device),
         loop_(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device),
                                            limits(settings))),
@@ -214,7 +214,7 @@ class DelayRun {
   const StringDevice& device_;
   const std::unique_ptr<HapticLoop> loop_;
   const Pace& pace_;
-  const MonotonicClock& now_ns_;
+  const std::function<int64_t()>& now_ns_;
   const DelaySettings settings_;
   DelayTest result_;
   TickRecord record_;
@@ -229,7 +229,7 @@ class DelayRun {
 }  // namespace
 
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
-                        const MonotonicClock& now_ns, const DelaySettings& settings) {
+                        const std::function<int64_t()>& now_ns, const DelaySettings& settings) {
   if (settings.periods < DelaySettings::kFewestPeriods) {
     throw std::invalid_argument("measure_delay: " + std::to_string(settings.periods) +
                                 " periods, must be at least " +

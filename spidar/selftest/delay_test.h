@@ -46,17 +46,14 @@ struct DelayTest {
   bool measured() const noexcept { return error.empty() && fit; }
 };
 
-/// CLOCK_MONOTONIC, or the clock of a simulation, in ns.
-using MonotonicClock = std::function<int64_t()>;
-
 /// Expects a loosely held grip at rest near the centre. Pushes it along z, the direction in which
 /// surfaces push, which uses every string. The force is a zero-mean sum of sines of 11 to 83 Hz on
 /// top of the minimum tensions, and passes through a HapticLoop with its whole safety chain. The
 /// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
-/// be opened.
+/// be opened. `now_ns` is CLOCK_MONOTONIC, or the clock of a simulation, in ns.
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
-                        const MonotonicClock& now_ns, const DelaySettings& settings = {});
+                        const std::function<int64_t()>& now_ns, const DelaySettings& settings = {});
 
 /// Largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;

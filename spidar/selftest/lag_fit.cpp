@@ -89,8 +89,6 @@ std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods) {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// The pure delay is negative if a board reads its counters later in an exchange than it sets its
 /// output voltages. The simulation has a negative delay because of its time steps.
 constexpr double kShortestDelay_s = -0.001;
@@ -111,7 +109,7 @@ constexpr int kUnknowns = 5;
 
 struct Weighed {
   double rate_rad_s = 0;
-  Complex response;
+  std::complex<double> response;
   double weight = 0;  ///< 1 / standard deviation of the real and of the imaginary part
 };
 
@@ -147,14 +145,14 @@ LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) 
   LagCandidate found;
   Eigen::Vector4d a = Eigen::Vector4d::Zero();
   Eigen::Matrix4d normal;
-  std::vector<Complex> model(lines.size());
+  std::vector<std::complex<double>> model(lines.size());
   for (size_t i = 0; i < lines.size(); ++i) model[i] = lines[i].response;
   for (int pass = 0; pass < kPasses; ++pass) {
     normal.setZero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (size_t i = 0; i < lines.size(); ++i) {
       const double w = lines[i].rate_rad_s;
-      const Complex inverse = std::polar(1.0, -w * delay_s) / lines[i].response;
+      const std::complex<double> inverse = std::polar(1.0, -w * delay_s) / lines[i].response;
       const double weight = lines[i].weight * std::abs(model[i] * lines[i].response);
       const Eigen::Vector4d real(1, 0, -w * w, 0), imaginary(0, w, 0, -w * w * w);
       normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
@@ -164,8 +162,8 @@ LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) 
     found.cost = 0;
     for (size_t i = 0; i < lines.size(); ++i) {
       const double w = lines[i].rate_rad_s;
-      model[i] =
-          std::polar(1.0, -w * delay_s) / Complex(a[0] - a[2] * w * w, w * (a[1] - a[3] * w * w));
+      model[i] = std::polar(1.0, -w * delay_s) /
+                 std::complex<double>(a[0] - a[2] * w * w, w * (a[1] - a[3] * w * w));
       found.cost += std::norm(lines[i].weight * (lines[i].response - model[i]));
     }
   }

@@ -24,10 +24,8 @@ constexpr double kSilent = 0.1;
 constexpr double kWeakest = 1.0 / 3, kStrongest = 3;
 constexpr double kRotationShares[] = {0.1, 0.3, 1, 3, 10};
 
-using Assignment = std::array<int, kMaxStrings>;
-
 struct Explanation {
-  Assignment motor{}, encoder{};
+  std::array<int, kMaxStrings> motor{}, encoder{};
   std::array<bool, kMaxStrings> encoder_reversed{};
   double correlation = 0;
   double worth = -1;  // correlation minus the cost of the faults
@@ -108,7 +106,8 @@ class Judge {
   /// over all encoders j and motors i that are not silent. Each encoder has the sign that fits
   /// better. Every fault has a small cost, so that the simpler one of two equally good explanations
   /// is chosen.
-  Explanation explain(const Assignment& motor, const Assignment& encoder) const {
+  Explanation explain(const std::array<int, kMaxStrings>& motor,
+                      const std::array<int, kMaxStrings>& encoder) const {
     Explanation e;
     e.motor = motor;
     e.encoder = encoder;
@@ -179,7 +178,7 @@ class Judge {
   }
 
   Explanation search() const {
-    Assignment same{};
+    std::array<int, kMaxStrings> same{};
     for (int i = 0; i < kMaxStrings; ++i) same[static_cast<size_t>(i)] = i;
     Explanation best = explain(same, same);
     for (;;) {
@@ -196,7 +195,7 @@ class Judge {
   void try_exchanges(const Explanation& from, size_t a, size_t b, Explanation& best) const {
     const bool motors = !silent_motor_[a] && !silent_motor_[b];
     const bool encoders = !silent_encoder_[a] && !silent_encoder_[b];
-    Assignment motor = from.motor, encoder = from.encoder;
+    std::array<int, kMaxStrings> motor = from.motor, encoder = from.encoder;
     std::swap(motor[a], motor[b]);
     std::swap(encoder[a], encoder[b]);
     const auto consider = [&](const Explanation& e) {

@@ -8,9 +8,9 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "spidar/boards/usb_board.h"
 #include "spidar/device.h"
 #include "spidar/devices/device_registry.h"
+#include "spidar/devices/usb_search.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
@@ -20,17 +20,17 @@ namespace spidar {
 namespace {
 
 /// What is the same for all devices of this kind.
-void describe(BoardInfo& board, const DeviceKind& kind) {
+void describe(DeviceInfo& board, const DeviceKind& kind) {
   if (board.name.empty()) board.name = kind.title;
   if (board.note.empty()) board.note = kind.note;
   board.profile_board = kind.profile_board;
-  board.verification = kind.verification;
+  board.evidence = kind.evidence;
   board.has_strings = kind.has_strings();
   if (!board.has_strings) board.profile = kind.profile;
 }
 
-BoardInfo simulation(const std::string& device, const DeviceKind* kind) {
-  BoardInfo board;
+DeviceInfo simulation(const std::string& device, const DeviceKind* kind) {
+  DeviceInfo board;
   board.device = device;
   board.name = std::string("simulated ") + (kind ? kind->title : "SPIDAR");
   board.profile = kind ? kind->profile : kDefaultProfile;
@@ -39,11 +39,11 @@ BoardInfo simulation(const std::string& device, const DeviceKind* kind) {
 }
 
 /// Everything that the name alone determines.
-BoardInfo of_name(const std::string& device) {
+DeviceInfo of_name(const std::string& device) {
   const DeviceName name(device);
   const DeviceKind* const simulated = simulated_kind(name);
   if (simulated || device == "sim") return simulation(device, simulated);
-  BoardInfo board;
+  DeviceInfo board;
   board.device = device;
   std::string titles;
   const auto kinds = kinds_called(name.device);
@@ -57,15 +57,15 @@ BoardInfo of_name(const std::string& device) {
   return board;
 }
 
-std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
-  std::vector<BoardInfo> boards;
+std::vector<DeviceInfo> list_usb(const DeviceKind& kind) {
+  std::vector<DeviceInfo> boards;
   std::vector<UsbDeviceInfo> devices;
   try {
     devices = list_usb_devices(kind.usb.vendor, kind.usb.product);
   } catch (const DeviceError&) {  // no USB
   }
   for (const UsbDeviceInfo& device : devices) {
-    BoardInfo& board = boards.emplace_back();
+    DeviceInfo& board = boards.emplace_back();
     board.device = std::string(kind.device) + ":" + device.path;
     board.path = device.path;
     board.serial = device.serial;
@@ -83,8 +83,8 @@ std::vector<BoardInfo> list_usb(const DeviceKind& kind) {
 }
 
 /// Those of this kind that are plugged in.
-void add_plugged_in(const DeviceKind& kind, std::vector<BoardInfo>& boards) {
-  for (BoardInfo& board : kind.list ? kind.list() : list_usb(kind)) {
+void add_plugged_in(const DeviceKind& kind, std::vector<DeviceInfo>& boards) {
+  for (DeviceInfo& board : kind.list ? kind.list() : list_usb(kind)) {
     describe(board, kind);
     if (!board.memory_error.empty()) {
       board.note += (board.note.empty() ? "" : "; ") + board.memory_error;
@@ -95,34 +95,34 @@ void add_plugged_in(const DeviceKind& kind, std::vector<BoardInfo>& boards) {
 
 }  // namespace
 
-std::vector<BoardInfo> list_boards() {
-  std::vector<BoardInfo> boards;
+std::vector<DeviceInfo> list_boards() {
+  std::vector<DeviceInfo> boards;
   for (const DeviceKind& kind : devices()) add_plugged_in(kind, boards);
   boards.push_back(simulation("sim", nullptr));
   for (const DeviceKind& kind : devices()) {
-    boards.push_back(simulation(std::string("sim:") + kind.board, &kind));
+    if (kind.emulate) boards.push_back(simulation(std::string("sim:") + kind.board, &kind));
   }
   return boards;
 }
 
 std::string default_profile(const std::string& device) {
-  const BoardInfo board = of_name(device);
+  const DeviceInfo board = of_name(device);
   return board.name.empty() ? kDefaultProfile : board.profile;
 }
 
-BoardInfo board_info(const std::string& device) {
+DeviceInfo board_info(const std::string& device) {
   const DeviceName name(device);
   const auto kinds = kinds_called(name.device);
   const std::string id = name.rest.substr(0, name.rest.find(','));  // options follow
   // Nobody else is asked.
-  std::vector<BoardInfo> boards;
+  std::vector<DeviceInfo> boards;
   for (const DeviceKind* kind : kinds) add_plugged_in(*kind, boards);
-  const BoardInfo* only = nullptr;
+  const DeviceInfo* only = nullptr;
   int of_kind = 0;
-  for (const BoardInfo& board : boards) {
+  for (const DeviceInfo& board : boards) {
     if (board.device == device) return board;
     if (!id.empty() && (board.serial == id || board.path == id)) {
-      BoardInfo found = board;
+      DeviceInfo found = board;
       if (id != name.rest) found.device = device;
       return found;
     }
@@ -130,13 +130,13 @@ BoardInfo board_info(const std::string& device) {
     ++of_kind;
   }
   if (id.empty() && of_kind == 1) return *only;
-  if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && boards::rotary_of(id) >= 0) {
+  if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && rotary_of(id) >= 0) {
     // Whether its switch is so is seen when it is opened.
-    BoardInfo board = *only;
+    DeviceInfo board = *only;
     board.device = device;
     return board;
   }
-  BoardInfo absent = of_name(device);
+  DeviceInfo absent = of_name(device);
   if (!kinds.empty() && kinds[0]->needs_rest() && id.empty()) absent.name.clear();
   if (id[0] == '/') {
     absent.path = id;
@@ -148,7 +148,7 @@ BoardInfo board_info(const std::string& device) {
 namespace {
 
 /// DeviceKind::chosen_as; empty for simulations, too.
-std::string chosen_as(const BoardInfo& board) {
+std::string chosen_as(const DeviceInfo& board) {
   const auto kinds = kinds_called(DeviceName(board.device).device);
   return kinds.empty() ? "" : kinds[0]->chosen_as;
 }
@@ -159,12 +159,12 @@ bool is_same_profile(const std::string& confirmed, const std::string& named) {
   return confirmed == named || std::filesystem::equivalent(confirmed, named, none);
 }
 
-std::string other_profile(const BoardInfo& board, const std::string& named) {
+std::string other_profile(const DeviceInfo& board, const std::string& named) {
   return "its confirmed profile is " + board.profile + ", and not " + named +
          "; device=" + board.device + " profile=" + named + " uses this one once";
 }
 
-std::string unconfirmed(const BoardInfo& board) {
+std::string unconfirmed(const DeviceInfo& board) {
   const std::string named = "device=" + board.device + " profile=NAME";
   const std::string once = "spidarctl choose " + board.device + " --profile NAME";
   return "this " + board.name + " has no confirmed profile, without which its motors get no force" +
@@ -177,19 +177,19 @@ std::string unconfirmed(const BoardInfo& board) {
 
 std::vector<AutoDevice> auto_devices(const std::string& profile) {
   std::vector<AutoDevice> found;
-  const std::vector<BoardInfo> boards = list_boards();
-  std::vector<const BoardInfo*> spidars;
-  for (const BoardInfo& board : boards) {
+  const std::vector<DeviceInfo> boards = list_boards();
+  std::vector<const DeviceInfo*> spidars;
+  for (const DeviceInfo& board : boards) {
     if (board.has_strings && !is_simulated(board.device)) spidars.push_back(&board);
   }
-  for (const BoardInfo* board : spidars) {
+  for (const DeviceInfo* board : spidars) {
     if (!board->profile.empty() && (profile.empty() || is_same_profile(board->profile, profile))) {
       found.push_back({board->device, "a SPIDAR whose profile was confirmed", ""});
     }
   }
   const bool is_meant =
       !profile.empty() && found.empty() && spidars.size() == 1 && spidars[0]->profile.empty();
-  for (const BoardInfo* board : spidars) {
+  for (const DeviceInfo* board : spidars) {
     if (is_meant) {
       found.push_back(
           {board->device, "the SPIDAR that is plugged in, with profile=" + profile, ""});
@@ -200,13 +200,13 @@ std::vector<AutoDevice> auto_devices(const std::string& profile) {
     }
   }
   for (const bool directional : {true, false}) {
-    for (const BoardInfo& board : boards) {
+    for (const DeviceInfo& board : boards) {
       const std::string why = chosen_as(board);
       if (why.empty() || board.directional != directional) continue;
       found.push_back({board.device, directional ? why : "a gamepad that rumbles", ""});
     }
   }
-  for (const BoardInfo& board : boards) {
+  for (const DeviceInfo& board : boards) {
     if (board.has_strings || board.usb_id.empty() || !chosen_as(board).empty()) continue;
     const std::string device = DeviceName(board.device).device;
     found.push_back({board.device, "", "a " + board.name + " is used only with device=" + device});

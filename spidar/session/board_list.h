@@ -14,7 +14,7 @@ namespace spidar {
 /// serial line does not identify the board behind it, so only lines that a udev rule names
 /// /dev/spidar… are listed. An Inverse3 is listed while its service runs. Input devices are listed
 /// if they have force feedback. A machine without USB has no USB devices.
-std::vector<BoardInfo> list_boards();
+std::vector<DeviceInfo> list_boards();
 
 /// Returns the profile that the name of a device alone determines, which the device can drive, and
 /// the general default profile for an unknown name. Empty for a real board with strings. Does not
@@ -24,7 +24,7 @@ std::string default_profile(const std::string& device);
 /// Returns what is known about a device from its name. The device need not be plugged in, and
 /// nothing is opened. If make_grip() does not know the device either, the name in the result is
 /// empty.
-BoardInfo board_info(const std::string& device);
+DeviceInfo board_info(const std::string& device);
 
 /// What the device "auto" may be.
 constexpr const char* kAutoDevice = "auto";

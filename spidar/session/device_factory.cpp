@@ -9,6 +9,7 @@
 #include "spidar/boards/force_grip.h"
 #include "spidar/boards/link_thread.h"
 #include "spidar/devices/device_registry.h"
+#include "spidar/devices/usb_search.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/text.h"
@@ -65,7 +66,7 @@ std::string called_here(const std::string& word) {
 DeviceError unclear(const DeviceKind& kind) {
   const std::string names = kind.names;
   std::string there;
-  for (const BoardInfo& board : kind.list()) there += (there.empty() ? "" : ", ") + board.device;
+  for (const DeviceInfo& board : kind.list()) there += (there.empty() ? "" : ", ") + board.device;
   return DeviceError(
       std::string("\"") + kind.device + "\" does not say which one: write " +
           names.substr(0, names.find(',')) +
@@ -76,7 +77,7 @@ DeviceError unclear(const DeviceKind& kind) {
 std::string simulated_names() {
   std::string names;
   for (const DeviceKind& kind : devices()) {
-    names += (names.empty() ? "sim:" : ", sim:") + std::string(kind.board);
+    if (kind.emulate) names += (names.empty() ? "sim:" : ", sim:") + std::string(kind.board);
   }
   return names;
 }
@@ -90,42 +91,6 @@ auto simulating(const std::string& text, const Profile& profile, const Make& mak
     throw DeviceError(text + ": cannot simulate profile \"" + profile.name + "\": " + error.what(),
                       DeviceErrorCode::kSettings);
   }
-}
-
-/// All but "sim".
-boards::AnyBoard make_board(const std::string& text, const Profile& profile) {
-  const DeviceName name(text);
-  if (name.device == "sim" && name.has_end) {
-    const DeviceKind* const kind = simulated_kind(name);
-    if (!kind) {
-      throw DeviceError(
-          "unknown simulated board \"" + name.rest + "\"; known are: " + simulated_names(),
-          DeviceErrorCode::kSettings);
-    }
-    return simulating(text, profile, [&] { return simulated_board(*kind, text, profile); });
-  }
-  const auto kinds = kinds_called(name.device);
-  if (!kinds.empty() && kinds[0]->needs_rest() && name.rest.empty()) throw unclear(*kinds[0]);
-  const std::string called = called_here(text);
-  if (!called.empty()) throw DeviceError(called, DeviceErrorCode::kSettings);
-  if (kinds.empty() || !name.has_end) {
-    // Only an element does without a device, or chooses one: this is not asked about these names.
-    const bool is_elements = text == "none" || text == "auto";
-    throw DeviceError(
-        (is_elements ? "\"" + text + "\" is not a device"
-                     : "unknown device \"" + text + "\"" +
-                           (kinds.empty() && name.has_end ? meant_device(name.device) : "")) +
-            "; known are: " + known_names(!is_elements),
-        DeviceErrorCode::kSettings);
-  }
-  if (kinds[0]->make) return kinds[0]->make(text, name.rest, profile);
-  const boards::BoardKinds usb(kinds.begin(), kinds.end());
-  if (kinds[0]->has_strings()) {
-    return std::unique_ptr<boards::Board>(
-        std::make_unique<boards::UsbBoard>(text, name.rest, profile, usb));
-  }
-  return std::unique_ptr<boards::ForceBoard>(
-      std::make_unique<boards::UsbForceBoard>(text, name.rest, profile, usb));
 }
 
 boards::Settings settings_for(const std::string& text, const Profile& profile,
@@ -142,8 +107,26 @@ boards::Settings settings_for(const std::string& text, const Profile& profile,
 /// Either of the two.
 struct MadeDevice {
   std::unique_ptr<StringDevice> strings;
-  std::unique_ptr<boards::ForceBoard> force;
+  std::unique_ptr<boards::ForceLink> force;
 };
+
+MadeDevice link_to(boards::AnyBoard board, const boards::Settings& settings) {
+  if (auto* force = std::get_if<std::unique_ptr<boards::ForceBoard>>(&board)) {
+    return {nullptr, std::make_unique<boards::ForceLink>(std::move(*force), settings)};
+  }
+  return {std::make_unique<boards::StringLink>(
+              std::get<std::unique_ptr<boards::Board>>(std::move(board)), settings),
+          nullptr};
+}
+
+template <typename Link, typename BoardType>
+std::unique_ptr<Link> usb_link(const std::string& text, const std::string& id,
+                               const Profile& profile, const std::vector<const DeviceKind*>& kinds,
+                               const boards::Settings& settings) {
+  std::vector<std::unique_ptr<BoardType>> boards;
+  auto open = usb_opener(text, id, profile, kinds, boards);
+  return std::make_unique<Link>(std::move(boards), std::move(open), settings);
+}
 
 MadeDevice make(const std::string& text, const Profile& profile, const boards::Settings& settings) {
   if (text == "sim") {
@@ -154,13 +137,38 @@ MadeDevice make(const std::string& text, const Profile& profile, const boards::S
                        }),
             nullptr};
   }
-  boards::AnyBoard board = make_board(text, profile);
-  if (auto* force = std::get_if<std::unique_ptr<boards::ForceBoard>>(&board)) {
-    return {nullptr, std::move(*force)};
+  const DeviceName name(text);
+  if (name.device == "sim" && name.has_end) {
+    const DeviceKind* const kind = simulated_kind(name);
+    if (!kind) {
+      throw DeviceError(
+          "unknown simulated board \"" + name.rest + "\"; known are: " + simulated_names(),
+          DeviceErrorCode::kSettings);
+    }
+    return link_to(simulating(text, profile, [&] { return simulated_board(*kind, text, profile); }),
+                   settings);
   }
-  return {std::make_unique<boards::StringLink>(
-              std::get<std::unique_ptr<boards::Board>>(std::move(board)), settings),
-          nullptr};
+  const auto kinds = kinds_called(name.device);
+  if (!kinds.empty() && kinds[0]->needs_rest() && name.rest.empty()) throw unclear(*kinds[0]);
+  const std::string called = called_here(text);
+  if (!called.empty()) throw DeviceError(called, DeviceErrorCode::kSettings);
+  if (kinds.empty() || !name.has_end) {
+    // Only an element does without a device, or chooses one: this is not asked about these names.
+    const bool is_elements = text == "none" || text == "auto";
+    throw DeviceError(
+        (is_elements ? "\"" + text + "\" is not a device"
+                     : "unknown device \"" + text + "\"" +
+                           (kinds.empty() && name.has_end ? meant_device(name.device) : "")) +
+            "; known are: " + known_names(!is_elements),
+        DeviceErrorCode::kSettings);
+  }
+  if (kinds[0]->make) return link_to(kinds[0]->make(text, name.rest, profile), settings);
+  if (kinds[0]->has_strings()) {
+    return {usb_link<boards::StringLink, boards::Board>(text, name.rest, profile, kinds, settings),
+            nullptr};
+  }
+  return {nullptr, usb_link<boards::ForceLink, boards::ForceBoard>(text, name.rest, profile, kinds,
+                                                                   settings)};
 }
 
 }  // namespace
@@ -189,9 +197,8 @@ std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile
 
 std::unique_ptr<Grip> make_grip(const std::string& text, const Profile& profile,
                                 const boards::Settings& settings) {
-  const boards::Settings fitting = settings_for(text, profile, settings);
-  MadeDevice made = make(text, profile, fitting);
-  if (made.force) return std::make_unique<boards::ForceGrip>(std::move(made.force), fitting);
+  MadeDevice made = make(text, profile, settings_for(text, profile, settings));
+  if (made.force) return std::make_unique<boards::ForceGrip>(std::move(made.force));
   return std::make_unique<StringGrip>(profile, std::move(made.strings));
 }
 

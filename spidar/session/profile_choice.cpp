@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "spidar/boards/board_parts.h"
-#include "spidar/boards/usb_board.h"
 #include "spidar/devices/device_registry.h"
+#include "spidar/devices/usb_search.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/toml.h"
@@ -93,7 +93,7 @@ void store_profile(const std::string& usb_id, const std::string& serial,
 
 namespace {
 
-std::string without_profile(const BoardInfo& board) {
+std::string without_profile(const DeviceInfo& board) {
   std::string why = board.path.empty()
                         ? "no board is plugged in whose profile is remembered, and none is named"
                         : "no profile is named for this board, and the board does not say which "
@@ -111,8 +111,7 @@ void require_plugged_in(const std::string& device) {
   const auto kinds = kinds_called(name.device);
   if (kinds.empty()) return;
   if (kinds[0]->usb.vendor != 0) {
-    return boards::UsbSearch(boards::BoardKinds(kinds.begin(), kinds.end()), device, name.rest)
-        .require_one();
+    return UsbSearch(kinds, device, name.rest).require_one();
   }
   std::istringstream paths(name.rest);
   for (std::string path; std::getline(paths, path, ',');) {
@@ -125,7 +124,7 @@ void require_plugged_in(const std::string& device) {
 }
 
 /// The kinds that a board may be of: a CyVerse board that is not plugged in may be of either.
-std::vector<const DeviceKind*> kinds_of(const BoardInfo& board) {
+std::vector<const DeviceKind*> kinds_of(const DeviceInfo& board) {
   if (board.name.empty()) return {};  // no device is called so
   std::vector<const DeviceKind*> kinds = kinds_called(DeviceName(board.device).device);
   const auto is_other = [&](const DeviceKind* kind) {
@@ -136,7 +135,7 @@ std::vector<const DeviceKind*> kinds_of(const BoardInfo& board) {
 }
 
 /// Why the board cannot be driven with the profile; empty if it can.
-std::string why_not(const BoardInfo& board, const Profile& profile) {
+std::string why_not(const DeviceInfo& board, const Profile& profile) {
   std::string names, why;
   for (const DeviceKind* kind : kinds_of(board)) {
     names += (names.empty() ? "" : " or ") + std::string(kind->profile_board);
@@ -151,10 +150,10 @@ std::string why_not(const BoardInfo& board, const Profile& profile) {
 
 }  // namespace
 
-NoProfile::NoProfile(const BoardInfo& board, SourceLocation location)
+NoProfile::NoProfile(const DeviceInfo& board, SourceLocation location)
     : DeviceError(without_profile(board), DeviceErrorCode::kSettings, location) {}
 
-std::vector<std::string> fitting_profiles(const BoardInfo& board) {
+std::vector<std::string> fitting_profiles(const DeviceInfo& board) {
   std::vector<std::string> fitting;
   for (const std::string& name : list_profiles()) {
     try {
@@ -166,7 +165,7 @@ std::vector<std::string> fitting_profiles(const BoardInfo& board) {
   return fitting;
 }
 
-std::string fitting_text(const BoardInfo& board) {
+std::string fitting_text(const DeviceInfo& board) {
   std::string names;
   for (const std::string& name : fitting_profiles(board)) {
     names += (names.empty() ? "" : ", ") + name;
@@ -186,7 +185,7 @@ bool can_drive(const std::string& device, const Profile& profile) {
 Profile profile_for(const std::string& device, const std::string& named) {
   const std::string usual = default_profile(device);
   if (!usual.empty()) return load_profile(named.empty() ? usual : named);
-  const BoardInfo board = board_info(device);
+  const DeviceInfo board = board_info(device);
   // Its error says how such a board is named.
   if (board.name.empty()) make_device(device, load_profile(kDefaultProfile));
   if (named.empty() && board.profile.empty()) {
@@ -203,7 +202,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
   return profile;
 }
 
-void require_serial(const BoardInfo& board, const std::string& profile) {
+void require_serial(const DeviceInfo& board, const std::string& profile) {
   require_plugged_in(board.device);
   if (board.path.empty()) {
     throw DeviceError(board.device +
@@ -221,7 +220,7 @@ void require_serial(const BoardInfo& board, const std::string& profile) {
   }
 }
 
-void remember_profile(const BoardInfo& board, const std::string& profile) {
+void remember_profile(const DeviceInfo& board, const std::string& profile) {
   require_serial(board, profile);
   store_profile(board.usb_id, board.serial, profile);
 }

@@ -35,30 +35,30 @@ void store_profile(const std::string& usb_id, const std::string& serial,
 /// Nobody has named a profile for this board. what() lists those that fit it.
 class NoProfile : public DeviceError {
  public:
-  explicit NoProfile(const BoardInfo& board, SourceLocation location = SourceLocation::here());
+  explicit NoProfile(const DeviceInfo& board, SourceLocation location = SourceLocation::here());
 };
 
 /// The names of the profiles that fit a board: it can drive them, and their source names a board of
 /// its kind or none. Profiles that cannot be read are left out. Opens nothing.
-std::vector<std::string> fitting_profiles(const BoardInfo& board);
+std::vector<std::string> fitting_profiles(const DeviceInfo& board);
 
 /// A sentence, without its full stop, that lists them.
-std::string fitting_text(const BoardInfo& board);
+std::string fitting_text(const DeviceInfo& board);
 
 /// Whether make_device() accepts the profile for this device. Opens nothing.
 bool can_drive(const std::string& device, const Profile& profile);
 
 /// Loads the profile `named`, which is a name or a path as for load_profile(). If it is empty,
-/// loads that of BoardInfo::profile. Throws NoProfile if that is empty, too, DeviceError when the
+/// loads that of DeviceInfo::profile. Throws NoProfile if that is empty, too, DeviceError when the
 /// profile does not fit the board or there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
 /// Throws DeviceError, which says what to do instead, if the board has no serial number by which
 /// its `profile` could be remembered.
-void require_serial(const BoardInfo& board, const std::string& profile);
+void require_serial(const DeviceInfo& board, const std::string& profile);
 
 /// `profile` is a name or a path as for load_profile(). Throws as require_serial() and
 /// store_profile().
-void remember_profile(const BoardInfo& board, const std::string& profile);
+void remember_profile(const DeviceInfo& board, const std::string& profile);
 
 }  // namespace spidar

@@ -35,10 +35,10 @@ double settled_tension_N(double volt, const StringDrive& drive, const Profile& p
 }  // namespace
 
 struct SimulatedDevice::Impl {
-  Impl(const Profile& of, Time how, const GripModel& model, SimulatedClock to_read)
+  Impl(const Profile& of, Time how, const GripModel& model, std::function<int64_t()> to_read)
       : profile(of),
         time(how),
-        clock(to_read ? std::move(to_read) : SimulatedClock(monotonic_now_ns)),
+        clock(to_read ? std::move(to_read) : std::function<int64_t()>(monotonic_now_ns)),
         model_lag_s(model.motor_time_constant_s),
         delay_ns(std::llround(1e9 * model.motor_delay_s)),
         dynamics(of.geometry, of.max_tension_N(), model),
@@ -111,7 +111,7 @@ struct SimulatedDevice::Impl {
   const std::string name = "sim";
   const Profile profile;
   const Time time;
-  const SimulatedClock clock;
+  const std::function<int64_t()> clock;
   const double model_lag_s;
   const int64_t delay_ns;
   const GripDynamics dynamics;
@@ -142,7 +142,7 @@ GripModel grip_model_of(const Profile& profile) {
 }
 
 SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripModel& model,
-                                 SimulatedClock clock)
+                                 std::function<int64_t()> clock)
     : impl_(std::make_unique<Impl>(profile, time, model, std::move(clock))) {}
 
 SimulatedDevice::~SimulatedDevice() = default;

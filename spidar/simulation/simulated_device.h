@@ -32,9 +32,6 @@ struct FeltState {
 /// The model of a device with this profile: its motors lag by drive_lag_s, first order.
 GripModel grip_model_of(const Profile& profile);
 
-/// Nanoseconds of a clock that never goes back. Does not throw.
-using SimulatedClock = std::function<int64_t()>;
-
 /// Simulates quantised encoders and D/A converters, motors with lag and saturation, and strings
 /// that only pull.
 ///
@@ -51,7 +48,7 @@ class SimulatedDevice final : public StringDevice {
   /// Throws std::invalid_argument when `model` is not physical or too stiff, see GripDynamics.
   /// `clock` is used with kClock; the default is CLOCK_MONOTONIC.
   SimulatedDevice(const Profile& profile, Time time, const GripModel& model = {},
-                  SimulatedClock clock = {});
+                  std::function<int64_t()> clock = {});
   ~SimulatedDevice() override;
 
   /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero

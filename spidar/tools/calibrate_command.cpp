@@ -128,9 +128,8 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
 
 calibration::CountSamples record(const CalibrateOptions& options, const Profile& profile,
                                  Bench& bench) {
-  const calibration::RecordingSettings settings{options.centre ? kHoldSeconds : options.move_s(),
-                                                kSamplePeriod_s};
-  Progress progress(settings.seconds);
+  const double seconds = options.centre ? kHoldSeconds : options.move_s();
+  Progress progress(seconds);
   std::optional<double> begin_s;
   const auto next_tick = [&](double time_s) {
     if (!begin_s) {
@@ -147,7 +146,7 @@ calibration::CountSamples record(const CalibrateOptions& options, const Profile&
     progress.show(time_s);
     return !interrupted();
   };
-  return calibration::record_counts(bench.device(), profile, settings, next_tick);
+  return calibration::record_counts(bench.device(), profile, seconds, kSamplePeriod_s, next_tick);
 }
 
 std::string how(const CalibrateOptions& options) {
@@ -229,7 +228,7 @@ Json result_json(const Profile& profile, const calibration::Result& result,
 
 int calibrate_command(const CalibrateOptions& options) {
   check_together(options);
-  const BoardInfo board = board_info(options.device);
+  const DeviceInfo board = board_info(options.device);
   require_strings(board, "calibrate");
   const Profile profile = profile_for(options.device, options.profile);
   options.output.check();

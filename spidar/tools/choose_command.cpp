@@ -85,7 +85,7 @@ int choose(const DeviceOptions& options) {
   if (is_simulated(options.device)) {
     throw UsageError(options.device + ": a simulated device has its own profile");
   }
-  const BoardInfo board = board_info(options.device);
+  const DeviceInfo board = board_info(options.device);
   require_strings(board, "choose");
   if (options.profile.empty()) {
     throw UsageError("choose needs --profile NAME. " + fitting_text(board));

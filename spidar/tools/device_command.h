@@ -90,7 +90,7 @@ enum class Motors {
 };
 
 struct ChosenDevice {
-  BoardInfo board;
+  DeviceInfo board;
   /// Without a name if nobody has named one: then it only says how many strings can be read, and
   /// allows no tension.
   Profile profile;
@@ -106,7 +106,7 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
                            boards::CountZero count_zero = boards::CountZero::kByProfile);
 
 /// Throws DeviceError when the board has no strings; its message says that `command` needs them.
-void require_strings(const BoardInfo& board, const std::string& command);
+void require_strings(const DeviceInfo& board, const std::string& command);
 
 /// Whether the device can output negative volts. Boards that output positive volts only refuse such
 /// a profile.

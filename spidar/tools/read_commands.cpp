@@ -28,10 +28,10 @@ struct InfoOptions : DeviceOptions {
 /// What is listed, as JSON, which the text is made of, too.
 Json found_devices() {
   Json devices = Json::array(), lines = Json::array(), profiles = Json::array();
-  for (const BoardInfo& board : list_boards()) {
+  for (const DeviceInfo& board : list_boards()) {
     devices.push_back({{"device", board.device},
                        {"board", board.name},
-                       {"evidence", to_string(board.verification)},
+                       {"evidence", board.evidence},
                        {"path", board.path},
                        {"serial", board.serial},
                        {"usb_id", board.usb_id},
@@ -184,7 +184,7 @@ void print_axes(const GripAbilities& can, const FoundBoard& found) {
 
 void print(const ChosenDevice& chosen, const FoundBoard& found) {
   std::cout << "device    " << chosen.board.device << "\nboard     " << chosen.board.name
-            << "\nevidence  " << to_string(chosen.board.verification);
+            << "\nevidence  " << chosen.board.evidence;
   if (!chosen.board.note.empty()) std::cout << "; " << chosen.board.note;
   if (!found.description.empty()) std::cout << "\nfound     " << found.description;
   if (!chosen.board.path.empty()) std::cout << "\npath      " << chosen.board.path;
@@ -211,7 +211,7 @@ Json counts_of(const Profile& profile, const DeviceReading& reading) {
 Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
   Json json{{"device", chosen.board.device},
             {"board", chosen.board.name},
-            {"evidence", to_string(chosen.board.verification)},
+            {"evidence", chosen.board.evidence},
             {"note", chosen.board.note},
             {"found", found.description},
             {"path", chosen.board.path},

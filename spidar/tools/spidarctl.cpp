@@ -34,7 +34,7 @@ int64_t reading_time_ns(const std::string& text) {
 }
 
 /// One with which the board can be read, and no motor can be pulled.
-Profile to_read_only(const BoardInfo& board) {
+Profile to_read_only(const DeviceInfo& board) {
   const std::vector<std::string> fitting = fitting_profiles(board);
   if (fitting.empty()) return profile_for(board.device, "");  // throws what is wrong
   Profile profile = load_profile(fitting.front());
@@ -100,7 +100,7 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
   return chosen;
 }
 
-void require_strings(const BoardInfo& board, const std::string& command) {
+void require_strings(const DeviceInfo& board, const std::string& command) {
   if (!board.has_strings) {
     throw DeviceError(board.device + ": " + command +
                       " is for devices with strings and encoders; this device has neither");

@@ -94,7 +94,7 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
   result.touching = proxy.touching();
   result.stiffness_fraction = shake_watch_.fraction();
   if (result.touching) {
-    shake_watch_.see(contact_.velocity_m_s(), proxy.normal(), dt_s);
+    shake_watch_.update(contact_.velocity_m_s(), proxy.normal(), dt_s);
     result.proxy_m = proxy.position_m();
     result.depth_m = std::max(0.0, proxy.normal().dot(proxy.position_m() - grip_m));
   }

@@ -102,8 +102,8 @@ class ShakeWatch {
   static constexpr double kLeastFraction = 0.1;
 
   /// A tick in contact, with the velocity of the grip and the unit normal of the surface.
-  void see(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
-           double dt_s) noexcept {
+  void update(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
+              double dt_s) noexcept {
     const double across_m_s = velocity_m_s.dot(normal);
     const double along_m_s = (velocity_m_s - across_m_s * normal).norm();
     slow_m_s_ += std::min(1.0, dt_s / kSlow_s) * (across_m_s - slow_m_s_);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <string>
 #include <sys/file.h>
 
 #include "spidar/device.h"
@@ -51,6 +52,10 @@ class Transport {
   /// To be called after a fault: clears stalls and discards pending replies. May block for some
   /// milliseconds.
   virtual void recover() noexcept = 0;
+
+  /// Where the open device was found, for the beginning of a description: "at 1-2: "; empty when
+  /// its name says so.
+  virtual std::string where() const { return {}; }
 
   /// Returns a will, without packets, with which another process can reach the same board; empty if
   /// that is not possible. To be called after open(). Throws DeviceError if there is no file to

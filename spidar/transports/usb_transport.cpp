@@ -50,10 +50,6 @@ std::string UsbDeviceInfo::device_file() const {
   return name.data();
 }
 
-void UsbContextCloser::operator()(libusb_context* context) const noexcept {
-  libusb_exit(context);
-}
-
 UsbContext make_usb_context() {
   libusb_context* context = nullptr;
   const int error = libusb_init(&context);
@@ -62,7 +58,7 @@ UsbContext make_usb_context() {
                           "; is there a USB on this machine (/dev/bus/usb)?",
                       DeviceErrorCode::kAbsent);
   }
-  return UsbContext(context);
+  return {context, libusb_exit};
 }
 
 std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product) {

@@ -31,10 +31,7 @@ struct UsbDeviceInfo {
   std::string device_file() const;
 };
 
-struct UsbContextCloser {
-  void operator()(libusb_context* context) const noexcept;
-};
-using UsbContext = std::unique_ptr<libusb_context, UsbContextCloser>;
+using UsbContext = std::unique_ptr<libusb_context, void (*)(libusb_context*)>;
 
 /// A new context scans the bus again, so that devices are found even if udev does not announce
 /// them. Throws DeviceError.
@@ -81,6 +78,7 @@ class UsbTransport final : public Transport {
                     int64_t deadline_ns) noexcept override;
   LinkFault control(const VendorRequest& request, int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
+  std::string where() const override { return "at " + device_.path + ": "; }
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;
 
@@ -102,7 +100,7 @@ class UsbTransport final : public Transport {
   const std::string name_;
   const UsbPipes pipes_;
   UsbDeviceInfo device_;
-  UsbContext context_;
+  UsbContext context_{nullptr, nullptr};
   libusb_device_handle* handle_ = nullptr;
   bool out_stalled_ = false;
   std::array<Slot, kMaxPackets + 1> slots_;  ///< the last is the reply's

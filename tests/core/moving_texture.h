@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

@@ -45,7 +45,7 @@ class Watcher {
   }
 
   /// The id of the object that is felt; 0: none.
-  uint32_t see(const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
+  uint32_t update(const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
     const int64_t now_ns = int64_t{frames_++} * 40'000'000;
     const Chosen chosen = choice_.choose(
         {objects, nullptr, kWidth, kHeight, kFrame_s, frames_ == 1, now_ns, turn_, &boxes});
@@ -56,7 +56,7 @@ class Watcher {
   uint32_t see_for(double s, const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
     uint32_t last = 0;
     for (const int end = frames_ + static_cast<int>(s / kFrame_s + 0.5); frames_ < end;) {
-      last = see(objects, boxes);
+      last = update(objects, boxes);
     }
     return last;
   }
@@ -77,45 +77,45 @@ const std::vector<MovingObject>& two() {
 
 TEST(BoxedObject, IsTheOneInABoxOfThatName) {
   const PictureBoxes boxes = {box("dog", kLeft, kSize), box("face", kRight, kSize)};
-  EXPECT_EQ(Watcher("box dog").see(two(), boxes), 1u);
-  EXPECT_EQ(Watcher("box face").see(two(), boxes), 2u);
-  EXPECT_EQ(Watcher("box cat").see(two(), boxes), 0u);
-  EXPECT_EQ(Watcher("box").see(two(), {boxes[1]}), 2u);
+  EXPECT_EQ(Watcher("box dog").update(two(), boxes), 1u);
+  EXPECT_EQ(Watcher("box face").update(two(), boxes), 2u);
+  EXPECT_EQ(Watcher("box cat").update(two(), boxes), 0u);
+  EXPECT_EQ(Watcher("box").update(two(), {boxes[1]}), 2u);
 }
 
 /// Which part of a thing a detector marks and which part of it moves are two questions.
 TEST(BoxedObject, ItsBoxMayBeAPartOfItOrItAPartOfTheBox) {
   Watcher watcher("box");
-  EXPECT_EQ(watcher.see(two(), {box("", kRight + Vector2d(0, -25), {20, 20})}), 2u);
-  EXPECT_EQ(watcher.see(two(), {box("", kRight + Vector2d(0, 20), {60, 140})}), 2u);
+  EXPECT_EQ(watcher.update(two(), {box("", kRight + Vector2d(0, -25), {20, 20})}), 2u);
+  EXPECT_EQ(watcher.update(two(), {box("", kRight + Vector2d(0, 20), {60, 140})}), 2u);
   // 0.4 of either is in the other.
-  EXPECT_EQ(Watcher("box").see(two(), {box("", kRight + Vector2d(24, 0), kSize)}), 0u);
+  EXPECT_EQ(Watcher("box").update(two(), {box("", kRight + Vector2d(24, 0), kSize)}), 0u);
   // Both are in it: the one that fills more of it is meant.
   const std::vector<MovingObject> ball_and_player = {object(1, {0, 60}, {10, 10}),
                                                      object(2, {0, 0}, kSize)};
-  EXPECT_EQ(Watcher("box").see(ball_and_player, {box("", {0, 0}, {50, 140})}), 2u);
+  EXPECT_EQ(Watcher("box").update(ball_and_player, {box("", {0, 0}, {50, 140})}), 2u);
 }
 
 TEST(BoxedObject, OfATurnedPictureBoxesAreWhereTheyAreShown) {
   Watcher watcher("box");
   watcher.turn_ = Orientation(2);
-  EXPECT_EQ(watcher.see(two(), {box("", kLeft, kSize)}), 2u);
+  EXPECT_EQ(watcher.update(two(), {box("", kLeft, kSize)}), 2u);
 }
 
 TEST(BoxedObject, TheLargestOfSeveralAndThenThatOneAsLongAsItHasABox) {
   Watcher watcher("box");
   const std::vector<MovingObject> objects = {object(1, kLeft, kSize), object(2, kRight, 2 * kSize)};
   const PictureBox left = box("", kLeft, kSize), right = box("", kRight, 2 * kSize);
-  EXPECT_EQ(watcher.see(objects, {left, right}), 2u);
-  EXPECT_EQ(watcher.see({object(1, kLeft, 3 * kSize), objects[1]}, {left, right}), 2u);
+  EXPECT_EQ(watcher.update(objects, {left, right}), 2u);
+  EXPECT_EQ(watcher.update({object(1, kLeft, 3 * kSize), objects[1]}, {left, right}), 2u);
   EXPECT_EQ(watcher.see_for(BoxedObject::kHold_s - kFrame_s, objects, {left}), 2u);
   EXPECT_EQ(watcher.see_for(2 * kFrame_s, objects, {left}), 1u);
-  EXPECT_EQ(watcher.see(objects, {left, right}), 1u);
+  EXPECT_EQ(watcher.update(objects, {left, right}), 1u);
 }
 
 TEST(BoxedObject, ADetectorMayMissFramesButNotTheThing) {
   Watcher watcher("box");
-  watcher.see(two(), {box("", kRight, kSize)});
+  watcher.update(two(), {box("", kRight, kSize)});
   EXPECT_EQ(watcher.see_for(BoxedObject::kHold_s - kFrame_s, two(), {}), 2u);
   EXPECT_EQ(watcher.see_for(2 * kFrame_s, two(), {}), 0u);
 }
@@ -131,7 +131,7 @@ TEST(BoxedObject, SaysWhetherBoxesOrObjectsAreMissingAndNotAtOnce) {
     EXPECT_EQ(watcher.state_, Chosen::State::kGood);
     watcher.see_for(2 * kFrame_s, two(), boxes);
     EXPECT_EQ(watcher.state_, state);
-    EXPECT_EQ(watcher.see(two(), {box("dog", kLeft, kSize)}), 1u);
+    EXPECT_EQ(watcher.update(two(), {box("dog", kLeft, kSize)}), 1u);
     EXPECT_EQ(watcher.state_, Chosen::State::kGood);
     watcher.see_for(10, two(), boxes);
     EXPECT_EQ(watcher.state_, Chosen::State::kGood) << "it rests, or has left";

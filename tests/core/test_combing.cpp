@@ -72,25 +72,25 @@ TEST(Combing, TheFractionIsThatOfItsDefinition) {
 TEST(Combing, AFilmCountsAsInterlacedFromItsFirstComb) {
   Combing combing;
   const Picture whole = fields(0);
-  EXPECT_FALSE(combing.see(whole.view())) << "nothing has moved";
-  EXPECT_TRUE(combing.see(fields(6).view()));
+  EXPECT_FALSE(combing.update(whole.view())) << "nothing has moved";
+  EXPECT_TRUE(combing.update(fields(6).view()));
   // A telecined film has whole pictures in between, and a still shot shows nothing of its fields.
-  for (int n = 0; n < 100; ++n) EXPECT_TRUE(combing.see(whole.view()));
+  for (int n = 0; n < 100; ++n) EXPECT_TRUE(combing.update(whole.view()));
 }
 
 TEST(Combing, AFilmThatIsNoLongerInterlacedIsRecognised) {
   Combing combing;
-  ASSERT_TRUE(combing.see(fields(6).view()));
+  ASSERT_TRUE(combing.update(fields(6).view()));
   const Picture whole = fields(0);
   int frames = 0;
-  while (combing.see(whole.view()) && frames < 1000) ++frames;
+  while (combing.update(whole.view()) && frames < 1000) ++frames;
   EXPECT_GT(frames, 5 * 24) << "a still part of five seconds";
   EXPECT_LT(frames, 15 * 24);
 }
 
 TEST(Combing, LargeFramesAreReducedByOneFieldAnyway) {
   Combing combing;
-  EXPECT_FALSE(combing.see(fields(12, 1920, 1080).view()));
+  EXPECT_FALSE(combing.update(fields(12, 1920, 1080).view()));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 #include "tests/support/picture.h"
 #include "tests/support/texture.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/motion/motion_estimator.h"
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 #include "tests/support/motion_cases.h"
 
 namespace spidar::test::hard_frames_test {

@@ -210,7 +210,7 @@ TEST(ObjectChoice, OfTwoAtAPositionTheSmallerOneIsMeant) {
     FollowedObject followed;
     followed.begin({0, 0}, 0);
     const auto objects = objects_at({id == 1 ? front : behind, id == 1 ? behind : front}, 0);
-    EXPECT_EQ(followed.see(objects, kHeight, kFrame_s, nullptr), &objects[id - 1]);
+    EXPECT_EQ(followed.update(objects, kHeight, kFrame_s, nullptr), &objects[id - 1]);
   }
 }
 
@@ -222,7 +222,8 @@ TEST(ObjectChoice, OneThatComesBackWithAnotherIdWhereItWouldBeIsTheSame) {
     std::vector<MovingObject> objects;
     if (n <= 4 || n == 8) objects = objects_at({runner}, n);
     if (n == 8) objects[0].id = 7;
-    EXPECT_EQ(followed.see(objects, kHeight, kFrame_s, nullptr) != nullptr, !objects.empty()) << n;
+    EXPECT_EQ(followed.update(objects, kHeight, kFrame_s, nullptr) != nullptr, !objects.empty())
+        << n;
   }
 }
 

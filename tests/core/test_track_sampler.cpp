@@ -46,7 +46,7 @@ TEST(TrackSampler, TakesTheCurveThatIsFeltWhenAllFramesAreKnown) {
       // Repeated frames put off what is settled by up to two intervals.
       while (sampler.next_ns() < sampler.settled_ns(3 * interval_ns)) {
         ASSERT_EQ(sampler.next_ns(), time_ns);
-        const Wrench sample = sampler.take();
+        const Wrench sample = sampler.next();
         const Wrench felt = known.at(time_ns).wrench;
         ASSERT_EQ(sample.stacked(), felt.stacked()) << time_ns;
         time_ns += kTrackPeriod_ns;
@@ -84,7 +84,7 @@ TEST(TrackSampler, RampsToRestWhereNoFrameFollows) {
   const double steepest_N = 1.5 * last.force_N.norm() * kTrackPeriod_ns / WrenchTimeline::kRamp_ns;
   Eigen::Vector3d before = last.force_N;
   for (int ms = 0; ms < 200; ++ms) {
-    const Eigen::Vector3d force = sampler.take().force_N;
+    const Eigen::Vector3d force = sampler.next().force_N;
     const bool held = ms * kTrackPeriod_ns <= hold_ns;
     const bool at_rest = ms * kTrackPeriod_ns > hold_ns + WrenchTimeline::kRamp_ns;
     EXPECT_TRUE(!held || force == last.force_N) << ms;

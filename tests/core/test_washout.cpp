@@ -32,7 +32,8 @@ TEST(Washout, AStepDecaysWithItsTimeConstantAtAnyFrameRate) {
     for (const double frame_s : {1 / 24.0, 1 / 60.0, 0.17}) {
       Washout washout;
       for (int n = 0; n < 200; ++n) {
-        const Wrench passed = washout.pass({{2, -1, 0}, {0, 0, 0.01}}, frame_s, cutoff_Hz, kMost_N);
+        const Wrench passed =
+            washout.apply({{2, -1, 0}, {0, 0, 0.01}}, frame_s, cutoff_Hz, kMost_N);
         const double left = std::exp(-kTwoPi * cutoff_Hz * frame_s * n);
         ASSERT_NEAR(passed.force_N.x(), 2 * left, kRounding_N) << n;
         ASSERT_NEAR(passed.force_N.y(), -left, kRounding_N) << n;
@@ -45,10 +46,10 @@ TEST(Washout, AStepDecaysWithItsTimeConstantAtAnyFrameRate) {
 TEST(Washout, WhatWasLostComesBackInTheOppositeDirection) {
   constexpr double kCutoff_Hz = 0.2, kFrame_s = 0.04;
   Washout washout;
-  for (int n = 0; n < 1000; ++n) washout.pass(pushed(2), kFrame_s, kCutoff_Hz, kMost_N);
+  for (int n = 0; n < 1000; ++n) washout.apply(pushed(2), kFrame_s, kCutoff_Hz, kMost_N);
   for (int n = 0; n < 100; ++n) {
     const double left = std::exp(-kTwoPi * kCutoff_Hz * kFrame_s * n);
-    ASSERT_NEAR(washout.pass({}, kFrame_s, kCutoff_Hz, kMost_N).force_N.x(), -2 * left,
+    ASSERT_NEAR(washout.apply({}, kFrame_s, kCutoff_Hz, kMost_N).force_N.x(), -2 * left,
                 kRounding_N);
   }
 }
@@ -64,7 +65,7 @@ TEST(Washout, ASwayPassesAsAHighPassOfFirstOrderLetsIt) {
     const int period = static_cast<int>(1 / sway_Hz / kFrame_s);
     for (int n = 0; n < settled + 2 * period; ++n) {
       const Wrench in = pushed(std::sin(kTwoPi * sway_Hz * kFrame_s * n));
-      const double out_N = washout.pass(in, kFrame_s, kCutoff_Hz, kMost_N).force_N.x();
+      const double out_N = washout.apply(in, kFrame_s, kCutoff_Hz, kMost_N).force_N.x();
       if (n >= settled) largest_N = std::max(largest_N, std::fabs(out_N));
     }
     EXPECT_NEAR(largest_N, sway_Hz / std::hypot(sway_Hz, kCutoff_Hz), kTwoPi * sway_Hz * kFrame_s)
@@ -80,7 +81,7 @@ TEST(Washout, AForceThatTurnsRoundStaysWithinTheLargest) {
   for (int n = 0; n < 5000; ++n) {
     const double sign = n / 50 % 2 == 0 ? 1 : -1;
     const Wrench in{{1.7 * sign, size(random), size(random)}, {0, 0, 0.01 * sign}};
-    const Wrench out = washout.pass(in, kFrame_s, cutoff(random), kMost_N);
+    const Wrench out = washout.apply(in, kFrame_s, cutoff(random), kMost_N);
     ASSERT_LE(size_N(out), kMost_N * (1 + 1e-12)) << "seed 1, step " << n;
   }
 }
@@ -88,11 +89,11 @@ TEST(Washout, AForceThatTurnsRoundStaysWithinTheLargest) {
 TEST(Washout, OffChangesNoBitAndForgets) {
   Washout washout;
   for (int n = 0; n < 10; ++n) {
-    EXPECT_TRUE(same_bits(washout.pass(wrench_of(n), 0.04, 0, 0.001), wrench_of(n)));
+    EXPECT_TRUE(same_bits(washout.apply(wrench_of(n), 0.04, 0, 0.001), wrench_of(n)));
   }
-  washout.pass(pushed(2), 0.04, 0.5, kMost_N);
-  washout.pass(pushed(2), 0.04, 0, kMost_N);
-  EXPECT_EQ(washout.pass(pushed(2), 0.04, 0.5, kMost_N).force_N.x(), 2);
+  washout.apply(pushed(2), 0.04, 0.5, kMost_N);
+  washout.apply(pushed(2), 0.04, 0, kMost_N);
+  EXPECT_EQ(washout.apply(pushed(2), 0.04, 0.5, kMost_N).force_N.x(), 2);
 }
 
 TEST(Washout, RefusesCutoffsThatAreNone) {
@@ -132,7 +133,7 @@ TEST(Washout, IsThatOfTheAnalysisAndBeginsAnewAfterASeek) {
     begun = begun || plain[n] != 0;
     const double expected =
         plain[n] == 0 ? 0
-                      : washout.pass(pushed(plain[n]), kFrame_s, kCutoff_Hz, kMost_N).force_N.x();
+                      : washout.apply(pushed(plain[n]), kFrame_s, kCutoff_Hz, kMost_N).force_N.x();
     ASSERT_NEAR(faded[n], expected, 1e-6) << n;
   }
   EXPECT_TRUE(begun);

@@ -193,7 +193,7 @@ TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
     device().set_hand(hand);
     // The simulated grip moves in real time, so the test waits for as long as necessary.
     while (side * loop().snapshot().last.pose.position_m.x() < 0.9 * 0.059 / 4) tick();
-    h->state().live.reset();
+    h->state().live.begin_run();
     for (int n = 0; n < 6; ++n, ++frames) {
       // Apart from each other by 2 px a frame each.
       const ImageView view = scene.draw({}, {{{-80.0 - 2 * n, 0}}, {{80.0 + 2 * n, 0}}});

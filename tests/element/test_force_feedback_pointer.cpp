@@ -60,7 +60,7 @@ class StickTest : public testing::Test {
   /// The felt velocity to the right while two discs move by 2 px a frame, 50 px/s: the first, from
   /// `left`, to the left, and the second, from `right`, to the right.
   double felt_px_s(double left, double right) {
-    h->state().live.reset();
+    h->state().live.begin_run();
     for (int n = 0; n < 6; ++n, ++frames) {
       const ImageView view = scene.draw({}, {{{left - 2 * n, 0}}, {{right + 2 * n, 0}}});
       h->push(gst_buffer_new_memdup(view.data, kWidth * kHeight),

@@ -74,7 +74,7 @@ TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {
   }
   filter::StreamOrientation orientation;
   GstTagList* tags = orientation_tags("rotate-90", GST_TAG_SCOPE_STREAM);
-  orientation.take(tags);
+  orientation.update(tags);
   gst_tag_list_unref(tags);
   EXPECT_TRUE(orientation.turn().is_sideways());
   orientation.begin_stream();

@@ -25,8 +25,8 @@ bool is_dark(const Pixel& pixel) {
   return pixel[0] < 128 && pixel[1] < 128 && pixel[2] < 128;
 }
 
-FrameReport one_point(ImagePoint from, ImagePoint to, PointOwner owner = PointOwner::kUnknown) {
-  FrameReport report;
+DrawnFrame one_point(ImagePoint from, ImagePoint to, PointOwner owner = PointOwner::kUnknown) {
+  DrawnFrame report;
   report.points.push_back({1, from, to, owner, 0, false});
   return report;
 }
@@ -73,7 +73,7 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
     EXPECT_TRUE(canvas.is_drawn(32, 16)) << "the last pixel of an odd frame";
     for (const Eigen::Vector2d& position :
          {Eigen::Vector2d(0, 0), {1, 1}, {1e9, -1e9}, {static_cast<double>(none), 0.5}}) {
-      FrameReport report;
+      DrawnFrame report;
       TouchMark& touch = report.touch_mark.emplace();
       touch.touching = true;
       touch.finger = touch.proxy = position;
@@ -85,7 +85,7 @@ TEST(Overlay, WhatIsOutsideTheFrameIsClipped) {
 }
 
 TEST(Overlay, TracksAreDrawnOnlyWhenAskedFor) {
-  FrameReport report = one_point({10, 20}, {34, 20});
+  DrawnFrame report = one_point({10, 20}, {34, 20});
   report.lost.push_back({50, 10});
   MovingObject object;
   object.points = 5;
@@ -122,7 +122,7 @@ TEST(Overlay, ColoursSayTheDirectionAndTheOwner) {
 
 TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
   Canvas canvas("RGB", 641, 481);
-  FrameReport report;
+  DrawnFrame report;
   report.frame.wrench.force_N = {0, 3, 0};  // up, the most there is
   canvas.draw(report);
   // Tail at (320, 240), a fifth of 481 lines long, 6 px wide; the border is a quarter of that. The
@@ -147,7 +147,7 @@ TEST(Overlay, TheFeltForceIsOneBoldArrowFromTheMiddle) {
 
 TEST(Overlay, AnObjectHasItsBoxAndTheFeltOneAThickOneFromWhichTheArrowBegins) {
   Canvas canvas("RGB", 641, 481);
-  FrameReport report;
+  DrawnFrame report;
   report.frame.objects.resize(3);
   for (uint32_t i = 0; i < 3; ++i) {
     MovingObject& object = report.frame.objects[i];
@@ -181,7 +181,7 @@ TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
   EXPECT_EQ(curve.positions().size(), 101u);
   for (int quarters = 0; quarters < 4; ++quarters) {
     SCOPED_TRACE(quarters);
-    FrameReport report;
+    DrawnFrame report;
     report.turn = Orientation(quarters);
     Canvas canvas("RGB", kSide, kSide);
     canvas.draw(report, 1, false, &curve);
@@ -216,7 +216,7 @@ TEST(Overlay, ACurveBeginsAnewWithItsStreamAndHasARoundAxis) {
 std::vector<std::tuple<int, int, Pixel>> newtons(const Orientation& turn) {
   constexpr int kSide = 481, kMiddle = kSide / 2;
   Canvas canvas("RGB", kSide, kSide);
-  FrameReport report;
+  DrawnFrame report;
   report.turn = turn;
   report.frame.wrench.force_N = {1, 0, 0};  // "1.0 N", beyond an arrow of 481 / 5 / 3 = 32 px
   canvas.draw(report);
@@ -248,7 +248,7 @@ TEST(Overlay, NewtonsStandBeyondTheTipOfTheArrowUprightAsItIsShown) {
 }
 
 TEST(Overlay, ShowsFingerProxyAndTheForceOfTheContact) {
-  FrameReport report;
+  DrawnFrame report;
   TouchMark& touch = report.touch_mark.emplace();
   touch.finger = {0.25, 0.5};  // the middle between pixels 159 and 160, and 239 and 240
   Canvas canvas("RGB", 640, 480);

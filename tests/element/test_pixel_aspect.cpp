@@ -240,7 +240,7 @@ TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
   // A ring for the finger of 11 px (see test_overlay), in pixels twice as wide as high.
   Canvas canvas("RGB", 320, 480);
   canvas.set_pixel_aspect(2, 1);
-  FrameReport touched;
+  DrawnFrame touched;
   touched.touch_mark.emplace().finger = {0.5, 0.5};
   canvas.draw(touched);
   int across = 0, down = 0;
@@ -252,7 +252,7 @@ TEST(PixelAspect, WhatIsDrawnIsRoundAsItIsShown) {
   // The force to the upper right points there as it is shown.
   Canvas arrow("RGB", 320, 480);
   arrow.set_pixel_aspect(2, 1);
-  FrameReport report;
+  DrawnFrame report;
   report.frame.wrench.force_N = {2, 2, 0};
   arrow.draw(report);
   EXPECT_EQ(arrow.at(160 + 15, 240 - 30), (Pixel{255, 255, 255}));

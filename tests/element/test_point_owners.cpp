@@ -10,8 +10,8 @@
 namespace spidar::test::point_owners_test {
 namespace {
 
-FrameReport report_of(const std::vector<FollowedPoint>& points, const VisiblePart& visible) {
-  FrameReport report;
+DrawnFrame report_of(const std::vector<FollowedPoint>& points, const VisiblePart& visible) {
+  DrawnFrame report;
   report.frame.picture = Likeness::kOther;
   report.frame.points = points;
   report.frame.interval_ns = 40'000'000;
@@ -24,7 +24,7 @@ TEST(PointOwners, TellsNewAndLostPoints) {
   const VisiblePart visible{10, 20, 320, 240};
   const std::vector<FollowedPoint> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
   const std::vector<FollowedPoint> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
-  FrameReport report = report_of(first, visible);
+  DrawnFrame report = report_of(first, visible);
   owners.find(report);
   for (const OwnedPoint& point : report.points) {
     EXPECT_FALSE(point.is_new) << "nothing to compare with";
@@ -38,7 +38,7 @@ TEST(PointOwners, TellsNewAndLostPoints) {
   EXPECT_EQ(report.points[1].to.y_px, 20);
   ASSERT_EQ(report.lost.size(), 1u);
   EXPECT_EQ(report.lost[0].x_px, 16);
-  report = FrameReport();  // a restart
+  report = DrawnFrame();  // a restart
   owners.find(report);
   report = report_of(first, visible);
   owners.find(report);
@@ -46,7 +46,7 @@ TEST(PointOwners, TellsNewAndLostPoints) {
 }
 
 TEST(PointOwners, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
-  FrameReport report;
+  DrawnFrame report;
   report.visible = {10, 20, 321, 241};
   report.frame.objects.resize(1);
   report.frame.objects[0].id = 7;
@@ -87,7 +87,7 @@ TEST(PointOwners, TellsTheBackgroundFromObjects) {
                                           {2, {160, 120}, {160, 120}},  // with the left object
                                           {3, {160, 120}, {164, 124}},  // with the right one
                                           {4, {20, 220}, {20, 220}}};   // alone
-  FrameReport report = report_of(points, {0, 0, 321, 241});
+  DrawnFrame report = report_of(points, {0, 0, 321, 241});
   report.frame.background = background;
   report.frame.objects = {left, right};
   PointOwners().find(report);

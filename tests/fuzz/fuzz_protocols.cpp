@@ -34,7 +34,7 @@ void fuzz_sh4(ByteView bytes) {
             "fuzz_protocols: an SH4 reading is another");
     require(reading.rotary() >= 0 && reading.rotary() < 16, "fuzz_protocols: rotary switch");
   }
-  sh4::DacDigits digits{}, digits_again{};
+  CyverseDigits digits{}, digits_again{};
   if (!sh4::decode_update(bytes, digits)) return;
   sh4::encode_update(digits, packet);
   for (uint16_t& digit : digits) digit = std::min(digit, sh4::kMaxDigit);

@@ -174,7 +174,7 @@ bool UinputDevice::has_effects() const {
 std::string listed(const std::string& name) {
   std::string device;
   wait_for([&] {
-    for (const BoardInfo& board : list_boards())
+    for (const DeviceInfo& board : list_boards())
       if (board.name == name) device = board.device;
     return !device.empty();
   });

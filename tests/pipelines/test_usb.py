@@ -73,8 +73,8 @@ class Refused(Pipelines):
                 ("ff", absent, "is plugged in", "evdev_transport.cpp"),
                 ("ff:/dev/input/event99", absent, "No such file", "evdev_transport.cpp"),
                 ("ff:/dev/null", settings, "it is no input device", "evdev_transport.cpp"),
-                ("falcon", absent, "is plugged in", "usb_board.cpp"), ("mouse", absent, "is plugged in", "usb_board.cpp"),
-                ("usb", absent, no_board, "usb_board.cpp"), ("usb:7", absent, "is plugged in", "usb_board.cpp"),
+                ("falcon", absent, "is plugged in", "usb_search.cpp"), ("mouse", absent, "is plugged in", "usb_search.cpp"),
+                ("usb", absent, no_board, "usb_search.cpp"), ("usb:7", absent, "is plugged in", "usb_search.cpp"),
                 ("inverse3:1,port=1", absent, "no service answers", "websocket_transport.cpp"),
                 ("uart:/dev/ttyUSB9", absent, "uart:/dev/ttyUSB9: /dev/ttyUSB9: No such file", "profile_choice.cpp"),
                 ("telepathy", settings, "known are", "device_factory.cpp"), ("ff:", settings, "known are", "device_factory.cpp")):

@@ -41,7 +41,7 @@ struct ForceBench {
     return std::make_unique<boards::ForceLink>(board(), settings(threaded));
   }
   std::unique_ptr<boards::ForceGrip> grip() {
-    return std::make_unique<boards::ForceGrip>(board(), settings(false));
+    return std::make_unique<boards::ForceGrip>(linked());
   }
 
   /// Number of exchanges in which it communicates with the device once.

@@ -49,7 +49,7 @@ TEST(CalibrationDevice, LoopFindsTheGripOfACalibratedDevice) {
   add_to_offsets(random, 3e-3, real);
   SimulatedDevice device(real, SimulatedDevice::Time::kFixedStep);
   const calibration::CountSamples counts =
-      calibration::record_counts(device, profile, {10, 0.005}, [&](double time_s) {
+      calibration::record_counts(device, profile, 10, 0.005, [&](double time_s) {
         device.set_hand(calibration::hand_in_motion(real.geometry, time_s));
         return true;
       });
@@ -90,7 +90,7 @@ TEST(CalibrationDevice, StringsAreEnergisedAndReleasedByRamps) {
   for (const bool stopped : {false, true}) {
     FakeDevice device;
     const calibration::CountSamples counts = calibration::record_counts(
-        device, profile, {0.1, 0.001}, [&](double time_s) { return !(stopped && time_s >= 0.05); });
+        device, profile, 0.1, 0.001, [&](double time_s) { return !(stopped && time_s >= 0.05); });
     EXPECT_EQ(counts.rows(), stopped ? 50 : 100);
     EXPECT_EQ(counts.cols(), 8);
     const std::vector<MotorVolts>& volts = device.log().volts;
@@ -107,12 +107,12 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
   const auto never = [](double) { return true; };
   FakeDevice lost;
   lost.log().answer = LinkFault::kGone;
-  EXPECT_THROW(calibration::record_counts(lost, profile, {1, 0.001}, never), DeviceError);
+  EXPECT_THROW(calibration::record_counts(lost, profile, 1, 0.001, never), DeviceError);
   EXPECT_EQ(lost.log().closed, 1);
 
   FakeDevice silent;
   silent.log().answer = LinkFault::kTimeout;
-  EXPECT_THROW(calibration::record_counts(silent, profile, {1, 0.001}, never), DeviceError);
+  EXPECT_THROW(calibration::record_counts(silent, profile, 1, 0.001, never), DeviceError);
   EXPECT_EQ(silent.log().closed, 1);
 
   FakeDevice good;
@@ -120,7 +120,7 @@ TEST(CalibrationDevice, DeviceIsClosedWhateverHappens) {
     if (time_s > 0) throw std::runtime_error("stop");
     return true;
   };
-  EXPECT_THROW(calibration::record_counts(good, profile, {1, 0.001}, throws), std::runtime_error);
+  EXPECT_THROW(calibration::record_counts(good, profile, 1, 0.001, throws), std::runtime_error);
   EXPECT_EQ(good.log().closed, 1);
 }
 

@@ -47,7 +47,7 @@ struct StoppedTime {
   int64_t now_ns = 0;
   int64_t end_ns = INT64_MAX;  // interrupted then
 
-  SimulatedClock clock() {
+  std::function<int64_t()> clock() {
     return [this] { return now_ns; };
   }
   selftest::Pace pace() {

@@ -238,9 +238,9 @@ TEST(DeliveredLimit, HoldsWhereTheGripGoes) {
       const double turn_rad = random.uniform(0, 0.01);
       GripMotion motion;
       for (int i = -30; i <= 0; ++i) {
-        motion.see({pose.position_m + i * step_m,
-                    Eigen::AngleAxisd(i * turn_rad, axis) * pose.orientation},
-                   i * kTick_ns);
+        motion.update({pose.position_m + i * step_m,
+                       Eigen::AngleAxisd(i * turn_rad, axis) * pose.orientation},
+                      i * kTick_ns);
       }
       const Wrench wanted{random.uniform(0, 3) * random.direction(),
                           random.uniform(0, 0.1) * random.direction()};

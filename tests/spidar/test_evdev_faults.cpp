@@ -32,14 +32,14 @@ class EvdevFaults : public testing::Test {
     settings.threaded = settings.guardian = false;
     return settings;
   }
-  std::unique_ptr<boards::ForceBoard> board(boards::ForceFeedback::Updates updates) const {
+  std::unique_ptr<boards::ForceBoard> board(boards::StickEffects::Updates updates) const {
     return std::make_unique<boards::ForceFeedback>(
         "ff", profile, std::make_unique<EvdevTransport>("ff", ""), updates);
   }
 
   /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
   std::unique_ptr<boards::ForceLink> stepped() const {
-    return std::make_unique<boards::ForceLink>(board(boards::ForceFeedback::Updates::kInCycle),
+    return std::make_unique<boards::ForceLink>(board(boards::StickEffects::Updates::kInCycle),
                                                alone());
   }
 
@@ -229,8 +229,8 @@ TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   SessionSettings by_hand;
   by_hand.threaded = false;
-  HapticSession session(std::make_unique<boards::ForceGrip>(
-                            board(boards::ForceFeedback::Updates::kOwnThread), alone()),
+  HapticSession session(std::make_unique<boards::ForceGrip>(std::make_unique<boards::ForceLink>(
+                            board(boards::StickEffects::Updates::kOwnThread), alone())),
                         by_hand);
   int64_t now_ns = 0;
   const auto tick = [&] {

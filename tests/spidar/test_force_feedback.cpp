@@ -50,13 +50,13 @@ TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
   plug_evdev(0, EvdevKind::kKeyboard);
   plug_evdev(1, EvdevKind::kPad);
   plug_evdev(2, EvdevKind::kStick);
-  const std::vector<BoardInfo> boards = list_boards();
+  const std::vector<DeviceInfo> boards = list_boards();
   ASSERT_GE(boards.size(), 3u);
   EXPECT_EQ(boards[0].device, "ff:/dev/input/event2");
   EXPECT_EQ(boards[0].name, "Emulated Stick");
   EXPECT_EQ(boards[0].path, "/dev/input/event2");
   EXPECT_EQ(boards[0].usb_id, "1209:0001");
-  EXPECT_EQ(boards[0].verification, boards::Verification::kEmulated);
+  EXPECT_STREQ(boards[0].evidence, "emulated");
   EXPECT_EQ(boards[0].note, "");
   EXPECT_FALSE(boards[0].has_strings);
   EXPECT_TRUE(boards[0].accessible);
@@ -283,7 +283,7 @@ TEST_F(ForceFeedback, IsTakenBackUnderWhateverNumber) {
 /// A name is what a device says of itself: a terminal must not obey it.
 TEST_F(ForceFeedback, ItsNameIsHarmless) {
   plug_evdev(0, EvdevKind::kStick, nullptr, {"\x1b[2J", nullptr, "\x1b]0;title\x07\x9bStick"});
-  const std::vector<BoardInfo> boards = list_boards();
+  const std::vector<DeviceInfo> boards = list_boards();
   EXPECT_EQ(boards[0].name, "?]0;title??Stick");
   EXPECT_EQ(boards[0].serial, "?[2J");
   {

@@ -94,7 +94,7 @@ TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
         place.advance(ms * kMs);
         EXPECT_NEAR(reach_m * place.fraction().x(), read_m, 1e-12);
         const ff::Position position = swinging(ms * kMs, half_ms);
-        place.see(position, ms * kMs);
+        place.update(position, ms * kMs);
         const double now_m = reach_m * position.right / ff::Position::kFull;
         largest_read_m = std::max(largest_read_m, std::abs(now_m - read_m));
         read_m = now_m;
@@ -113,12 +113,12 @@ TEST(StickPosition, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
   boards::StickPosition place;
   place.start({100, 200}, 0);
   EXPECT_EQ(place.fraction(), Eigen::Vector2d(0.01, 0.02));
-  place.see({10'000, -10'000}, 3 * kSecond_ns);
+  place.update({10'000, -10'000}, 3 * kSecond_ns);
   place.advance(3 * kSecond_ns);
   EXPECT_LT(place.fraction().x(), 1);
   place.advance(3 * kSecond_ns + boards::StickPosition::kLongest_ns);
   EXPECT_EQ(place.fraction(), Eigen::Vector2d(1, -1));
-  place.see({0, 0}, 4 * kSecond_ns);
+  place.update({0, 0}, 4 * kSecond_ns);
   place.advance(5 * kSecond_ns);
   EXPECT_EQ(place.fraction(), Eigen::Vector2d(0, 0));
 }
@@ -298,7 +298,7 @@ TEST_F(ForceFeedbackFaults, ItsWillIsTheSameForPrograms32And64BitsWide) {
   plug_evdev(0, EvdevKind::kStick, "hid-generic");
   boards::ForceFeedback board("ff", load_profile(kDefaultProfile),
                               std::make_unique<EvdevTransport>("ff", ""),
-                              boards::ForceFeedback::Updates::kInCycle);
+                              boards::StickEffects::Updates::kInCycle);
   board.open();
   const std::vector<LastWill> wills = board.last_wills();
   ASSERT_EQ(wills.size(), 1u);
@@ -331,7 +331,7 @@ TEST_F(ForceFeedbackFaults, SettingsReturnWhenAReopeningFails) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
   auto board = std::make_unique<boards::ForceFeedback>("ff", load_profile(kDefaultProfile),
                                                        std::make_unique<EvdevTransport>("ff", ""),
-                                                       boards::ForceFeedback::Updates::kOwnThread);
+                                                       boards::StickEffects::Updates::kOwnThread);
   const auto take_settings = [&] {
     board->open();
     boards::ForceReading reading;

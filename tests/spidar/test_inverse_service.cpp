@@ -153,8 +153,8 @@ TEST(InverseService, ItIsListedWhileItListens) {
     EXPECT_EQ(service.clients, 0) << "it is not asked";
   }
   EXPECT_FALSE(is_listening(port));
-  const std::vector<BoardInfo> boards = list_boards();
-  const bool listed = std::any_of(boards.begin(), boards.end(), [](const BoardInfo& board) {
+  const std::vector<DeviceInfo> boards = list_boards();
+  const bool listed = std::any_of(boards.begin(), boards.end(), [](const DeviceInfo& board) {
     return board.device == "inverse3";
   });
   EXPECT_EQ(listed, is_listening(inverse3::kPort));

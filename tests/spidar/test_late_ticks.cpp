@@ -130,7 +130,7 @@ TEST(GripMotion, TakesPosesAsTheyCome) {
     const int64_t step_ns[] = {
         0, -1, 1, 10, 1'000, 50'000, 1'000'000, 30'000'000, 3'600'000'000'000};
     at_ns += step_ns[random.some(i % 1000 == 0 ? 9 : 8)];
-    motion.see({Eigen::Vector3d(0.3e-9 * static_cast<double>(at_ns), 0, 0), {}}, at_ns);
+    motion.update({Eigen::Vector3d(0.3e-9 * static_cast<double>(at_ns), 0, 0), {}}, at_ns);
     const double then_m_s = motion.velocity_in(5e-3).linear_m_s.x();
     ASSERT_TRUE(std::isfinite(then_m_s));
     if (i > 1000) {

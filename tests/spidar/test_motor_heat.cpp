@@ -36,7 +36,7 @@ TEST(MotorHeat, RisesWithTheSquareOfTheTension) {
   StringVector tension_N = StringVector::Zero();
   tension_N[2] = 1.5 * continuous_N;
   const int ticks = static_cast<int>(0.3 * tau_s / kStep_s);
-  for (int i = 0; i < ticks; ++i) heat.pass(tension_N, kStep_s);
+  for (int i = 0; i < ticks; ++i) heat.update(tension_N, kStep_s);
   // The forward difference errs by half a step: dt / 2τ of the slope.
   EXPECT_NEAR(heat.hottest(), 1.5 * 1.5 * (1 - std::exp(-0.3)), 1.5 * 1.5 * kStep_s / tau_s);
   EXPECT_EQ(heat.limit_N()[0], profile.max_tension_N()[0]);
@@ -51,7 +51,7 @@ TEST(MotorHeat, NeverAboveOneWithinTheLimit) {
       const StringVector limit_N = heat.limit_N();
       ASSERT_LE((limit_N - last_N).cwiseAbs().maxCoeff(), 0.01 * profile.max_tension_N().maxCoeff())
           << "less force comes gradually";
-      heat.pass(limit_N, kStep_s);
+      heat.update(limit_N, kStep_s);
       last_N = limit_N;
       ASSERT_LE(heat.hottest(), 1 + 1e-12) << name;
     }

@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"not TOML", "not ASCII", "quotes"},
                "é = 'ü'"},
         Broken{"board = \"uart\"", "bord = \"uart\"", {"bord", "unknown key", "board"}},
-        Broken{"board = \"uart\"", "board = \"usb\"", {"board", "\"usb\"", "usb-sh4", "uart"}},
+        Broken{"board = \"uart\"", "board = \"USB SH4\"", {"board", "\"USB SH4\"", "uart"}},
         Broken{"board = \"uart\"\n", "", {"board", "missing"}, "description"},
         Broken{"description = \"test\"", "description = 3", {"description", "integer", "string"}},
         Broken{"dac_bits = 12", "dac_bits = 12.5", {"dac_bits", "floating-point", "8 to 16"}},

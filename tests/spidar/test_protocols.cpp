@@ -35,7 +35,7 @@ ByteView view(const std::vector<uint8_t>& bytes) {
 
 // --- SH4
 
-const sh4::DacDigits kDigits{0, 1, 0x0123, 0x0FFF, 256, 255, 2048, 4000};
+const CyverseDigits kDigits{0, 1, 0x0123, 0x0FFF, 256, 255, 2048, 4000};
 const std::vector<uint8_t> kDigitBytes{0x00, 0x00, 0x01, 0x00, 0x23, 0x01, 0xFF, 0x0F,
                                        0x00, 0x01, 0xFF, 0x00, 0x00, 0x08, 0xA0, 0x0F};
 
@@ -47,7 +47,7 @@ TEST(Sh4, UpdateIsOneFourteenThenDigits) {
   sh4::encode_update(kDigits, packet);
   EXPECT_EQ(bytes_of(packet), padded(expected, 512));
 
-  sh4::DacDigits digits{};
+  CyverseDigits digits{};
   ASSERT_TRUE(sh4::decode_update(packet, digits));
   EXPECT_EQ(digits, kDigits);
   packet[1] = 0x0D;
@@ -84,11 +84,11 @@ TEST(Sh4, ReadingHasEchoCountersAdcInputsInfo) {
 
 /// Whatever the driver computes: the upper bits of the board's twelve are not its own.
 TEST(Sh4, DigitsBeyondTheDacAreClamped) {
-  constexpr sh4::DacDigits kBeyond{4095, 4096, 5000, 0x1FFF, 0x8000, 0xFFFF, 0xF000, 7};
-  constexpr sh4::DacDigits kClamped{4095, 4095, 4095, 4095, 4095, 4095, 4095, 7};
+  constexpr CyverseDigits kBeyond{4095, 4096, 5000, 0x1FFF, 0x8000, 0xFFFF, 0xF000, 7};
+  constexpr CyverseDigits kClamped{4095, 4095, 4095, 4095, 4095, 4095, 4095, 7};
   sh4::Packet packet;
   sh4::encode_update(kBeyond, packet);
-  sh4::DacDigits digits{};
+  CyverseDigits digits{};
   ASSERT_TRUE(sh4::decode_update(packet, digits));
   EXPECT_EQ(digits, kClamped);
   usb_simple::Packet simple;

@@ -121,7 +121,7 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
     Pose pose;
     pose.orientation =
         Eigen::AngleAxisd(1.1e-3 * brake::kFastest_rad_s * i, Eigen::Vector3d::UnitZ());
-    spins.see(pose, i * kTick_ns);
+    spins.update(pose, i * kTick_ns);
   }
   GripBrake brake(0.03, 0);
   const auto is_held_after = [&](int ticks) {
@@ -148,7 +148,7 @@ TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
     for (int i = 0; i < 100; ++i) {
       Pose pose;
       pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
-      motion.see(pose, i * kTick_ns);
+      motion.update(pose, i * kTick_ns);
       // No force has moved it: only the speed tells that there is no hand.
       brake.see(pose.position_m, motion, 0, 1e-3);
     }
@@ -245,11 +245,11 @@ TEST(GripMotion, IsAsLateAndAsNoisyAsItSays) {
     Pose pose;
     // A uniform error of this standard deviation, as of a count.
     pose.position_m.x() = kSpeed_m_s * time_s + std::sqrt(3.0) * kSigma_m * random.uniform(-1, 1);
-    still.see(pose, i * kTick_ns);
+    still.update(pose, i * kTick_ns);
     if (i >= 100) sum += std::pow(still.velocity().linear_m_s.x() - kSpeed_m_s, 2);
     pose.position_m.x() = 0.5 * kSlope_m_s2 * time_s * time_s;
     pose.orientation = Eigen::AngleAxisd(0.5 * time_s, Eigen::Vector3d::UnitY());
-    faster.see(pose, i * kTick_ns);
+    faster.update(pose, i * kTick_ns);
   }
   // The low-pass settles within 5 % of its continuous model at 16 ticks a time constant of 2.65.
   const double now_m_s = kSlope_m_s2 * 1e-3 * (kTicks - 1);

@@ -134,7 +134,7 @@ TEST(SoundCards, OnlyTheSameOneComesBack) {
 
 TEST_F(Sound, IsListedAndNeverChosenByItself) {
   bool listed = false;
-  for (const BoardInfo& board : list_boards()) {
+  for (const DeviceInfo& board : list_boards()) {
     EXPECT_NE(board.device, "sound:default");
     listed = listed || (board.device == "sound:shaker" && board.name == "Emulated shaker" &&
                         !board.note.empty());

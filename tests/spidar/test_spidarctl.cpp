@@ -227,7 +227,7 @@ TEST(Spidarctl, SelftestWritesHowTheDeviceIsWiredAndLags) {
 }
 
 TEST(Spidarctl, InfoReadsEachBoard) {
-  for (const BoardInfo& board : list_boards()) {
+  for (const DeviceInfo& board : list_boards()) {
     if (!is_simulated(board.device)) continue;
     const std::string& device = board.device;
     SCOPED_TRACE(device);

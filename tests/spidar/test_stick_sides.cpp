@@ -174,10 +174,10 @@ class SteppedStick final : public emulated::Motors {
 std::pair<selftest::StickTest, double> stepped_test(double spring_s, double inertia_s) {
   ForceBench bench("ff");
   const auto stick = std::make_shared<SteppedStick>(spring_s, inertia_s);
-  boards::ForceGrip grip(
+  boards::ForceGrip grip(std::make_unique<boards::ForceLink>(
       std::get<std::unique_ptr<boards::ForceBoard>>(bench.kind.attach(
           bench.kind.board, bench.profile, wire_to(bench.kind.emulate(stick), bench.wire))),
-      ForceBench::settings(false));
+      ForceBench::settings(false)));
   const auto pace = [&] {
     stick->pass(kTick_s);
     return true;

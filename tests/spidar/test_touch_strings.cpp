@@ -125,7 +125,7 @@ template <typename Velocity>
 double fraction_of(Velocity across_m_s, double along_m_s = 0) {
   touch::ShakeWatch watch;
   for (int i = 0; i < 1000; ++i)
-    watch.see({along_m_s, 0, across_m_s(1e-3 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
+    watch.update({along_m_s, 0, across_m_s(1e-3 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
   return watch.fraction();
 }
 
@@ -151,7 +151,7 @@ TEST(ShakeWatch, NoticesShakingAndNothingElse) {
   // It shakes on: the stiffness falls on, to a tenth.
   touch::ShakeWatch watch;
   for (int i = 0; i < 10'000; ++i)
-    watch.see({0, 0, 0.02 * std::sin(2 * M_PI * 0.025 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
+    watch.update({0, 0, 0.02 * std::sin(2 * M_PI * 0.025 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
   EXPECT_EQ(watch.fraction(), touch::ShakeWatch::kLeastFraction);
 }
 

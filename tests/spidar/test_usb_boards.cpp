@@ -76,27 +76,27 @@ TEST_F(UsbBoards, AreListedWithoutBeingOpened) {
   plug(0, "sh4", "A1");
   plug(2, "simple").forbidden = true;
   plug(3, "mouse");
-  const std::vector<BoardInfo> boards = list_boards();
+  const std::vector<DeviceInfo> boards = list_boards();
   ASSERT_GE(boards.size(), 4u);
   EXPECT_EQ(boards[0].device, "usb:1-1");
   EXPECT_EQ(boards[0].name, "CyVerse USB 2.0 SH4");
   EXPECT_EQ(boards[0].path, "1-1");
   EXPECT_EQ(boards[0].serial, "A1");
   EXPECT_EQ(boards[0].usb_id, "0cec:0205");
-  EXPECT_EQ(boards[0].verification, boards::Verification::kEmulated);
+  EXPECT_STREQ(boards[0].evidence, "emulated");
   EXPECT_TRUE(boards[0].accessible);
   EXPECT_EQ(boards[1].device, "usb:1-3");
   EXPECT_FALSE(boards[1].accessible);
   EXPECT_NE(boards[1].note.find("70-spidar.rules"), std::string::npos);
   EXPECT_EQ(boards[2].device, "mouse:1-4");
-  EXPECT_EQ(boards[2].verification, boards::Verification::kInferred);
+  EXPECT_STREQ(boards[2].evidence, "inferred");
   EXPECT_EQ(boards[3].device, "sim");
   for (const UsbPort& port : bus().port) EXPECT_EQ(port.updates, 0u);
 }
 
 TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(board_info("usb").name.find("CyVerse USB 2.0 SH4 or "), 0u);
-  EXPECT_EQ(board_info("mouse").verification, boards::Verification::kInferred);
+  EXPECT_STREQ(board_info("mouse").evidence, "inferred");
   EXPECT_FALSE(board_info("sim:mouse").has_strings);
   EXPECT_TRUE(board_info("foo").name.empty());
   plug(0, "sh4", "A1");
@@ -105,7 +105,7 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
   EXPECT_EQ(board_info("usb:1-1").name, "CyVerse USB 2.0 SH4");
   plug(1, "simple");
   EXPECT_EQ(board_info("usb").path, "");
-  const BoardInfo line = board_info("uart:/no/such/line");
+  const DeviceInfo line = board_info("uart:/no/such/line");
   EXPECT_EQ(line.path, "/no/such/line");
   EXPECT_FALSE(line.accessible);
   // What has a profile without a name can drive it.
@@ -115,7 +115,7 @@ TEST_F(UsbBoards, AreKnownByWhatTheyAreCalled) {
     named.emplace_back(kind.device);
     if (kind.usb.vendor != 0) named.push_back(std::string(kind.device) + ":1-4");
   }
-  for (const BoardInfo& board : list_boards())
+  for (const DeviceInfo& board : list_boards())
     if (is_simulated(board.device)) named.push_back(board.device);
   for (const std::string& device : named)
     EXPECT_NO_THROW(make_grip(device, profile_for(device, ""))) << device;
@@ -307,7 +307,7 @@ TEST_F(UsbBoards, EachKindCanBePluggedInAndNoOther) {
       continue;
     }
     plug(0, kind.board);
-    const BoardInfo found = board_info(kind.device);
+    const DeviceInfo found = board_info(kind.device);
     EXPECT_EQ(found.name, kind.title);
     EXPECT_EQ(found.usb_id, kind.usb.text());
     EXPECT_EQ(found.path, "1-1");

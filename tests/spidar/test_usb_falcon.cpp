@@ -102,7 +102,7 @@ TEST_F(UsbFalcon, IsListedAndFoundByPathOrSerial) {
   plug_homed(0, "F1").memory.loaded = true;
   UsbPort& second = plug_homed(2);
   second.memory.loaded = true;
-  const std::vector<BoardInfo> boards = list_boards();
+  const std::vector<DeviceInfo> boards = list_boards();
   EXPECT_EQ(boards[0].device, "falcon:1-1");
   EXPECT_EQ(boards[0].name, "Novint Falcon");
   EXPECT_EQ(boards[0].usb_id, "0403:cb48");

@@ -92,7 +92,7 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded)->open());
   // A name that is no device's says how it would be named.
   expect_contains(refusal_of([] { profile_for("uart", ""); }), "write uart:PATH");
-  BoardInfo nothing;
+  DeviceInfo nothing;
   nothing.device = "uart";
   expect_contains(NoProfile(nothing).what(), " No profile that is known here fits it. ");
 }

@@ -133,7 +133,7 @@ TEST_F(Wheels, TheNumberOfAxesCanBeNamed) {
   EXPECT_EQ(described("ff:/dev/input/event0,axes=1"), std::string("Emulated Stick") + kOneAxis);
   EXPECT_EQ(described("ff:/dev/input/event1"), std::string("Emulated Base") + kOneAxis);
   EXPECT_EQ(described("ff:/dev/input/event1,axes=2"), std::string("Emulated Base") + kTwoAxes);
-  const BoardInfo board = board_info("ff:/dev/input/event1,axes=2");
+  const DeviceInfo board = board_info("ff:/dev/input/event1,axes=2");
   EXPECT_EQ(board.device, "ff:/dev/input/event1,axes=2");
   EXPECT_EQ(board.name, "Emulated Base");
 }

@@ -39,7 +39,7 @@ class Canvas {
     GST_VIDEO_INFO_PAR_D(&info_) = height;
   }
 
-  void draw(FrameReport report, double scale = 1, bool has_points = true,
+  void draw(DrawnFrame report, double scale = 1, bool has_points = true,
             const ForceCurve* curve = nullptr) {
     GstVideoFrame frame;
     ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));

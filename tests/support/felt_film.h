@@ -44,8 +44,8 @@ inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, 
         analysis = analyzer.analyze(frame.picture->view(), frame.time_ns);
       }
       const int64_t since_ns = next > 0 ? frame.time_ns - frames[next - 1].time_ns : 0;
-      timeline.push({frame.time_ns, since_ns + kLate_ns, analysis.wrench, analysis.goes_on(),
-                     analysis.interval_ns / 2});
+      timeline.push({frame.time_ns, since_ns + kLate_ns, analysis.wrench,
+                     analysis.is_continuation(), analysis.interval_ns / 2});
     }
     const TimelineResult result = timeline.at(now_ns);
     const bool felt = result.found != Found::kNothing && result.found != Found::kExpired;

@@ -111,7 +111,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   const double ramp = StaleRamp::kSteepest / limits.ramp_s;
   const double rate_N_s = std::max(limits.max_slew_N_s, ramp * largest_N_);
 
-  motion_.see(record.pose, record.monotonic_ns);
+  motion_.update(record.pose, record.monotonic_ns);
 
   const Wrench& now = record.commanded;
   if (!now.is_finite()) fail(record, "not finite");

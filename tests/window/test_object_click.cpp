@@ -25,8 +25,8 @@ MovingObject object(uint32_t id, const Vector2d& middle_px, const Vector2d& size
 /// A picture of 200 × 100 px, shown at twice its size with its corner at (10, 20).
 const window::Rect kPicture{10, 20, 400, 200};
 
-FrameReport report() {
-  FrameReport made;
+DrawnFrame report() {
+  DrawnFrame made;
   made.visible = {0, 0, 200, 100};
   made.frame.objects = {object(1, {-50, 0}, {60, 60}), object(2, {-50, 0}, {20, 20}),
                         object(3, {50, 0}, {40, 40})};
@@ -55,7 +55,7 @@ TEST(ObjectClick, ChoosesTheObjectThatItIsPressedOnOnce) {
 }
 
 TEST(ObjectClick, OnTheChosenOneLetsGo) {
-  FrameReport chosen = report();
+  DrawnFrame chosen = report();
   chosen.click = 1;
   chosen.frame.felt_object = 3;
   window::ObjectClick click;
@@ -80,14 +80,14 @@ TEST(ObjectClick, OfBoxesInEachOtherTheSmallestIsMeant) {
   EXPECT_EQ(window::object_at(report(), {0.25, 0.5})->id, 2u);
   EXPECT_EQ(window::object_at(report(), {0.25, 0.7})->id, 1u);
   EXPECT_EQ(window::object_at(report(), {0.5, 0.5}), nullptr);
-  FrameReport hidden = report();
+  DrawnFrame hidden = report();
   hidden.frame.objects[1].points = 0;
   EXPECT_EQ(window::object_at(hidden, {0.25, 0.5})->id, 1u);
 }
 
 /// There the button moves the hand.
 TEST(ObjectClick, BesideObjectsAndWhereNoneAreKnownIsNone) {
-  FrameReport touched = report(), mean = report();
+  DrawnFrame touched = report(), mean = report();
   touched.touch.on = true;
   mean.motion = MotionKind::kMean;
   window::Mouse taken = mouse_at({150, 50}, true), outside = taken, nowhere = taken;
@@ -95,7 +95,7 @@ TEST(ObjectClick, BesideObjectsAndWhereNoneAreKnownIsNone) {
   outside.at_px << 700, 60;
   nowhere.at_px.setConstant(std::numeric_limits<double>::quiet_NaN());
   const auto none = [](const window::Mouse& mouse, const window::Rect& picture,
-                       const FrameReport& of) {
+                       const DrawnFrame& of) {
     window::ObjectClick click;
     return !click.update(mouse, picture, of) && !click.holds();
   };

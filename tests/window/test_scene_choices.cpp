@@ -33,7 +33,7 @@ class Film {
     for (; ns < end_ns; ns += kFrame_ns) {
       next_ns_ = ns + kFrame_ns;
       begin_ns_ = std::max(begin_ns_, ns / (2 * kSecond) * 2 * kSecond);
-      FrameReport report;
+      DrawnFrame report;
       report.frame.stamp.epoch = epoch_;
       report.frame.stamp.stream_ns = ns;
       report.film.begin_ns = begin_ns_;
@@ -45,7 +45,7 @@ class Film {
         report.frame.objects.push_back(object);
       }
       report.click = click;
-      choices_.see(report);
+      choices_.update(report);
     }
   }
   uint32_t click = 0;  ///< that the element knows of
@@ -218,15 +218,15 @@ TEST_F(Choices, AndRulesCanBeRemoved) {
 }
 
 TEST_F(Choices, NeedATimeInTheFilm) {
-  choices.see({});
+  choices.update({});
   choices.choose(object(1, 0, {0.25, 0.5}));
   film.play(0, 1, {1});
   choices.choose(window::Sighting());
   EXPECT_TRUE(choices.edits().empty());
 }
 
-FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
-  FrameReport report;
+DrawnFrame seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
+  DrawnFrame report;
   report.visible = {0, 0, 200, 100};
   report.frame.stamp.stream_ns = static_cast<int64_t>(at_s * 1e9);
   report.film.begin_ns = static_cast<int64_t>(scene_s * 1e9);
@@ -243,43 +243,43 @@ FrameReport seen(double at_s, double scene_s, const std::vector<uint32_t>& objec
 
 TEST(Sightings, AreTheFirstOfTheScene) {
   window::Sightings sightings;
-  sightings.see(seen(0, 0, {1}));
-  sightings.see(seen(1, 0, {1, 2}));
+  sightings.update(seen(0, 0, {1}));
+  sightings.update(seen(1, 0, {1, 2}));
   ASSERT_TRUE(sightings.find(1) && sightings.find(2));
   EXPECT_EQ(sightings.find(1)->first_ns, 0);
   EXPECT_EQ(sightings.find(1)->first_position, Vector2d(0.5, 0.25));
   EXPECT_EQ(sightings.find(2)->first_ns, kSecond);
   EXPECT_EQ(sightings.find(3), nullptr);
-  sightings.see(seen(2.9, 0, {}));
+  sightings.update(seen(2.9, 0, {}));
   EXPECT_TRUE(sightings.find(1)) << "it may be hidden";
-  sightings.see(seen(3.1, 0, {}));
+  sightings.update(seen(3.1, 0, {}));
   EXPECT_EQ(sightings.find(1), nullptr);
-  sightings.see(seen(3.2, 0, {4}));
-  sightings.see(seen(3.3, 3.3, {4}));
+  sightings.update(seen(3.2, 0, {4}));
+  sightings.update(seen(3.3, 3.3, {4}));
   EXPECT_EQ(sightings.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
 }
 
 TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
   window::Sightings sightings;
-  sightings.see(seen(1, 0, {1}));
-  FrameReport later = seen(2.5, 0, {1});
-  sightings.see(later);
+  sightings.update(seen(1, 0, {1}));
+  DrawnFrame later = seen(2.5, 0, {1});
+  sightings.update(later);
   EXPECT_EQ(sightings.find(1)->first_ns, kSecond) << "a gap in the film";
   ++later.frame.stamp.epoch;
-  sightings.see(later);
+  sightings.update(later);
   EXPECT_EQ(sightings.find(1)->first_ns, later.frame.stamp.stream_ns) << "to the same frame";
 }
 
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
-  FrameReport report = seen(1, 0, {1});
+  DrawnFrame report = seen(1, 0, {1});
   report.turn = Orientation(1);
   window::Sightings sightings;
-  sightings.see(report);
+  sightings.update(report);
   EXPECT_LT((sightings.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
-FrameReport moment(double now_s, double length_s, const std::string& path = "/film.avi") {
-  FrameReport made;
+DrawnFrame moment(double now_s, double length_s, const std::string& path = "/film.avi") {
+  DrawnFrame made;
   made.film.path = std::make_shared<const std::string>(path);
   made.film.length_ns = static_cast<int64_t>(length_s * 1e9);
   made.frame.stamp.stream_ns = static_cast<int64_t>(now_s * 1e9);
@@ -306,7 +306,7 @@ TEST(FilmStrip, MarksRulesAndChoices) {
 
 TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
   EXPECT_EQ(window::film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
-  FrameReport unknown = moment(1, 100);
+  DrawnFrame unknown = moment(1, 100);
   unknown.frame.stamp.stream_ns = -1;
   EXPECT_EQ(window::film_strip(unknown, nullptr, {}).length_ns, 0);
   EXPECT_EQ(window::film_strip({}, nullptr, {}).length_ns, 0);

@@ -27,14 +27,14 @@ std::vector<window::Setting> settings_of(double alpha, double max_force_N, doubl
 
 TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
   window::TwoSettings two;
-  two.see(settings_of(0.01, 3));
+  two.update(settings_of(0.01, 3));
   EXPECT_TRUE(two.are_same());
   EXPECT_TRUE(two.use(1).empty()) << "the second one begins as the first";
-  two.see(settings_of(0.02, 3));
+  two.update(settings_of(0.02, 3));
   EXPECT_FALSE(two.are_same());
   EXPECT_EQ(two.other().at("alpha"), 0.01);
   EXPECT_EQ(two.use(0), (Changes{{"alpha", 0.01}}));
-  two.see(settings_of(0.01, 3));
+  two.update(settings_of(0.01, 3));
   EXPECT_EQ(two.other().at("alpha"), 0.02);
   EXPECT_EQ(two.use(1), (Changes{{"alpha", 0.02}}));
 }
@@ -42,42 +42,42 @@ TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
 // The element answers some time after it was asked.
 TEST(TwoSettings, AnAnswerFromBeforeChangesNothing) {
   window::TwoSettings two;
-  two.see(settings_of(0.01, 3));
+  two.update(settings_of(0.01, 3));
   two.use(1);
-  two.see(settings_of(0.02, 3));
+  two.update(settings_of(0.02, 3));
   two.use(0);
-  two.see(settings_of(0.02, 3));
+  two.update(settings_of(0.02, 3));
   EXPECT_EQ(two.use(1), (Changes{{"alpha", 0.02}})) << "also before the answer has come";
-  two.see(settings_of(0.01, 3));  // the answer to the question before
-  two.see(settings_of(0.02, 3));
+  two.update(settings_of(0.01, 3));  // the answer to the question before
+  two.update(settings_of(0.02, 3));
   EXPECT_EQ(two.other().at("alpha"), 0.01);
   EXPECT_EQ(two.use(0), (Changes{{"alpha", 0.01}}));
 }
 
 TEST(TwoSettings, WhatTheElementRefusesHoldsNothingUp) {
   window::TwoSettings two;
-  two.see(settings_of(0.01, 3));
+  two.update(settings_of(0.01, 3));
   two.use(1);
-  two.see(settings_of(0.02, 3));
+  two.update(settings_of(0.02, 3));
   two.use(0);
-  for (int i = 0; i <= window::TwoSettings::kPatience; ++i) two.see(settings_of(0.02, 3));
-  two.see(settings_of(0.03, 3));
+  for (int i = 0; i <= window::TwoSettings::kPatience; ++i) two.update(settings_of(0.02, 3));
+  two.update(settings_of(0.03, 3));
   EXPECT_EQ(two.use(1), (Changes{{"alpha", 0.02}}));
   EXPECT_EQ(two.other().at("alpha"), 0.03);
 }
 
 TEST(TwoSettings, StoppingTheForceIsPartOfNeither) {
   window::TwoSettings two;
-  two.see(settings_of(0.01, 3));
-  two.see(settings_of(0.01, 3, 1));
+  two.update(settings_of(0.01, 3));
+  two.update(settings_of(0.01, 3, 1));
   EXPECT_TRUE(two.are_same());
   EXPECT_TRUE(two.use(1).empty());
 }
 
 TEST(TwoSettings, AResetGivesBackWhatWasSeenFirst) {
   window::TwoSettings two;
-  two.see(settings_of(0.01, 3));
-  two.see(settings_of(0.05, 1));
+  two.update(settings_of(0.01, 3));
+  two.update(settings_of(0.05, 1));
   EXPECT_EQ(two.reset(), (Changes{{"alpha", 0.01}, {"max-force", 3}}));
 }
 

@@ -66,7 +66,7 @@ TEST_F(WindowTest, AnySizeIsDrawn) {
   device.last.delivered.force_N = {1, 1, 0};
   const auto source = std::make_shared<FakeSource>(state);
   window::Window window(source);
-  FrameReport report;
+  DrawnFrame report;
   report.controller.max_force_N = 3;
   report.frame.wrench.force_N = {1, 1, 0};
   give(window, report);
@@ -148,7 +148,7 @@ TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
   gst_buffer_memset(buffer, 0, 160, GST_VIDEO_INFO_SIZE(&info));
   GstVideoFrame frame;
   ASSERT_TRUE(gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ));
-  FrameReport report;
+  DrawnFrame report;
   report.visible = visible_part(frame);
   while (!window.give(frame, report)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   gst_video_frame_unmap(&frame);

@@ -19,8 +19,8 @@ constexpr int64_t kMillisecond = 1'000'000;
 class WindowChoices : public WindowTest {
  protected:
   /// Of 320 × 240 px, with two objects whose middles are at a quarter and at three quarters.
-  static FrameReport frame(int64_t ms, const char* path = "/film.avi") {
-    FrameReport report;
+  static DrawnFrame frame(int64_t ms, const char* path = "/film.avi") {
+    DrawnFrame report;
     report.frame.stamp.stream_ns = report.frame.stamp.running_ns = ms * kMillisecond;
     report.film.path = std::make_shared<const std::string>(path);
     report.film.begin_ns = 0;
@@ -69,7 +69,7 @@ TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {
   EXPECT_EQ(first[0].second[0].from_ns, 0);
   EXPECT_EQ(first[0].second[0].to_ns, 340 * kMillisecond);
   EXPECT_EQ(first[0].second[0].position, Vector2d(0.75, 0.5));
-  FrameReport cut = frame(400);
+  DrawnFrame cut = frame(400);
   cut.film.begin_ns = cut.frame.stamp.stream_ns;
   give(window, cut);
   EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 400 * kMillisecond);

@@ -23,7 +23,7 @@ namespace {
 constexpr double kRounding = 1e-9;
 
 TEST(FeltObjects, AreThoseWhoseMotionIsFelt) {
-  FrameReport report;
+  DrawnFrame report;
   for (const uint32_t id : {3u, 5u, 8u}) {
     MovingObject object;
     object.id = id;

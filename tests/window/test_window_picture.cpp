@@ -16,7 +16,7 @@ TEST_F(WindowTest, AnArrowOfKnownFlowIsWhereItMustBe) {
   window::ElementState state;
   state.settings = {{"arrow-scale", "", window::Setting::Kind::kNumber, 5, 0.1, 100, {}}};
   window::Window window(std::make_shared<FakeSource>(state));
-  FrameReport report;
+  DrawnFrame report;
   // To the right by 8 px: 40 px at this scale, from x = 60 to x = 100.
   report.points.push_back({1, {60, 80}, {68, 80}, PointOwner::kObject, 1, false});
   report.frame.wrench.force_N = {0, -3, 0};  // down, the most there is
@@ -153,7 +153,7 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
   device.last.playing = true;
   device.last.running_ns = 1'000'000'000;
   window::Window window(std::make_shared<FakeSource>(state));
-  FrameReport report;
+  DrawnFrame report;
   for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
     report.frame.stamp.running_ns = running_ns;
     give(window, report, level);
@@ -165,7 +165,7 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
 TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   auto source = std::make_shared<FakeSource>();
   window::Window window(source);
-  FrameReport report;
+  DrawnFrame report;
   MovingObject object;
   object.id = 3;
   object.points = 10;

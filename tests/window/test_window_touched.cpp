@@ -35,8 +35,8 @@ window::ElementState touching_state() {
   return state;
 }
 
-FrameReport touched_facts(const StringGeometry& geometry) {
-  FrameReport report;
+DrawnFrame touched_facts(const StringGeometry& geometry) {
+  DrawnFrame report;
   report.touch.on = true;
   report.touch.map = {GripPointer(geometry)};
   return report;
@@ -45,7 +45,7 @@ FrameReport touched_facts(const StringGeometry& geometry) {
 TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
   const window::ElementState state = touching_state();
   window::Window window(std::make_shared<FakeSource>(state));
-  FrameReport report = touched_facts(state.device->geometry);
+  DrawnFrame report = touched_facts(state.device->geometry);
   give(window, report, 40);
   const Screenshot shot = look(window);
   const window::PictureMap map = map_of(shot);
@@ -66,7 +66,7 @@ TEST_F(WindowTest, TheReliefIsShadedAsThePictureIsShown) {
   const window::ElementState state = touching_state();
   for (const int quarters : {0, 1}) {
     window::Window window(std::make_shared<FakeSource>(state));
-    FrameReport report = touched_facts(state.device->geometry);
+    DrawnFrame report = touched_facts(state.device->geometry);
     report.turn = Orientation(quarters, true);
     report.touch.shading.assign(touch::HeightField::kCells, '\x80');
     for (int y = 0; y < touch::HeightField::kRows / 2; ++y) {

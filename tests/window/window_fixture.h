@@ -87,7 +87,7 @@ class WindowTest : public testing::Test {
   }
 
   /// A grey frame of 320 × 240 with `report`, once the window wants one.
-  static void give(window::Window& window, FrameReport report, int level = 128) {
+  static void give(window::Window& window, DrawnFrame report, int level = 128) {
     GstVideoInfo info;
     gst_video_info_set_format(&info, GST_VIDEO_FORMAT_RGB, 320, 240);
     GstBuffer* buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);

@@ -30,7 +30,6 @@ std::optional<GstVideoInfo> info_of(GstPad* pad) {
 
 /// With its position in pixels.
 std::optional<SinkMouse> parse(GstEvent* event) {
-  using Act = SinkMouse::Act;
   SinkMouse mouse;
   gdouble &x = mouse.position.x(), &y = mouse.position.y(), sideways = 0;
   gint button = 0;
@@ -39,16 +38,16 @@ std::optional<SinkMouse> parse(GstEvent* event) {
       if (!gst_navigation_event_parse_mouse_move_event(event, &x, &y)) return std::nullopt;
       return mouse;
     case GST_NAVIGATION_EVENT_MOUSE_SCROLL:
-      mouse.act = Act::kWheel;
+      mouse.act = SinkMouse::Act::kWheel;
       if (!gst_navigation_event_parse_mouse_scroll_event(event, &x, &y, &sideways, &mouse.wheel)) {
         return std::nullopt;
       }
       return mouse;
     case GST_NAVIGATION_EVENT_MOUSE_BUTTON_PRESS:
-      mouse.act = Act::kPress;
+      mouse.act = SinkMouse::Act::kPress;
       break;
     case GST_NAVIGATION_EVENT_MOUSE_BUTTON_RELEASE:
-      mouse.act = Act::kRelease;
+      mouse.act = SinkMouse::Act::kRelease;
       break;
     default:
       return std::nullopt;
@@ -56,8 +55,8 @@ std::optional<SinkMouse> parse(GstEvent* event) {
   if (!gst_navigation_event_parse_mouse_button_event(event, &button, &x, &y)) return std::nullopt;
   if (button == kLeftButton) return mouse;
   const bool is_wheel = button == kWheelUp || button == kWheelDown;
-  if (!is_wheel || mouse.act == Act::kRelease) return std::nullopt;
-  mouse.act = Act::kWheel;
+  if (!is_wheel || mouse.act == SinkMouse::Act::kRelease) return std::nullopt;
+  mouse.act = SinkMouse::Act::kWheel;
   mouse.wheel = button == kWheelUp ? 1 : -1;
   return mouse;
 }
@@ -77,7 +76,7 @@ std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source) {
   return mouse;
 }
 
-void MousePointer::take(const SinkMouse& mouse) {
+void MousePointer::update(const SinkMouse& mouse) {
   const bool clicks = mouse.act == SinkMouse::Act::kPress;
   if (!clicks && mouse.act != SinkMouse::Act::kMove) return;
   const std::lock_guard<std::mutex> lock(mutex_);

@@ -31,7 +31,7 @@ std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source);
 /// Moves point, and clicks of the left button keep what is there or let go. Thread-safe.
 class MousePointer {
  public:
-  void take(const SinkMouse& mouse);
+  void update(const SinkMouse& mouse);
 
   /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
   /// seen.

@@ -15,36 +15,50 @@
 
 namespace spidar::filter {
 
-void MotionDisplay::show(FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame) {
+/// `report` with what is drawn of it.
+DrawnFrame MotionDisplay::drawn(const FrameReport& report, const AnalyzerSettings& settings) {
+  DrawnFrame drawn;
+  static_cast<FrameReport&>(drawn) = report;
+  drawn.motion = settings.motion;
+  drawn.controller = settings.controller;
+  if (report.analyzed) drawn.click = settings.kept.click;
+  const std::optional<LoopSnapshot> loop = output_.snapshot();
+  if (report.touch.on && loop) drawn.touch_mark = touch_mark(report.touch, loop->last);
+  owners_.find(drawn);
+  return drawn;
+}
+
+void MotionDisplay::show(const FrameReport& report, const FrameSettings& settings,
+                         GstVideoFrame& frame) {
   const DisplayProperties& properties = settings.display;
   const int width = GST_VIDEO_FRAME_WIDTH(&frame), height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  hand_.see(report, width, height);
+  hand_.update(report, width, height);
   const std::shared_ptr<window::Window> shown_in = window();
   const bool draws = properties.overlay != DisplayProperties::Overlay::kNone;
   if (!report.has_wrench() || !(draws || properties.attach_meta || shown_in)) {
     owners_.reset();
     return;
   }
-  owners_.find(report);
+  DrawnFrame shown = drawn(report, settings.analyzer);
   const bool draws_curve = properties.overlay == DisplayProperties::Overlay::kCurve;
   if (draws_curve) curve_.add(report.frame.stamp.running_ns, report.frame.wrench.force_N.norm());
   if (shown_in) {
     follow_film(report);
-    report.film = film_;
-    report.speed_px_s =
+    shown.film = film_;
+    shown.speed_px_s =
         reference_speeds_px_s(report.frame.motion, settings.analyzer.axes, report.visible.height)
             .norm();
   }
   // Before the overlay draws into the frame, because the window draws arrows of its own.
-  if (shown_in && shown_in->wants_frame()) shown_in->give(frame, report);
+  if (shown_in && shown_in->wants_frame()) shown_in->give(frame, shown);
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
-    attach_motion_meta(frame.buffer, report, width, height);
-    attach_object_metas(frame.buffer, report, width, height);
+    attach_motion_meta(frame.buffer, shown, width, height);
+    attach_object_metas(frame.buffer, shown, width, height);
   }
   const bool can_draw = (frame.map[0].flags & GST_MAP_WRITE) != 0;
   if (draws && can_draw) {
-    draw_overlay(report, properties.overlay == DisplayProperties::Overlay::kPoints,
+    draw_overlay(shown, properties.overlay == DisplayProperties::Overlay::kPoints,
                  properties.arrow_scale, frame, draws_curve ? &curve_ : nullptr);
   }
 }

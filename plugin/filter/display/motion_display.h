@@ -12,9 +12,9 @@
 
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/frame/point_owners.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/output/no_force.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/window/window.h"
@@ -32,11 +32,11 @@ class MotionDisplay {
   // --- streaming thread
 
   /// `report` as it was just found of `frame`, which is mapped for writing when the overlay is
-  /// on, and whose buffer is writable when metas are attached. Fills in what is only shown.
-  void show(FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
+  /// on, and whose buffer is writable when metas are attached.
+  void show(const FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
 
   /// Instead, of a frame that nobody looked at.
-  void skip() { owners_.reset(); }
+  void reset() { owners_.reset(); }
 
   /// Another stream, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
@@ -56,6 +56,7 @@ class MotionDisplay {
   std::string save_window(const std::string& path);
 
  private:
+  DrawnFrame drawn(const FrameReport& report, const AnalyzerSettings& settings);
   void follow_film(const FrameReport& report);
 
   GstElement* const element_;

@@ -20,7 +20,7 @@ class SinkHand {
   explicit SinkHand(HapticOutput& output) : output_(output) {}
 
   /// Of each frame, which is `width` × `height` pixels large.
-  void see(const FrameReport& report, int width, int height) {
+  void update(const FrameReport& report, int width, int height) {
     if (!report.analyzed) return;
     const bool touched = report.touch.on && width > 0 && height > 0;
     if (!touched) return let_go();
@@ -32,7 +32,7 @@ class SinkHand {
     picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
   }
   /// False when there is no hand to lead: nothing is touched, or the device is not simulated.
-  bool take(const SinkMouse& mouse) {
+  bool update(const SinkMouse& mouse) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!touched_) return false;
     mouse_.at_px = mouse.position;

@@ -36,9 +36,6 @@ void touch_frame(const PassingFrame& passing, const ImageView& luma, int64_t sho
   report.touch.map = {GripPointer(output.profile().geometry), report.turn};
   report.touch.stiffness_N_m = contact_settings(touch, output.profile()).stiffness_N_m;
   report.touch.motion_fraction = touch.motion_fraction;
-  if (const std::optional<LoopSnapshot> loop = output.snapshot()) {
-    report.touch_mark = touch_mark(report.touch, loop->last);
-  }
 }
 
 }  // namespace
@@ -49,14 +46,14 @@ std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output) {
   return GripPointer(output.profile().geometry).position(loop->last.pose.position_m);
 }
 
-void LiveSource::reset_timing() {
-  reset();
+void LiveSource::reset() {
+  begin_run();
   pacer_.reset();
   gap_ns_.reset();
 }
 
 void LiveSource::run_out(GstClockTime running_time) {
-  reset();
+  begin_run();
   if (!is_time(running_time)) return;  // scheduled wrenches expire without help
   schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
@@ -85,19 +82,20 @@ void LiveSource::end_of_stream() {
 
 /// A frame of another run does not follow the one before.
 void LiveSource::follow(const FrameStamp& stamp) {
-  if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) reset();
+  if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) begin_run();
 }
 
 /// `shown` in place of the frame's own wrench. Between two pictures, a motion is measured as it is
 /// halfway between them; during a repeated one, the next picture is not there yet.
 void LiveSource::schedule(const Frame& frame, const PacedTime& time, bool moved,
                           const Wrench& shown) {
-  if (!frame.goes_on()) picture_ns_ = time.running_ns;
+  if (!frame.is_continuation()) picture_ns_ = time.running_ns;
   const double apart_ns =
-      frame.goes_on() ? static_cast<double>(time.running_ns - picture_ns_)
-                      : schedule_.rate_multiplier() * static_cast<double>(frame.interval_ns);
+      frame.is_continuation()
+          ? static_cast<double>(time.running_ns - picture_ns_)
+          : schedule_.rate_multiplier() * static_cast<double>(frame.interval_ns);
   schedule_.add({time.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0), shown,
-                 frame.goes_on(), std::llround(apart_ns) / 2});
+                 frame.is_continuation(), std::llround(apart_ns) / 2});
 }
 
 void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
@@ -113,7 +111,7 @@ void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
     run_out(static_cast<GstClockTime>(running_ns));
   }
   no_force_.add(schedule_.at_sink_ns(running_ns), wrench, NoForceReason::kRepeatedFrames);
-  pacer_.pass(time);
+  pacer_.advance(time);
 }
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
@@ -126,7 +124,7 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
     return false;
   }
   if (order == FramePacer::Order::kFalling) report.fault = FrameReport::Fault::kFallingTimestamp;
-  if (order != FramePacer::Order::kNext) reset();
+  if (order != FramePacer::Order::kNext) begin_run();
   return true;
 }
 
@@ -136,7 +134,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   const std::optional<touch::DepthLayout> packed = frame.settings.touch.packed();
   const ImageView picture = packed ? touch::picture_half(luma, *packed) : luma;
   if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
-    reset();
+    begin_run();
     report.fault = luma.data ? FrameReport::Fault::kSmallHalf : FrameReport::Fault::kNotShown;
     return false;
   }
@@ -144,8 +142,8 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   analyzer_.configure(frame.settings.analyzer);
   report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
                                    std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
-  report.frame.wrench = scaled(report.frame.wrench, motion_fraction_);
-  report.no_force = reason_in_frame(report.frame, report.motion);
+  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
+  report.no_force = reason_in_frame(report.frame, frame.settings.analyzer.motion);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
   report.visible.width = picture.width;
@@ -154,11 +152,11 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   return true;
 }
 
-void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
+void LiveSource::process(const PassingFrame& frame, FrameReport& report) {
   if (!follows(frame, report)) return;
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
-    reset();
+    begin_run();
     report.fault = has_size ? FrameReport::Fault::kTooSmall : FrameReport::Fault::kWrongSize;
     return;
   }
@@ -170,11 +168,9 @@ void LiveSource::take(const PassingFrame& frame, FrameReport& report) {
   motion_fraction_ = touch.kind == TouchProperties::Kind::kOff ? 1 : touch.motion_fraction;
   report.analyzed = analyze(frame, luma, time.paced_ns, report);
   if (!report.analyzed) return;
-  report.click = frame.settings.analyzer.kept.click;
 
-  const bool moved = report.frame.interval_ns > 0 || report.frame.goes_on();
-  pacer_.take(time, moved);
-  report.frame.wrench = report.turn.to_displayed(report.frame.wrench);
+  const bool moved = report.frame.interval_ns > 0 || report.frame.is_continuation();
+  pacer_.push(time, moved);
   no_force_.add(shown_ns, report.frame.wrench, report.no_force);
   no_force_.set_touching(touch.kind != TouchProperties::Kind::kOff);
   if (!time.in_place) {

@@ -14,8 +14,8 @@
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/output/no_force.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/timing/loop_queue.h"
 
@@ -35,16 +35,16 @@ class LiveSource {
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
   /// The next frame has nothing to do with the one before.
-  void reset() { analyzer_.reset(); }
+  void begin_run() { analyzer_.reset(); }
   /// Gives what is rendered while the frame is shown, and fills in the report, but for the times of
   /// its frame, or why it cannot be analysed.
-  void take(const PassingFrame& frame, FrameReport& report);
+  void process(const PassingFrame& frame, FrameReport& report);
   /// In place of a frame that has no picture, and that is turned by `turn` before it is shown.
   void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.
-  void reset_timing();
+  void reset();
   /// There are no frames from this running time on, but for those that the decoder holds: the gap
   /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
   void begin_gap(GstClockTime running_time);

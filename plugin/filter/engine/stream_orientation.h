@@ -40,7 +40,7 @@ class StreamOrientation {
  public:
   /// Another stream begins, whose tags are not known yet.
   void begin_stream() { *this = {}; }
-  void take(const GstTagList* tags) {
+  void update(const GstTagList* tags) {
     GstVideoOrientationMethod method;
     // The function does not change the tags.
     if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;

@@ -216,7 +216,7 @@ void TrackSource::play(const FrameStamp& stamp, FrameReport& report) {
   no_force_.add(shown.running_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
 }
 
-void TrackSource::take(const PassingFrame& frame, FrameReport& report) {
+void TrackSource::process(const PassingFrame& frame, FrameReport& report) {
   report.track = path_;
   play(frame.stamp, report);
   reliefs_.end(times_.at_sink_ns(frame.stamp.running_ns));

@@ -18,8 +18,8 @@
 #include "plugin/filter/engine/passing_frame.h"
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/frame/no_force.h"
 #include "plugin/output/haptic_output.h"
+#include "plugin/output/no_force.h"
 #include "plugin/timing/loop_queue.h"
 #include "plugin/tracks/read_ahead.h"
 
@@ -86,7 +86,7 @@ class TrackSource {
   uint64_t frames() const { return frames_; }
 
   /// The report's wrench is the largest of the track while the frame is shown.
-  void take(const PassingFrame& frame, FrameReport& report);
+  void process(const PassingFrame& frame, FrameReport& report);
   void pass_gap(const FrameStamp& stamp);
 
  private:

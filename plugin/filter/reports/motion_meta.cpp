@@ -46,17 +46,14 @@ void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, gboolean
              {{m.force_x, m.force_y, m.force_z}, {m.torque_x, m.torque_y, m.torque_z}});
 }
 
-/// A map of homogeneous coordinates, x right and y down, with (0, 0) at the top left corner.
-using PictureMap = Eigen::Matrix3d;
-
 /// `position` has (0, 0) at the centre of the first pixel.
-Eigen::Vector2d mapped(const PictureMap& map, const Eigen::Vector2d& position) {
+Eigen::Vector2d mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector2d half{0.5, 0.5};
   return (map * (position + half).homogeneous()).hnormalized() - half;
 }
 
 /// How lengths and directions change where `position` is.
-Eigen::Matrix2d linear_at(const PictureMap& map, const Eigen::Vector2d& position) {
+Eigen::Matrix2d linear_at(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector3d to = map * position.homogeneous();
   const Eigen::Vector2d at = to.hnormalized();
   return (map.topLeftCorner<2, 2>() - at * map.row(2).head<2>()) / to.z();
@@ -75,7 +72,7 @@ std::optional<Eigen::Matrix2d> turn_in(const Eigen::Matrix2d& linear) {
 
 /// Lengths follow the map; force and torque keep their size, and are turned and mirrored with it.
 /// False where no direction is left.
-bool map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
+bool map_motion(const Eigen::Matrix3d& map, GstSpidarFrameMotion& m) {
   const Eigen::Matrix2d linear = linear_at(map, Eigen::Vector2d(m.width, m.height) / 2);
   const Eigen::Vector2d velocity = linear * Eigen::Vector2d(m.velocity_x, m.velocity_y);
   const std::optional<Eigen::Matrix2d> turn = turn_in(linear);
@@ -96,7 +93,8 @@ bool map_motion(const PictureMap& map, GstSpidarFrameMotion& m) {
 }
 
 /// Copies the meta of `from` to `to`, whose picture has been made from that of `from` by `map`.
-bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const GstVideoInfo& out) {
+bool copy_mapped(GstBuffer* to, GstBuffer* from, const Eigen::Matrix3d& map,
+                 const GstVideoInfo& out) {
   GstSpidarFrameMotion motion;
   GArray* points = gst_buffer_get_spidar_points(from);
   if (!points || !gst_buffer_get_spidar_motion(from, &motion)) {
@@ -124,7 +122,7 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const PictureMap& map, const Gs
   return true;
 }
 
-PictureMap map_of(const GstVideoMetaTransform& scale) {
+Eigen::Matrix3d map_of(const GstVideoMetaTransform& scale) {
   const GstVideoInfo &in = *scale.in_info, &out = *scale.out_info;
   const Eigen::Vector3d factors(
       static_cast<double>(GST_VIDEO_INFO_WIDTH(&out)) / GST_VIDEO_INFO_WIDTH(&in),
@@ -132,9 +130,9 @@ PictureMap map_of(const GstVideoMetaTransform& scale) {
   return factors.asDiagonal();
 }
 
-PictureMap map_of(const MatrixTransform& transform) {
+Eigen::Matrix3d map_of(const MatrixTransform& transform) {
   const auto moved = [](double x, double y) {
-    PictureMap move = PictureMap::Identity();
+    Eigen::Matrix3d move = Eigen::Matrix3d::Identity();
     move.topRightCorner<2, 1>() << x, y;
     return move;
   };
@@ -184,7 +182,7 @@ void register_motion_meta() {
   (void)registered;
 }
 
-void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height) {
+void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, int height) {
   GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
   const Frame& frame = report.frame;
@@ -207,7 +205,7 @@ void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width,
       torque.z(),
   };
   GstStructure* structure = add_meta(buffer);
-  set_values(structure, motion, frame.goes_on() ? TRUE : FALSE);
+  set_values(structure, motion, frame.is_continuation() ? TRUE : FALSE);
   std::vector<SerialisedPoint> points;
   points.reserve(report.points.size());
   for (const OwnedPoint& point : report.points) {

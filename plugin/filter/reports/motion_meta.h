@@ -39,6 +39,6 @@ void register_motion_meta();
 
 /// `buffer` is writable; a meta of an element before this one is replaced. `width` and `height` are
 /// those of the frame.
-void attach_motion_meta(GstBuffer* buffer, const FrameReport& report, int width, int height);
+void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 }  // namespace spidar::filter

@@ -59,7 +59,6 @@ class MotionStats {
 
  private:
   // 10 µs to 50 ms: more than that is too slow for any video.
-  using AnalysisHistogram = DurationHistogram<5000, 10'000>;
 
   mutable std::mutex mutex_;
   uint64_t frames_ = 0;
@@ -68,7 +67,7 @@ class MotionStats {
   int tracked_ = 0;
   std::optional<ModelKind> model_;
   int objects_ = 0;
-  AnalysisHistogram analysis_;
+  DurationHistogram<5000, 10'000> analysis_;
 };
 
 }  // namespace spidar::filter

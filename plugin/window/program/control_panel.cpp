@@ -240,7 +240,7 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& 
 }
 
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
-                 const FrameReport& report, const std::string& note) {
+                 const DrawnFrame& report, const std::string& note) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), kPanelColor, brush.px(6));
   brush.list.AddRect(upper_left(panel), lower_right(panel), kBorderColor, brush.px(6));
   brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);

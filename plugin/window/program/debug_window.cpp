@@ -159,7 +159,7 @@ void DebugWindow::follow_title() {
 
 void DebugWindow::read() {
   state_ = link_.state();
-  settings_.see(state_.settings);
+  settings_.update(state_.settings);
   const uint32_t epoch_before = report_.frame.stamp.epoch;
   const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
@@ -181,7 +181,7 @@ void DebugWindow::read() {
     const bool is_anew = report_.frame.stamp.epoch != epoch_before;
     if (report_.click != click_before_ || is_anew) requested_.reset();
     follow_title();
-    sightings_.see(report_);
+    sightings_.update(report_);
     follow_choices(film_before);
     // What was learnt is not of it.
     if (is_anew) timeline_.clear();

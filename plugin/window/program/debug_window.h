@@ -38,7 +38,7 @@ class DebugWindow {
 
   void on_key(int key);
   /// In place of the user.
-  void take(const UserInput& input);
+  void process(const UserInput& input);
 
  private:
   void read();
@@ -75,7 +75,7 @@ class DebugWindow {
 
   ElementState state_;
   SharedPicture picture_;
-  FrameReport report_;
+  DrawnFrame report_;
   double frame_s_ = 0;  ///< when the last frame came
   Timeline timeline_;
   int shown_width_ = 0, loaded_width_ = 0;  ///< of the picture in the window, and its texture

@@ -33,7 +33,7 @@ Mouse read_mouse() {
   return mouse;
 }
 
-void DebugWindow::take(const UserInput& input) {
+void DebugWindow::process(const UserInput& input) {
   if (input.key) on_key(*input.key);
   if (input.mouse) given_mouse_ = input.mouse;
   if (input.size_px) {
@@ -155,7 +155,7 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   bool has_ended = false;
   if (film_before != report_.film.name()) has_ended = choices_[film_before].end_scene();
   // Without this, nothing would be felt until the object is given up.
-  if (choices().see(report_) || has_ended) link_.choose(std::nullopt);
+  if (choices().update(report_) || has_ended) link_.choose(std::nullopt);
   if (const std::optional<int64_t> lost_ns = choices().take_lost()) {
     constexpr int64_t kTenth_ns = 100'000'000;
     say("The chosen object was lost at " + time_text(*lost_ns / kTenth_ns * kTenth_ns) +

@@ -35,9 +35,9 @@ struct ShownPicture {
   std::optional<double> delivered_N;
 };
 /// The part of the window that shows the visible part of the frame.
-Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameReport& report);
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const DrawnFrame& report);
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
-                  const FrameReport& report);
+                  const DrawnFrame& report);
 
 /// Frame, strings (the thicker the harder they pull), the grip and its force; with no device a line
 /// that says so. `is_as_asked`: the picture has the same force, so that neither needs a name.
@@ -69,7 +69,7 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
 
 /// `note`: the window's message at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
-                 const FrameReport& report, const std::string& note);
+                 const DrawnFrame& report, const std::string& note);
 
 /// Switches in the upper right corner of the picture.
 void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& keys);

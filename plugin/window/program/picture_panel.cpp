@@ -24,7 +24,7 @@ constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
 struct Overlay {
   const Brush& brush;
   const PictureMap& map;
-  const FrameReport& report;
+  const DrawnFrame& report;
   const ShownPicture& picture;
 
   bool is_felt(uint32_t object) const {
@@ -173,24 +173,24 @@ void draw_relief(const Brush& brush, const Rect& shown, const ShownPicture& pict
                           at(1, 0), at(1, 1), at(0, 1));
 }
 
-PictureMap map_of(const Rect& panel, const ShownPicture& picture, const FrameReport& report) {
+PictureMap map_of(const Rect& panel, const ShownPicture& picture, const DrawnFrame& report) {
   const VisiblePart& visible = report.visible;
   return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
                      picture.pixel_aspect);
 }
 
-bool has_picture(const ShownPicture& picture, const FrameReport& report) {
+bool has_picture(const ShownPicture& picture, const DrawnFrame& report) {
   return picture.texture && report.visible.width > 0 && report.visible.height > 0;
 }
 
 }  // namespace
 
-Rect shown_rect(const Rect& panel, const ShownPicture& picture, const FrameReport& report) {
+Rect shown_rect(const Rect& panel, const ShownPicture& picture, const DrawnFrame& report) {
   return has_picture(picture, report) ? map_of(panel, picture, report).shown : Rect();
 }
 
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
-                  const FrameReport& report) {
+                  const DrawnFrame& report) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
                            brush.px(6));
   const VisiblePart& visible = report.visible;

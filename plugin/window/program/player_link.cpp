@@ -10,8 +10,6 @@
 namespace spidar::window {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A file of rules is short, but the disk may be asleep.
 constexpr std::chrono::seconds kSavePatience{2};
 
@@ -40,10 +38,11 @@ std::optional<QueuedFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
 }
 
 /// Until something has come. False when the time is over, or the player is gone.
-bool PlayerLink::wait(Clock::time_point until) {
+bool PlayerLink::wait(std::chrono::steady_clock::time_point until) {
   while (!channel_->is_gone()) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+                          until - std::chrono::steady_clock::now())
+                          .count();
     const auto events = static_cast<short>(POLLIN | (channel_->has_unsent() ? POLLOUT : 0));
     pollfd file{channel_->socket(), events, 0};
     const int found = poll(&file, 1, static_cast<int>(std::max<int64_t>(left, 0)));
@@ -63,7 +62,7 @@ void PlayerLink::receive() {
       is_not_understood_ = true;
       return;
     }
-    take(std::move(*message));
+    process(std::move(*message));
   }
 }
 
@@ -72,16 +71,16 @@ void PlayerLink::ask(std::chrono::milliseconds patience) {
   // One question at a time: the answer to an earlier one is as good.
   if (is_answered_ || state_.name.empty()) send(Ask());
   is_answered_ = false;
-  const Clock::time_point until = Clock::now() + patience;
+  const std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + patience;
   while (!is_answered_ && !is_over() && wait(until)) receive();
 }
 
 void PlayerLink::rest(std::chrono::milliseconds duration) {
-  const Clock::time_point until = Clock::now() + duration;
+  const std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + duration;
   while (!is_over() && !wanted_picture_ && wait(until)) receive();
 }
 
-void PlayerLink::take(ToWindow&& message) {
+void PlayerLink::process(ToWindow&& message) {
   if (const auto* memory = std::get_if<PictureMemory>(&message)) {
     take_memory(*memory);
   } else if (auto* frame = std::get_if<FrameShown>(&message)) {
@@ -137,7 +136,8 @@ void PlayerLink::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
 ChoicesSaved PlayerLink::save(const std::string& film, const std::vector<FeelEdit>& edits) {
   saved_.reset();
   send(SaveChoices{film, edits});
-  const Clock::time_point until = Clock::now() + kSavePatience;
+  const std::chrono::steady_clock::time_point until =
+      std::chrono::steady_clock::now() + kSavePatience;
   while (!saved_ && wait(until)) receive();
   return saved_.value_or(ChoicesSaved{false, "Not saved: the player does not answer."});
 }

@@ -21,7 +21,7 @@ namespace spidar::window {
 
 struct QueuedFrame {
   SharedPicture picture;
-  FrameReport report;
+  DrawnFrame report;
 };
 
 /// The element sees a frame before the sink shows it, and the grip feels it when the sink does:
@@ -83,7 +83,7 @@ class PlayerLink {
   void send(const FromWindow& message) { channel_->send(to_bytes(message)); }
   bool wait(std::chrono::steady_clock::time_point until);
   void receive();
-  void take(ToWindow&& message);
+  void process(ToWindow&& message);
   void take_memory(const PictureMemory& memory);
   void take_frame(FrameShown&& frame);
 

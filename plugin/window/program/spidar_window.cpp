@@ -19,7 +19,6 @@
 namespace spidar::window {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 /// A player may stand still in a debugger; the window goes on drawing all the same.
@@ -28,7 +27,7 @@ constexpr milliseconds kPatience{100};
 constexpr milliseconds kFirstPatience{5000};
 constexpr int kFallbackRate_Hz = 60;
 
-Clock::duration screen_period() {
+std::chrono::steady_clock::duration screen_period() {
   GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   const int rate_Hz = mode && mode->refreshRate > 0 ? mode->refreshRate : kFallbackRate_Hz;
@@ -42,11 +41,11 @@ std::string glfw_error() {
 }
 
 void draw_until_closed(DebugWindow& window, PlayerLink& link) {
-  const Clock::duration period = screen_period();
+  const std::chrono::steady_clock::duration period = screen_period();
   while (!link.is_over() && !window.is_done()) {
-    const Clock::time_point begin = Clock::now();
+    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     glfwPollEvents();
-    for (const UserInput& input : link.take_inputs()) window.take(input);
+    for (const UserInput& input : link.take_inputs()) window.process(input);
     // After the last question, so that the picture has what came before it was asked for.
     const std::optional<std::string> picture = link.wanted_picture();
     if (!picture) link.ask(kPatience);
@@ -54,8 +53,8 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
     if (picture) link.picture_taken(window.save(*picture));
     window.present();
     // Where the processor draws, half of its time stays with others.
-    const Clock::time_point end = Clock::now();
-    const Clock::duration left = std::max(begin + period - end, end - begin);
+    const std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now();
+    const std::chrono::steady_clock::duration left = std::max(begin + period - end, end - begin);
     link.rest(std::chrono::duration_cast<milliseconds>(left));
   }
 }

@@ -120,9 +120,6 @@ class Wire {
   bool ok_ = true;
 };
 
-using WireWriter = Wire<false>;
-using WireReader = Wire<true>;
-
 // Every structure that goes through the socket, member by member; see Wire.
 
 template <typename Wire>
@@ -201,7 +198,7 @@ void pass(Wire& wire, TouchScene& touch) {
 
 /// What is shown of it.
 template <typename Wire>
-void pass(Wire& wire, FrameReport& report) {
+void pass(Wire& wire, DrawnFrame& report) {
   Frame& frame = report.frame;
   wire(frame.stamp, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
   wire(report.film, report.took_ns, report.visible, report.turn, report.points, report.lost,
@@ -385,7 +382,7 @@ namespace {
 
 template <typename Message>
 std::vector<uint8_t> write(const Message& message) {
-  WireWriter wire;
+  Wire<false> wire;
   auto kind = static_cast<uint8_t>(message.index());
   // A writer changes nothing of what it is given; only a reader does.
   auto& written = const_cast<Message&>(message);
@@ -396,7 +393,7 @@ std::vector<uint8_t> write(const Message& message) {
 /// The kind whose number is `kKind`, or one after it; nothing when there is no such kind, or its
 /// bytes are not those of one.
 template <typename Message, size_t kKind = 0>
-std::optional<Message> read_kind(WireReader& wire, size_t kind) {
+std::optional<Message> read_kind(Wire<true>& wire, size_t kind) {
   if constexpr (kKind < std::variant_size_v<Message>) {
     if (kind != kKind) return read_kind<Message, kKind + 1>(wire, kind);
     std::variant_alternative_t<kKind, Message> part;
@@ -408,7 +405,7 @@ std::optional<Message> read_kind(WireReader& wire, size_t kind) {
 
 template <typename Message>
 std::optional<Message> read(const std::vector<uint8_t>& bytes) {
-  WireReader wire(bytes.data(), bytes.size());
+  Wire<true> wire(bytes.data(), bytes.size());
   uint8_t kind = 0;
   wire(kind);
   return wire.ok() ? read_kind<Message>(wire, kind) : std::nullopt;

@@ -39,7 +39,7 @@ struct PictureMemory {
 /// A frame whose picture is in a slot, which is the window's until it sends SlotFree.
 struct FrameShown {
   uint32_t memory = 0, slot = 0;
-  FrameReport report;
+  DrawnFrame report;
 };
 /// Answers SaveChoices.
 struct ChoicesSaved {

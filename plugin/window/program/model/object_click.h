@@ -16,7 +16,7 @@ namespace spidar::window {
 
 /// The object in sight whose box has the position in it, the smallest of several; null when none
 /// has. Places are fractions of the visible part of the frame.
-inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vector2d& position) {
+inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vector2d& position) {
   const Eigen::Vector2d at_px((position.x() - 0.5) * report.visible.width,
                               (position.y() - 0.5) * report.visible.height);
   const MovingObject* found = nullptr;
@@ -30,7 +30,7 @@ inline const MovingObject* object_at(const FrameReport& report, const Eigen::Vec
 
 /// A position that is in the box of this object and in no smaller one, if there is such a position:
 /// a click there means it. As a fraction of the visible part of the frame.
-inline Eigen::Vector2d position_of(const FrameReport& report, const MovingObject& object) {
+inline Eigen::Vector2d position_of(const DrawnFrame& report, const MovingObject& object) {
   const Eigen::Vector2d frame_px(report.visible.width, report.visible.height);
   const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
   const Eigen::Vector2d low_px = (middle_px - object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
@@ -52,7 +52,7 @@ inline Eigen::Vector2d position_of(const FrameReport& report, const MovingObject
 }
 
 /// Whether objects are known, and not merely touched.
-inline bool offers_choice(const FrameReport& report) {
+inline bool offers_choice(const DrawnFrame& report) {
   return report.motion != MotionKind::kMean && !report.touch.on;
 }
 
@@ -70,7 +70,7 @@ class ObjectClick {
   /// `picture` is the part of the window that shows the visible part of the frame. Nothing when
   /// nobody clicked on an object.
   std::optional<ChoiceRequest> update(const Mouse& mouse, const Rect& picture,
-                                      const FrameReport& report) {
+                                      const DrawnFrame& report) {
     const bool pressed = mouse.down && !was_down_;
     was_down_ = mouse.down;
     holds_ = holds_ && mouse.down;

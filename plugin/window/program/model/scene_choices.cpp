@@ -26,9 +26,9 @@ Eigen::Vector2d whole(const Eigen::Vector2d& position) {
 
 }  // namespace
 
-void Sightings::see(const FrameReport& report) {
+void Sightings::update(const DrawnFrame& report) {
   const int64_t now_ns = report.frame.stamp.stream_ns;
-  if (!place_.goes_on(report)) seen_.clear();
+  if (!place_.is_continued_by(report)) seen_.clear();
   place_ = {report.film, report.frame.stamp};
   for (const MovingObject& object : report.frame.objects) {
     if (object.points == 0) continue;
@@ -50,12 +50,12 @@ const Sighting* Sightings::find(uint32_t id) const {
   return found == seen_.end() ? nullptr : &*found;
 }
 
-bool SceneChoices::see(const FrameReport& report) {
+bool SceneChoices::update(const DrawnFrame& report) {
   const ScenePlace before = std::exchange(place_, {report.film, report.frame.stamp});
   const int64_t now_ns = place_.stamp.stream_ns;
   if (now_ns < 0) return false;
   bool has_ended = false;
-  if (!before.goes_on(report)) {
+  if (!before.is_continued_by(report)) {
     if (before.is_same_run(report) && place_.stamp.rate > 0) end_ns_ = report.film.begin_ns;
     has_ended = end_scene();
   }
@@ -65,7 +65,7 @@ bool SceneChoices::see(const FrameReport& report) {
   return has_ended;
 }
 
-void SceneChoices::follow(Choice& choice, const FrameReport& report) {
+void SceneChoices::follow(Choice& choice, const DrawnFrame& report) {
   if (!choice.grows) return;
   const bool is_kept = click_ != 0 && click_ != choice.click_before;
   const std::vector<MovingObject>& objects = report.frame.objects;
@@ -184,7 +184,7 @@ const StripMark* FilmStrip::at(double position, double reach) const {
   return best;
 }
 
-FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
+FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits) {
   FilmStrip strip;
   const int64_t now_ns = report.frame.stamp.stream_ns;

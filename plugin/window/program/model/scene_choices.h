@@ -22,11 +22,11 @@ struct ScenePlace {
   FrameStamp stamp;
 
   /// Whether a frame goes on with what was seen. Backwards, none does.
-  bool goes_on(const FrameReport& next) const {
+  bool is_continued_by(const DrawnFrame& next) const {
     return is_same_run(next) && scene.begin_ns == next.film.begin_ns && next.frame.stamp.rate > 0;
   }
   /// Nothing but a cut can be between them.
-  bool is_same_run(const FrameReport& next) const {
+  bool is_same_run(const DrawnFrame& next) const {
     return stamp.epoch == next.frame.stamp.epoch && scene.name() == next.film.name();
   }
 };
@@ -46,7 +46,7 @@ class Sightings {
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
 
   /// The next frame that is on the screen. Another scene or film forgets all.
-  void see(const FrameReport& report);
+  void update(const DrawnFrame& report);
   /// Null when it is not known.
   const Sighting* find(uint32_t id) const;
 
@@ -62,7 +62,7 @@ class Sightings {
 class SceneChoices {
  public:
   /// The next frame that is on the screen. True when a choice ends because its scene has ended.
-  bool see(const FrameReport& report);
+  bool update(const DrawnFrame& report);
 
   /// When the object of a choice was seen last that has been lost since the last call.
   std::optional<int64_t> take_lost() { return std::exchange(lost_ns_, std::nullopt); }
@@ -99,7 +99,7 @@ class SceneChoices {
     bool is_saved = false;
     bool was_saved = false;  ///< with an earlier end
   };
-  void follow(Choice& choice, const FrameReport& report);
+  void follow(Choice& choice, const DrawnFrame& report);
   void take_back(const std::function<bool(const Choice&)>& which);
 
   std::vector<Choice> choices_;
@@ -126,7 +126,7 @@ struct FilmStrip {
 };
 
 /// Of a film from a file of which the time is known. `rules` may be null.
-FilmStrip film_strip(const FrameReport& report, const FeelRules* rules,
+FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);
 
 }  // namespace spidar::window

@@ -15,9 +15,6 @@
 
 namespace spidar::window {
 
-/// Values by the names of the settings.
-using SettingValues = std::map<std::string, double>;
-
 /// Both are those of the element at first; from then on each keeps what is changed while it is in
 /// use. Whether the force is stopped is part of neither.
 class TwoSettings {
@@ -27,14 +24,14 @@ class TwoSettings {
   static constexpr int kPatience = 30;
 
   /// As the element has them now.
-  void see(const std::vector<Setting>& settings) {
+  void update(const std::vector<Setting>& settings) {
     if (!asked_.empty() && ++answers_ > kPatience) asked_.clear();
     for (const Setting& setting : settings) {
       if (setting.name == "mute") continue;
       const auto [seen, is_new] = seen_.emplace(setting.name, setting.value);
       if (is_new) {
         first_[setting.name] = setting.value;
-        for (SettingValues& values : kept_) values[setting.name] = setting.value;
+        for (std::map<std::string, double>& values : kept_) values[setting.name] = setting.value;
       }
       const auto asked = asked_.find(setting.name);
       if (asked == asked_.end()) {
@@ -49,7 +46,7 @@ class TwoSettings {
 
   size_t used() const { return used_; }
   /// The one that is not in use.
-  const SettingValues& other() const { return kept_[1 - used_]; }
+  const std::map<std::string, double>& other() const { return kept_[1 - used_]; }
   bool are_same() const { return kept_[0] == kept_[1]; }
 
   /// From now on `which` (0 or 1) is in use. Returns what is to be set for that.
@@ -64,7 +61,8 @@ class TwoSettings {
   }
 
  private:
-  std::vector<std::pair<std::string, double>> changes_to(const SettingValues& values) {
+  std::vector<std::pair<std::string, double>> changes_to(
+      const std::map<std::string, double>& values) {
     std::vector<std::pair<std::string, double>> changes;
     for (const auto& [name, value] : values) {
       const auto asked = asked_.find(name);
@@ -76,15 +74,16 @@ class TwoSettings {
     return changes;
   }
 
-  SettingValues first_, seen_;
-  SettingValues asked_;  ///< that were not seen yet
-  int answers_ = 0;      ///< since then
-  std::array<SettingValues, 2> kept_;
+  std::map<std::string, double> first_, seen_;
+  std::map<std::string, double> asked_;  ///< that were not seen yet
+  int answers_ = 0;                      ///< since then
+  std::array<std::map<std::string, double>, 2> kept_;
   size_t used_ = 0;
 };
 
 /// `controller` with what these values say of it.
-inline ControllerSettings with_values(ControllerSettings controller, const SettingValues& values) {
+inline ControllerSettings with_values(ControllerSettings controller,
+                                      const std::map<std::string, double>& values) {
   const auto value = [&](const char* name, double otherwise) {
     const auto found = values.find(name);
     return found == values.end() ? otherwise : found->second;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/tracking/tracker.h"
+#include "core/points/tracker.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/boards/usb_board.h"
+#include "spidar/devices/usb_search.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
+#include <variant>
 
 #include "spidar/device.h"
 #include "spidar/transports/usb_transport.h"
 
-namespace spidar::boards {
+namespace spidar {
 
 int rotary_of(const std::string& id) {
   const bool digits =
@@ -18,7 +20,7 @@ int rotary_of(const std::string& id) {
   return number <= 15 ? number : -1;
 }
 
-UsbSearch::UsbSearch(BoardKinds kinds, std::string name, std::string id)
+UsbSearch::UsbSearch(std::vector<const DeviceKind*> kinds, std::string name, std::string id)
     : kinds_(std::move(kinds)), name_(std::move(name)), id_(std::move(id)) {}
 
 DeviceIdentity UsbSearch::Candidate::identity() const {
@@ -28,7 +30,7 @@ DeviceIdentity UsbSearch::Candidate::identity() const {
 /// All devices of these kinds, those with the path or serial number in the id first.
 std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
   std::vector<Candidate> all;
-  for (const BoardKind* kind : kinds_) {
+  for (const DeviceKind* kind : kinds_) {
     for (UsbDeviceInfo& device : list_usb_devices(kind->usb.vendor, kind->usb.product)) {
       all.push_back({kind, std::move(device)});
     }
@@ -52,7 +54,7 @@ std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   }
   if (found.empty()) {
     std::string names;
-    for (const BoardKind* kind : kinds_) {
+    for (const DeviceKind* kind : kinds_) {
       names += (names.empty() ? "no " : " or ") + std::string(kind->title) + " (" +
                kind->usb.text() + ")";
     }
@@ -76,7 +78,8 @@ void UsbSearch::require_one() const {
   if (!is_clear(found) && !is_to_ask(found)) open_matching(found, {}, {});
 }
 
-void UsbSearch::open(const Open& open, const std::function<void()>& close) {
+void UsbSearch::open(const std::function<int(const Candidate&)>& open,
+                     const std::function<void()>& close) {
   if (first_.known()) return open_again(open);
   const std::vector<Candidate> found = candidates();
   Candidate opened = found.front();
@@ -90,7 +93,7 @@ void UsbSearch::open(const Open& open, const std::function<void()>& close) {
 }
 
 /// Boards without a serial number are told from each other by their switches, too.
-void UsbSearch::open_again(const Open& open) const {
+void UsbSearch::open_again(const std::function<int(const Candidate&)>& open) const {
   const std::vector<Candidate> found = plugged_in();
   const auto same = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
     return first_.is(candidate.identity());
@@ -110,7 +113,8 @@ void UsbSearch::open_again(const Open& open) const {
 
 /// Asks each candidate and keeps the one that reports the wanted rotary switch. Without an id,
 /// keeps any that reports the right kind of device.
-UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& found, const Open& open,
+UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& found,
+                                              const std::function<int(const Candidate&)>& open,
                                               const std::function<void()>& close) const {
   const int wanted = rotary_of(id_);
   std::string listed, errors;
@@ -134,54 +138,68 @@ UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& foun
                     id_.empty() ? DeviceErrorCode::kSettings : DeviceErrorCode::kAbsent);
 }
 
+namespace {
+
+void require_profile_for(const UsbSearch::Candidate& found, const std::string& name,
+                         const std::string& profile, const std::string& profile_board) {
+  if (!found.kind->has_strings() || profile_board == kUnknownBoard ||
+      profile_board == found.kind->profile_board) {
+    return;
+  }
+  throw DeviceError(name + ": the board at " + found.device.path + " is a " + found.kind->title +
+                        ", and profile \"" + profile + "\" is for boards of the kind " +
+                        profile_board + "; spidarctl info usb:" + found.device.path +
+                        " lists the profiles that fit",
+                    DeviceErrorCode::kSettings);
+}
+
+}  // namespace
+
 template <typename BoardType>
-UsbBoardOf<BoardType>::UsbBoardOf(std::string name, std::string id, const Profile& profile,
-                                  const BoardKinds& kinds)
-    : name_(std::move(name)),
-      profile_name_(profile.name),
-      profile_board_(profile.board),
-      search_(kinds, name_, std::move(id)) {
-  for (const BoardKind* known : kinds) {
-    auto transport = std::make_unique<UsbTransport>(name_, known->usb.pipes);
+std::function<BoardType&()> usb_opener(const std::string& name, const std::string& id,
+                                       const Profile& profile,
+                                       const std::vector<const DeviceKind*>& kinds,
+                                       std::vector<std::unique_ptr<BoardType>>& boards) {
+  std::map<const DeviceKind*, std::pair<UsbTransport*, BoardType*>> of_kind;
+  for (const DeviceKind* kind : kinds) {
+    auto transport = std::make_unique<UsbTransport>(name, kind->usb.pipes);
     UsbTransport* const selects = transport.get();
-    kinds_.push_back({known, selects,
-                      std::get<std::unique_ptr<BoardType>>(
-                          known->attach(name_, profile, std::move(transport)))});
+    boards.push_back(
+        std::get<std::unique_ptr<BoardType>>(kind->attach(name, profile, std::move(transport))));
+    of_kind[kind] = {selects, boards.back().get()};
   }
-}
-
-template <typename BoardType>
-void UsbBoardOf<BoardType>::open_one(const UsbSearch::Candidate& candidate) {
-  for (Kind& kind : kinds_) {
-    if (kind.known != candidate.kind) continue;
-    if (kind.known->has_strings() && profile_board_ != kUnknownBoard &&
-        profile_board_ != kind.known->profile_board) {
-      throw DeviceError(name_ + ": the board at " + candidate.device.path + " is a " +
-                            kind.known->title + ", and profile \"" + profile_name_ +
-                            "\" is for boards of the kind " + profile_board_ +
-                            "; spidarctl info usb:" + candidate.device.path +
-                            " lists the profiles that fit",
-                        DeviceErrorCode::kSettings);
+  return [=, search = UsbSearch(kinds, name, id), profile_name = profile.name,
+          profile_board = profile.board]() mutable -> BoardType& {
+    BoardType* used = nullptr;
+    const auto close = [&used] {
+      if (used) used->close();
+      used = nullptr;
+    };
+    try {
+      search.open(
+          [&](const UsbSearch::Candidate& candidate) {
+            require_profile_for(candidate, name, profile_name, profile_board);
+            const auto& [transport, board] = of_kind.at(candidate.kind);
+            transport->select(candidate.device);
+            used = board;
+            used->open();
+            return used->rotary();
+          },
+          close);
+    } catch (...) {
+      close();
+      throw;
     }
-    kind.transport->select(candidate.device);
-    used_ = &kind;
-    used_path_ = candidate.device.path;
-    kind.board->open();
-  }
+    return *used;
+  };
 }
 
-template <typename BoardType>
-void UsbBoardOf<BoardType>::open() {
-  close();
-  search_.open(
-      [this](const UsbSearch::Candidate& candidate) {
-        open_one(candidate);
-        return rotary();
-      },
-      [this] { close(); });
-}
+template std::function<boards::Board&()> usb_opener(const std::string&, const std::string&,
+                                                    const Profile&,
+                                                    const std::vector<const DeviceKind*>&,
+                                                    std::vector<std::unique_ptr<boards::Board>>&);
+template std::function<boards::ForceBoard&()> usb_opener(
+    const std::string&, const std::string&, const Profile&, const std::vector<const DeviceKind*>&,
+    std::vector<std::unique_ptr<boards::ForceBoard>>&);
 
-template class UsbBoardOf<Board>;
-template class UsbBoardOf<ForceBoard>;
-
-}  // namespace spidar::boards
+}  // namespace spidar

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// A board on USB, which is looked for in every open(): the one that is plugged in and meant.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spidar/devices/device_kind.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/transports/device_identity.h"
+#include "spidar/transports/usb_transport.h"
+
+namespace spidar {
+
+/// Position of the rotary switch that `id` of usb:ID means; −1 when it is none.
+int rotary_of(const std::string& id);
+
+/// To be used for every opening, because the address changes when a device is plugged in again.
+/// Later openings find the device of the first one, wherever it is if it has a serial number.
+class UsbSearch {
+ public:
+  struct Candidate {
+    const DeviceKind* kind = nullptr;
+    UsbDeviceInfo device;
+
+    DeviceIdentity identity() const;
+  };
+
+  /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
+  /// be only one device.
+  UsbSearch(std::vector<const DeviceKind*> kinds, std::string name, std::string id);
+
+  /// Opens the device that is meant. `open` opens a candidate and returns its rotary switch, −1
+  /// without one; `close` closes one that is another, or did not open. Throws DeviceError, which
+  /// lists what there is.
+  void open(const std::function<int(const Candidate&)>& open, const std::function<void()>& close);
+  /// Throws as open() would before it opens anything.
+  void require_one() const;
+
+ private:
+  std::vector<Candidate> plugged_in() const;
+  bool is_clear(const std::vector<Candidate>& found) const;
+  bool is_to_ask(const std::vector<Candidate>& found) const;
+  std::vector<Candidate> candidates() const;
+  bool is_named(const Candidate& candidate) const;
+  Candidate open_matching(const std::vector<Candidate>& found,
+                          const std::function<int(const Candidate&)>& open,
+                          const std::function<void()>& close) const;
+  void open_again(const std::function<int(const Candidate&)>& open) const;
+
+  const std::vector<const DeviceKind*> kinds_;
+  const std::string name_;
+  const std::string id_;
+  FirstDevice first_;
+  int first_rotary_ = -1;
+};
+
+/// Makes a board of each of `kinds`, all of which are of this type, and returns what LinkThread
+/// opens one of them with, see UsbSearch. Throws DeviceError when the boards cannot drive the
+/// profile; so does the result when the profile is for another kind of board than the one that is
+/// found.
+template <typename BoardType>
+std::function<BoardType&()> usb_opener(const std::string& name, const std::string& id,
+                                       const Profile& profile,
+                                       const std::vector<const DeviceKind*>& kinds,
+                                       std::vector<std::unique_ptr<BoardType>>& boards);
+
+}  // namespace spidar
