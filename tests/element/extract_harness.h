@@ -38,7 +38,7 @@ inline GstBuffer* bare_frame(GstClockTime pts) {
 inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench,
                              GstClockTime interval = kExtractedFrame) {
   GstBuffer* frame = bare_frame(pts);
-  FrameReport report;
+  DrawnFrame report;
   report.frame.stamp.running_ns = static_cast<int64_t>(pts);
   report.frame.interval_ns = static_cast<int64_t>(interval);
   report.frame.wrench = wrench;
