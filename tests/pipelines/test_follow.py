@@ -192,7 +192,7 @@ class Follow(FollowCase):
 
     def test_without_a_track_the_film_is_analysed(self):
         self.path("film.avi.haptic.wav").unlink()
-        self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,"
+        self.gst("videotestsrc pattern=ball num-buffers=500 ! video/x-raw,width=160,height=120,"
                  "framerate=25/1 ! jpegenc ! avimux ! filesink location=film.avi")
         player, _ = self.play_analysed()
         self.expect_paused(player)
@@ -364,8 +364,8 @@ class WhatIsPlayed(FollowCase):
 
     def test_the_stream_that_players_show_is_felt_and_not_a_cover(self):
         self.path("film.avi.haptic.wav").unlink()
-        self.gst("videotestsrc num-buffers=1 ! video/x-raw,width=200,height=300 ! jpegenc ! m. videotestsrc pattern=smpte "
-                 "horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,framerate=25/1 ! theoraenc ! m. "
+        self.gst("videotestsrc num-buffers=1 ! video/x-raw,width=200,height=300 ! jpegenc ! m. videotestsrc pattern=ball "
+                 "num-buffers=500 ! video/x-raw,width=160,height=120,framerate=25/1 ! theoraenc ! m. "
                  "matroskamux name=m ! filesink location=film.mkv")
         self.plays("mock", self.path("film.mkv").as_uri())
         self.follow()
@@ -452,7 +452,7 @@ class Seen(FollowCase):
                 self.path("opened").unlink()
                 self.trace.unlink()
                 self.path("film.avi.haptic.wav").unlink(missing_ok=True)
-                self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=500 ! video/x-raw,width=160,height=120,"
+                self.gst("videotestsrc pattern=ball num-buffers=500 ! video/x-raw,width=160,height=120,"
                          "framerate=25/1 ! jpegenc ! avimux ! filesink location=film.avi")
 
     def test_debug_window_false_prevents_it(self):

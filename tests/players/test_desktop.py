@@ -66,9 +66,9 @@ def press(key):
 class PlayerCase(screen.ScreenCase, bus_case.BusCase):
     def setUp(self):
         super().setUp()
-        # 40 s of a picture that moves as a whole.
+        # 40 s of a ball.
         self.film, self.page, self.picture = (self.path(name) for name in ("film.webm", "page.html", "picture.png"))
-        self.gst("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=1000 ! video/x-raw,width=160,height=120,"
+        self.gst("videotestsrc pattern=ball num-buffers=1000 ! video/x-raw,width=160,height=120,"
                  "framerate=25/1 ! vp8enc deadline=1 cpu-used=16 keyframe-max-dist=25 ! webmmux ! filesink location=film.webm")
         self.page.write_text("<video id=v src=film.webm autoplay muted loop width=320></video><script>onkeydown = e => { "
                              "e.preventDefault(); v.paused ? v.play() : v.pause() }</script>")
