@@ -12,6 +12,11 @@
 
 namespace spidar {
 
+/// Whether the blocks along the border, with texture or without, fit the picture before better if
+/// they have moved like the model than if they rest. Known objects are left out; where they have
+/// most of the border, it says nothing.
+bool border_has_moved(const BlockField& field, const Past& past, const MotionModel& model);
+
 /// The blocks without corners. Each is compared with that of the last four pictures from which the
 /// camera has moved it furthest: noise that an encoder has moved along with an object in one
 /// picture is new some pictures later, whereas shading and stains are still there. The sums of
@@ -36,8 +41,7 @@ class PlainParts {
 
 /// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Those move
 /// with a large object before them, too: the plain parts or the border must show the same. Last of
-/// all, edges vote beside few blocks. What explains clearly more of the border than what was found
-/// in this order is preferred to it.
+/// all, edges vote beside few blocks.
 class CameraChoice {
  public:
   CameraChoice();
@@ -56,25 +60,14 @@ class CameraChoice {
   void reset();
 
  private:
-  Background find_in_order(const BlockField& field, const Past& past);
-  void prefer_rival(const BlockField& field, const Past& past, Background& chosen);
-  template <typename Counts>
-  void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
+  const Background& keep(const BlockField& field, const Background& chosen,
+                         const MotionModel& likely);
 
-  BackgroundVotes votes_;  ///< that the last background has been found from
+  BackgroundVotes votes_;
   BackgroundVotes area_votes_;
-  BackgroundVotes rival_votes_;
   Areas areas_;
   PlainParts plain_;
-  /// What explains the picture best, whether it was believed or not: over several pictures the
-  /// plain parts may show what they do not show in one.
-  MotionModel likely_;
   BackgroundEstimator estimator_;
-  RobustFitter fitter_;
-  WeightedDisplacements evidence_;
-  std::vector<MotionModel> models_;  ///< what was found in order, then its rivals
-  std::vector<double> shares_;       ///< of the border that each of them explains
-  bool is_rival_ = false;            ///< the last background is a rival
 };
 
 }  // namespace spidar
