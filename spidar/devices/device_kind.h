@@ -19,14 +19,14 @@ namespace spidar {
 
 /// A device that make_grip() can open.
 struct DeviceInfo {
-  std::string device;         ///< for make_grip(): "usb:1-2", "sim"
-  std::string name;           ///< "CyVerse USB 2.0 SH4"
-  std::string path;           ///< on the bus: "1-2"; empty for simulated devices
-  std::string serial;         ///< empty when it has none
-  std::string usb_id;         ///< "0cec:0205"; empty when not on USB
-  const char* evidence = "";  ///< DeviceKind::evidence
-  std::string note;           ///< what is inferred, or why the device cannot be used; may be empty
-  bool accessible = true;     ///< this process may open it
+  std::string device;                 ///< for make_grip(): "usb:1-2", "sim"
+  std::string name;                   ///< "CyVerse USB 2.0 SH4"
+  std::string path;                   ///< on the bus: "1-2"; empty for simulated devices
+  std::string serial;                 ///< empty when it has none
+  std::string usb_id;                 ///< "0cec:0205"; empty when not on USB
+  const char* evidence = "emulated";  ///< DeviceKind::evidence
+  std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
+  bool accessible = true;  ///< this process may open it
   /// The profile with which it is driven if none is named: that of a simulation, that of a device
   /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
   /// no force until one is named (see profile_choice.h).

@@ -18,7 +18,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-FOLDER = Path(__file__).parent
+FOLDER = Path(__file__).resolve().parent
 
 import shares  # noqa: E402
 
@@ -55,10 +55,14 @@ class OtherMethod(unittest.TestCase):
 
 class Benchmark(unittest.TestCase):
     """tests/bench/real_films/, which others enter."""
-    ROWS = staticmethod(lambda name: list(csv.DictReader(open(FOLDER / "real_films" / name, encoding="utf-8"), delimiter="\t")))
+
+    @staticmethod
+    def rows(name):
+        with open(FOLDER / "real_films" / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file, delimiter="\t"))
 
     def test_its_splits_are_drawn_as_it_says(self):
-        clips = self.ROWS("clips.tsv")
+        clips = self.rows("clips.tsv")
         of = {kind: sorted(row["clip"] for row in clips if row["moves"] == kind) for kind in ("object", "camera")}
         self.assertEqual([len(names) for names in of.values()], [35, 15])
         source = random.Random(1)
@@ -68,7 +72,7 @@ class Benchmark(unittest.TestCase):
             self.assertTrue(row["data set"] and row["licence"] and row["redistribute"].split(",")[0] in ("yes", "no"), row)
 
     def test_each_method_has_all_its_figures(self):
-        for row in self.ROWS("methods.tsv"):
+        for row in self.rows("methods.tsv"):
             self.assertIn(row["films"], ("all", "third", "rest"))
             for name in "right %", "right % at 18.4°", "wrong %", "false %":
                 if row[name] != "-":
