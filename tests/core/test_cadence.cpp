@@ -62,8 +62,8 @@ TEST(Cadence, LearnsTheIntervalOfThePictures) {
   }
 }
 
-// Two repetitions pass for pictures until the noise of coding is known for what it is. Before, what
-// had been seen until then was forgotten, and the rhythm learnt anew from two repetitions more.
+// Two repetitions pass for pictures until the noise of coding is known for what it is. What was
+// seen until then counts, so that the rhythm need not be learnt from two repetitions more.
 TEST(Cadence, KnowsTheIntervalFromTheFirstRepetitionThatIsSeen) {
   constexpr int kUnseen = 2;
   Cadence cadence;
@@ -75,7 +75,7 @@ TEST(Cadence, KnowsTheIntervalFromTheFirstRepetitionThatIsSeen) {
   }
 }
 
-// Before, the fourth picture was half as fast as the others.
+// A single longer interval among few is not the rhythm: the picture after it is as fast as others.
 TEST(Cadence, KeepsTheIntervalOverTheFirstRepetition) {
   constexpr int64_t kFrame_ns = 33'333'333;
   Cadence cadence;

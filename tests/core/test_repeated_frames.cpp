@@ -203,8 +203,7 @@ class Coded {
   std::vector<Picture> pictures_;
 };
 
-// Before, two repetitions were taken for rest, and what was seen of the rhythm until then
-// forgotten.
+// Neither of the two is taken for rest.
 TEST(CodedRepeats, AreFeltAsThePlainFilmAfterTheSecondOne) {
   constexpr int kLittle_grey = 1;  // as good encoders leave
   constexpr int kLast = 11;        // frame of the second repetition, of 24 in 30 after a motion
