@@ -82,14 +82,12 @@ class GripMotion {
     // The normal equations of way = c + a t + b h: h is t²/2, and way is how far a pose is from
     // where velocity_ would have had it. The means are subtracted below, which eliminates c.
     double n = 0, t_sum = 0, h_sum = 0, tt = 0, th = 0, hh = 0;
-    Eigen::Matrix<double, 6, 1> way_sum = Eigen::Matrix<double, 6, 1>::Zero(),
-                                t_way = Eigen::Matrix<double, 6, 1>::Zero(),
-                                h_way = Eigen::Matrix<double, 6, 1>::Zero();
+    Six way_sum = Six::Zero(), t_way = Six::Zero(), h_way = Six::Zero();
     for (size_t age = 0; age < poses_.size(); ++age) {
       const int64_t before_ns = poses_[0].at_ns - poses_[age].at_ns;
       if (before_ns > kFitted_ns) break;
       const double t = -1e-9 * static_cast<double>(before_ns), h = 0.5 * t * t;
-      Eigen::Matrix<double, 6, 1> way;
+      Six way;
       way << poses_[age].pose.position_m - poses_[0].pose.position_m - t * velocity_.linear_m_s,
           turn_rad(poses_[0].pose, poses_[age].pose) - t * velocity_.angular_rad_s;
       n += 1, t_sum += t, h_sum += h, tt += t * t, th += t * h, hh += h * h;
@@ -104,12 +102,12 @@ class GripMotion {
     t_way -= t_sum / n * way_sum;
     h_way -= h_sum / n * way_sum;
     const double determinant = tt * hh - th * th;
-    const Eigen::Matrix<double, 6, 1> then =
-        (hh * t_way - th * h_way + ahead_s * (tt * h_way - th * t_way)) / determinant;
+    const Six then = (hh * t_way - th * h_way + ahead_s * (tt * h_way - th * t_way)) / determinant;
     return {velocity_.linear_m_s + then.head<3>(), velocity_.angular_rad_s + then.tail<3>()};
   }
 
  private:
+  using Six = Eigen::Matrix<double, 6, 1>;
   struct TimedPose {
     Pose pose;
     int64_t at_ns = 0;

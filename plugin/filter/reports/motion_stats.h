@@ -58,8 +58,6 @@ class MotionStats {
   }
 
  private:
-  // 10 µs to 50 ms: more than that is too slow for any video.
-
   mutable std::mutex mutex_;
   uint64_t frames_ = 0;
   uint64_t restarts_ = 0;
@@ -67,6 +65,7 @@ class MotionStats {
   int tracked_ = 0;
   std::optional<ModelKind> model_;
   int objects_ = 0;
+  /// 10 µs to 50 ms: more than that is too slow for any video.
   DurationHistogram<5000, 10'000> analysis_;
 };
 
