@@ -61,7 +61,7 @@ def read_line(prompt, text=""):
             if text in texts_read or read_s * WORDS_S >= len(text.split()) or not sys.stdin.isatty():
                 texts_read.add(text)
                 return line
-            print("that was sooner than anybody reads it; read it, and answer again")
+            print("nobody can read that so fast: read it, and answer again")
     except (EOFError, KeyboardInterrupt):
         raise Stopped from None
 

@@ -148,7 +148,7 @@ bool confirm(const std::string& question) {
         std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
     if (!agrees) return false;
     if (monotonic_now_ns() - asked_ns >= reading_time_ns(question)) return true;
-    std::cerr << "that was sooner than anybody reads it; read it, and answer again\n";
+    std::cerr << "nobody can read that so fast: read it, and answer again\n";
   }
 }
 

@@ -407,7 +407,7 @@ class OnATerminal(unittest.TestCase):
                 patch("builtins.input", side_effect=[str(n % 5 + 1) for n in range(len(typed_after_s))]), \
                 contextlib.redirect_stdout(io.StringIO()) as out:
             answer = briefing.ask("How is that?")
-        return answer, out.getvalue().count("sooner than anybody reads it")
+        return answer, out.getvalue().count("nobody can read that so fast")
 
     def test_what_comes_sooner_than_a_question_is_read_is_no_answer(self):
         briefing.texts_read.clear()
