@@ -6,7 +6,8 @@
 //   error   px a frame at a width of 640; of a frame without an object, what it moved
 //   missed  frames in which an object in view is not found; ghosts: with one in films that have
 //   none
-// Methods are those of flow_methods.h.
+//   spidar-bench tracking [WIDTHxHEIGHT…] [METHOD…]
+// Methods are those of flow_methods.h; without any, all of the comparison.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -72,7 +73,7 @@ double thread_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-void measure(int width, int height) {
+void measure(int width, int height, const std::vector<std::string>& methods) {
   struct Measured {
     std::string name;
     std::unique_ptr<Method> method;
@@ -80,7 +81,7 @@ void measure(int width, int height) {
     Errors errors;
   };
   std::vector<Measured> all;
-  for (const std::string& name : method_names()) all.push_back({name, nullptr, {}, {}});
+  for (const std::string& name : methods) all.push_back({name, nullptr, {}, {}});
   for (const test::MotionCase& each : test::motion_cases()) {
     if (each.group != test::CaseGroup::kUsual) continue;
     test::Film film = each.film(width, height, 1);
@@ -118,13 +119,21 @@ void measure(int width, int height) {
 
 int spidar::bench::tracking(int argc, char** argv) {
   cv::setNumThreads(1);
-  std::vector<std::string> sizes(argv + 1, argv + argc);
-  if (sizes.empty()) sizes = {"640x360", "1280x720"};
-  for (const std::string& size : sizes) {
+  std::vector<std::pair<int, int>> sizes;
+  std::vector<std::string> methods;
+  for (int i = 1; i < argc; ++i) {
     int width = 0, height = 0;
-    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2 || width < 64 || height < 64)
-      throw std::invalid_argument(size + " is not a size such as 640x360");
-    measure(width, height);
+    if (std::sscanf(argv[i], "%dx%d", &width, &height) != 2) {
+      make_method(argv[i]);  // throws when there is none
+      methods.emplace_back(argv[i]);
+    } else if (width >= 64 && height >= 64) {
+      sizes.emplace_back(width, height);
+    } else {
+      throw std::invalid_argument(std::string(argv[i]) + " is not a size such as 640x360");
+    }
   }
+  if (sizes.empty()) sizes = {{640, 360}, {1280, 720}};
+  if (methods.empty()) methods = method_names();
+  for (const auto& [width, height] : sizes) measure(width, height, methods);
   return 0;
 }

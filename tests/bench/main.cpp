@@ -39,7 +39,7 @@ const Benchmark kBenchmarks[] = {
     {"tension", tension,
      "[COUNT]         the tension solver, also on COUNT problems of each hard family"},
     {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
-    {"tracking", tracking, "[WIDTHxHEIGHT…] speed and error on films of known motion"},
+    {"tracking", tracking, "[WIDTHxHEIGHT…] [METHOD…]  speed and error on films of known motion"},
     {"turns", turns, "                roll and growth of balls that turn and grow"},
     {"workspace", workspace, "                what the strings of each profile leave of 3 N"},
 };

@@ -17,6 +17,8 @@ object against the background: lines `frame,x,y`, the first frame being 0, in pi
 since the frame before, x right, y down; frames that are missing are not counted. A film without
 such a file has no object, only a camera that moves. truth.py makes such a folder from a data set.
 
+The camera's motion: the model that explains it.
+
 right: within 30 degrees and a factor of 2 of the truth. wrong: felt and more than 60 degrees off.
 listed: some object of the frame is right, whether it is felt or not. Counted are frames with more than 1 px of
 true motion, of a frame 480 lines high, not the first two. false: frames of films without an object in which some
@@ -104,9 +106,10 @@ def read_other(folder, film, frames):
 class Frame:
     """What was found in a frame: its motion and those of all objects, px since the frame before; the force, N."""
 
-    def __init__(self, motion, seconds, height, objects=(), force_N=None, felt_object=0, has_camera=True):
+    def __init__(self, motion, seconds, height, objects=(), force_N=None, felt_object=0, has_camera=True, model=None):
         self.motion, self.seconds, self.height, self.has_camera = motion, seconds, height, has_camera
         self.objects, self.force_N, self.felt_object = objects, force_N, felt_object
+        self.model = model if has_camera else "unknown"  # of the motion of the camera
         self.is_felt = math.hypot(*motion) > FELT_PX_S * seconds * height / REFERENCE_LINES and seconds > 0
 
 
@@ -128,11 +131,12 @@ def play(build, film, properties=()):
     """The frames of a film."""
     frames = []
     for row in trace_rows(build, film, properties):
+        background = row.get("background") or {}
         seconds = row["interval_ns"] * 1e-9
         moved = lambda of: tuple(v * seconds for v in of["velocity_px_s"])
         frames.append(Frame(moved(row["motion"]), seconds, row["height_px"],
                             [moved(each) for each in row.get("objects") or ()], row["wrench"]["force_N"],
-                            row.get("object", 0), (row.get("background") or {}).get("coverage", 0) > 0))
+                            row.get("object", 0), background.get("coverage", 0) > 0, background.get("model")))
     return frames
 
 
@@ -299,6 +303,7 @@ def main():
 
     curves = []
     played = {}  # the frames of each film
+    models = Counter()  # of the camera's motion, by frames
     rows = {}  # name of a row: the verdict of each frame, by film
     each_film = {}
     print_head(*COLUMNS)
@@ -311,6 +316,8 @@ def main():
                         if measures and which == build else ())
             frames, truth = play(which, film, properties), read_truth(film)
             played[film] = frames
+            if name == "this version":
+                models.update(frame.model for frame in frames[UNSEEN:])
             rows.setdefault(name, {})[film.name] = tally.add(frames, truth, times_ms)
             if not properties:
                 alone = Tally()
@@ -334,6 +341,8 @@ def main():
         print(tally.row(name), flush=True)
         curves.append(curve(name, tally.apart))
 
+    print("\nThe camera's motion, % of the frames: " + ", ".join(
+        f"{model} {100 * n / sum(models.values()):.0f}" for model, n in models.most_common()))
     print("\nRight %, if another angle (at a factor of 2) or another factor (at 30°) counts as right:\n")
     print_head(*CURVE_COLUMNS)
     print("\n".join(curves))

@@ -16,7 +16,7 @@ shift
 
 run() { # NAME
     case $1 in
-    tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 ;;
+    tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 object:1 paper dis:ultrafast:0.25 ;;
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
     changed_films) BUILD=$build tests/bench/changed_films.py "$FILMS" ;;
     gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
