@@ -49,7 +49,9 @@ constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 /// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
 /// effect is silent before its first and after its last keyframe. Throws HjifError: not JSON, a
 /// value that is missing or out of range, other bands or curves, or more than `most_samples`.
-std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples);
+/// `others` gets the perceptions that are not read: "perceptions[0] (Vibrotactile)".
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples,
+                                   std::vector<std::string>* others = nullptr);
 
 /// By which samples are multiplied for formats with a range of their own: a force between a
 /// thousand times the full scale and a micronewton fills it.

@@ -260,16 +260,25 @@ void write_hjif(const SampleSource& samples, const WriteText& write, double tole
         "\n");
 }
 
-std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples) {
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
+                                   std::vector<std::string>* others) {
   std::string why;
   const ReadJson root = parse_json(text, why);
   if (root.is_discarded()) throw HjifError(why);
   Curves curves(timescale_of(root), most_samples);
   const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
   const ReadJson& perceptions = array(root, "perceptions", whole);
+  bool is_read = false;
+  std::string unread;
   for (size_t p = 0; p < perceptions.size(); ++p) {
     const std::string where = "perceptions[" + std::to_string(p) + "]";
-    if (text_of(perceptions[p], "perception_modality", where) != "Force") continue;
+    const std::string modality = text_of(perceptions[p], "perception_modality", where);
+    if (is_read || modality != "Force") {
+      const std::string other = where + " (" + modality + ")";
+      unread += (unread.empty() ? "" : ", ") + other;
+      if (others) others->push_back(other);
+      continue;
+    }
     const ReadJson& channels = array(perceptions[p], "channels", where);
     if (channels.size() != kTrackChannels) {
       fail(where, "has " + std::to_string(channels.size()) +
@@ -278,9 +287,11 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples)
     for (size_t c = 0; c < channels.size(); ++c) {
       read_channel(channels[c], c, curves, where + ".channels[" + std::to_string(c) + "]");
     }
-    return curves.take();
+    is_read = true;
   }
-  fail("the file", "has no perception of modality Force");
+  if (is_read) return curves.take();
+  fail(whole, "has no perception of modality Force" +
+                  (unread.empty() ? std::string() : ", only " + unread));
 }
 
 }  // namespace spidar

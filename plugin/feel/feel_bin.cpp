@@ -242,6 +242,18 @@ static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element
   return result;
 }
 
+/// What spidarmotion says while it plays, such as which track is felt, players hide.
+static void gst_spidar_feel_bin_handle_message(GstBin* bin, GstMessage* message) {
+  GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(bin);
+  const gpointer motion = g_atomic_pointer_get(&self->motion);
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO && GST_MESSAGE_SRC(message) == motion) {
+    pass_on(self, message);
+    gst_message_unref(message);
+    return;
+  }
+  GST_BIN_CLASS(gst_spidar_feel_bin_parent_class)->handle_message(bin, message);
+}
+
 static void gst_spidar_feel_bin_finalize(GObject* object) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(object);
   if (self->middle) gst_element_set_state(self->middle, GST_STATE_NULL);
@@ -256,6 +268,7 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
   GST_DEBUG_CATEGORY_INIT(gst_spidar_feel_debug, "spidarfeel", 0, "players that are felt");
   G_OBJECT_CLASS(klass)->finalize = gst_spidar_feel_bin_finalize;
   GST_ELEMENT_CLASS(klass)->change_state = gst_spidar_feel_bin_change_state;
+  GST_BIN_CLASS(klass)->handle_message = gst_spidar_feel_bin_handle_message;
   gst_element_class_set_static_metadata(
       GST_ELEMENT_CLASS(klass), "Felt video", "Filter/Analyzer/Video/Hardware",
       "spidarmotion for players that offer no way to add a filter", "The gst-spidar authors");

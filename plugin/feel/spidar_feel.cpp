@@ -93,7 +93,8 @@ Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so tha
 what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
 felt is shown. PROPERTY is one of spidarmotion: --properties lists them, and gst-inspect-1.0 spidarmotion
 explains them. preset=NAME stands for those of a preset: paper, film or gentle. A haptic track beside FILM,
-or else its funscripts (film.funscript, film.roll.funscript and so on), is felt instead of its motion.
+or else its funscripts (film.funscript, film.roll.funscript and so on) or film.hjif, is felt instead of its
+motion.
 
   --follow [NAME]  feel the film that another player plays: VLC, mpv with its package mpv-mpris, or any
                    that tells over the session bus (MPRIS) where it is. NAME is what it is called there;

@@ -11,8 +11,8 @@
 #include <gst/gst.h>
 
 #include "plugin/films/film_reader.h"
+#include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/open_track.h"
-#include "plugin/tracks/script_set.h"
 #include "plugin/tracks/sidecar.h"
 
 namespace spidar::follow {
@@ -56,7 +56,7 @@ void find_track(const std::string& path, const Film& film, const std::atomic<boo
                 FilmPlan& plan) {
   const std::string beside = find_sidecar(path);
   if (beside.empty()) {
-    plan.track = film.has_track ? path : tracks::find_script(path);
+    plan.track = film.has_track ? path : tracks::find_exchange_file(path);
     return;
   }
   try {

@@ -12,7 +12,7 @@
 #include "plugin/films/stream_content.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/script_set.h"
+#include "plugin/tracks/exchange_file.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::follow {
@@ -101,8 +101,8 @@ FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>&
 }
 
 void FollowedFilm::build(bool has_window) {
-  // Only spidarmotion reads scripts.
-  if (!plan_.track.empty() && !tracks::is_script(plan_.track) && !has_window) {
+  // Only spidarmotion reads formats of others.
+  if (!plan_.track.empty() && !tracks::is_exchange_file(plan_.track) && !has_window) {
     build_track();
   } else {
     build_film();
@@ -152,9 +152,8 @@ void FollowedFilm::build_film() {
   g_object_set(source.get(), "uri", plan_.uri.c_str(), nullptr);
   g_signal_connect(source.get(), "autoplug-continue", G_CALLBACK(look), this);
   g_signal_connect(source.get(), "no-more-pads", G_CALLBACK(choose_stream), this);
-  begins_ = plan_.track.empty()              ? plan_.name + " is analysed"
-            : tracks::is_script(plan_.track) ? "the script " + plan_.track + " is felt"
-                                             : "the haptic track " + plan_.track + " is felt";
+  // Of a track, spidarmotion says it.
+  begins_ = plan_.track.empty() ? plan_.name + " is analysed" : "";
 }
 
 gboolean FollowedFilm::look(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {

@@ -20,10 +20,10 @@
 #include "plugin/films/film_reader.h"
 #include "plugin/films/part_file.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_tags.h"
-#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -67,9 +67,6 @@ SampleSource SampleFile::samples(double gain) const {
 }
 
 namespace {
-
-/// Of HJIF: a track of 24 hours has less.
-constexpr size_t kMostText_bytes = size_t{1} << 30;
 
 /// The sample of `block` at `time_ns`, if it lies at a whole millisecond there: those are copied
 /// bit by bit.
@@ -142,7 +139,7 @@ TrackCondition find_track(const std::string& path, Film& film) {
   found.film = path;
   if (film.has_track) return found;
   found.track = find_sidecar(path);
-  if (found.track.empty()) found.track = tracks::find_script(path);
+  if (found.track.empty()) found.track = tracks::find_exchange_file(path);
   return found;
 }
 
@@ -156,12 +153,12 @@ void read_script(tracks::ScriptChoice choice, const SampleSource::Take& take,
   for (int64_t ms = 0; ms < set.length_ms(); ++ms) take(set.at(ms));
 }
 
-std::vector<TrackSample> read_hjif_file(const std::string& path) {
-  try {
-    return read_hjif(read_regular_file(path, kMostText_bytes));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
+void read_hjif_track(const SampleSource::Take& take, TrackCondition& found) {
+  std::vector<std::string> unfelt;
+  const std::vector<TrackSample> samples = tracks::read_hjif_file(found.track, unfelt);
+  found.notes.origin = "hjif";
+  for (const std::string& name : unfelt) found.about.push_back(name + ": is not read");
+  for (const TrackSample& sample : samples) take(sample);
 }
 
 /// Sound that `encoder` makes.
@@ -216,13 +213,12 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
   }
   if (tracks::is_script(found.track)) {
     read_script(script, take, found);
-  } else if (ends_with(path, ".ahap")) {
-    throw std::runtime_error(path +
+  } else if (ends_with(found.track, ".ahap")) {
+    throw std::runtime_error(found.track +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
-  } else if (ends_with(path, ".hjif")) {
-    found.notes.origin = "hjif";
-    for (const TrackSample& sample : read_hjif_file(path)) take(sample);
+  } else if (tracks::is_exchange_file(found.track)) {
+    read_hjif_track(take, found);
   } else {
     read_sound(path, film, take, found);
   }

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glib.h>
+
 #include "plugin/tracks/track_summary.h"
 #include "spidar/text.h"
 #include "spidar/whole_file.h"
@@ -135,51 +137,6 @@ class SetReader {
   ScriptSet set_;
 };
 
-/// A set that is played.
-class ScriptTrack : public OpenTrack {
- public:
-  explicit ScriptTrack(ScriptSet set) : set_(std::move(set)), length_ms_(set_.length_ms()) {
-    notes_.origin = "funscript";
-  }
-  ~ScriptTrack() override { blocks_->stop(); }
-  ScriptTrack(const ScriptTrack&) = delete;
-  ScriptTrack& operator=(const ScriptTrack&) = delete;
-
-  const Notes& notes() const override { return notes_; }
-  std::optional<int64_t> duration_ns() const override { return length_ms_ * kTrackPeriod_ns; }
-  std::string missing(int64_t) const override { return {}; }
-  const std::shared_ptr<ReadAhead>& blocks() const override { return blocks_; }
-  std::vector<std::string> unfelt() const override { return set_.unfelt; }
-
-  bool next(TrackBlock& block) override {
-    if (next_ms_ >= length_ms_) return false;
-    block.begin_ns = next_ms_ * kTrackPeriod_ns;
-    block.count =
-        static_cast<size_t>(std::min<int64_t>(TrackBlock::kCapacity, length_ms_ - next_ms_));
-    block.duration_ns = static_cast<int64_t>(block.count) * kTrackPeriod_ns;
-    for (size_t i = 0; i < block.count; ++i) block.samples[i] = set_.at(next_ms_++);
-    return true;
-  }
-  void seek(int64_t time_ns) override {
-    next_ms_ = std::clamp<int64_t>(time_ns / kTrackPeriod_ns, 0, length_ms_);
-    blocks_->begin_pass();
-  }
-  void read_pass() override {
-    TrackBlock block;
-    while (next(block)) {
-      if (!blocks_->put(block, {})) return;
-    }
-    blocks_->end_pass({});
-  }
-
- private:
-  const ScriptSet set_;
-  const int64_t length_ms_;
-  int64_t next_ms_ = 0;
-  Notes notes_;
-  const std::shared_ptr<ReadAhead> blocks_ = std::make_shared<ReadAhead>();
-};
-
 }  // namespace
 
 bool is_script(const std::string& path) {
@@ -221,12 +178,6 @@ ScriptSet read_scripts(const std::string& path, const ScriptChoice& choice) {
   for (const ScriptFile& one : files) reader.read(one);
   if (reader.set().axes.empty()) throw std::runtime_error(path + ": it has no actions");
   return std::move(reader.set());
-}
-
-std::unique_ptr<OpenTrack> open_scripts(const std::string& path, const std::string& film) {
-  ScriptChoice choice;
-  choice.film = film;
-  return std::make_unique<ScriptTrack>(read_scripts(path, choice));
 }
 
 }  // namespace spidar::tracks

@@ -5,14 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/track/funscript.h"
 #include "core/track/track_format.h"
-#include "plugin/tracks/open_track.h"
 
 namespace spidar::tracks {
 
@@ -45,8 +43,5 @@ struct ScriptSet {
 /// A script, and the others of its set if its own name has no axis. Throws std::runtime_error,
 /// which names the file, when one is wrong, or when no axis has any position.
 ScriptSet read_scripts(const std::string& path, const ScriptChoice& choice = {});
-
-/// Of read_scripts(), and throws as that.
-std::unique_ptr<OpenTrack> open_scripts(const std::string& path, const std::string& film);
 
 }  // namespace spidar::tracks

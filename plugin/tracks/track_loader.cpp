@@ -8,10 +8,12 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "plugin/films/film_reader.h"
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
-#include "plugin/tracks/script_set.h"
+#include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_input.h"
 #include "spidar/realtime/thread_setup.h"
@@ -41,6 +43,12 @@ std::string clause(std::string sentence) {
   return sentence;
 }
 
+std::string joined(const std::vector<std::string>& parts, const char* between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
 /// Opens the track, and compares it with the film. Null when there is none, or `loaded` has an
 /// error.
 std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::string& film,
@@ -49,14 +57,13 @@ std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::stri
   const std::optional<Film> read = read_if_possible(film, stopped);
   loaded.is_named = wanted != "auto";
   if (loaded.path.empty() && read && read->has_track) loaded.path = film;
-  if (loaded.path.empty()) loaded.path = find_script(film);
+  if (loaded.path.empty()) loaded.path = find_exchange_file(film);
   if (loaded.path.empty()) return nullptr;
-  std::unique_ptr<OpenTrack> track = is_script(loaded.path)
-                                         ? open_scripts(loaded.path, loaded.is_named ? "" : film)
-                                         : open_track(loaded.path, stopped);
-  for (const std::string& name : track->unfelt()) {
-    loaded.remark += (loaded.remark.empty() ? "" : ", ") + name;
-  }
+  std::unique_ptr<OpenTrack> track =
+      is_exchange_file(loaded.path) ? open_exchange_file(loaded.path, loaded.is_named ? "" : film)
+                                    : open_track(loaded.path, stopped);
+  loaded.about = joined(track->about(), "; ");
+  loaded.remark = joined(track->unfelt(), ", ");
   if (!loaded.remark.empty()) loaded.remark = "is felt without " + loaded.remark;
   // A track inside the film is the film's own.
   const bool is_inside = loaded.path == film;
@@ -74,6 +81,11 @@ std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::stri
   }
   loaded.blocks->set_later(match.later_ns);
   return track;
+}
+
+void post_what_is_felt(GstElement* element, const std::string& text) {
+  post_information(element, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_SETTINGS, text,
+                   "The property 'track' chooses another.");
 }
 
 /// Names what is set and changes nothing while a track is played.
@@ -206,8 +218,11 @@ void Loader::stop() {
 }
 
 std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns) {
-  if (loaded.path.empty()) return nullptr;
   GstElement* const element = element_;
+  if (loaded.path.empty()) {
+    post_what_is_felt(element, "The film has no haptic track or script: what moves in it is felt.");
+    return nullptr;
+  }
   std::string error = loaded.error;
   if (error.empty() && !loaded.is_compared) {
     GstPad* pad = gst_element_get_static_pad(element, "sink");
@@ -225,6 +240,10 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
                           ("The haptic track %s %s.", loaded.path.c_str(), remark.c_str()),
                           (nullptr));
     }
+    post_what_is_felt(
+        element, "Felt in place of what moves in the film: " +
+                     (loaded.about.empty() ? "the haptic track " + loaded.path : loaded.about) +
+                     ".");
     path_ = loaded.path;
     blocks_ = loaded.blocks;
     told_late_ = false;

@@ -29,6 +29,7 @@ struct LoadedTrack {
   std::string error;         ///< why it cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
   bool is_named = false;     ///< by track=FILE, so that it is felt with any film
+  std::string about;         ///< what is felt, and as what; empty: not known
   std::string remark;        ///< on what is felt nevertheless, or not; empty: nothing
 };
 
@@ -79,7 +80,7 @@ class FeltTrack {
 
   /// The blocks to be rendered for the film that comes to the sink pad of the element. Null when
   /// there are none; a warning on the bus when the track cannot be used, or is that of another
-  /// film.
+  /// film; else information on what is felt.
   std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns);
   /// Posts each warning once. False when the track cannot be read further.
   bool check();

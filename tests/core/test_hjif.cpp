@@ -142,7 +142,9 @@ TEST(Hjif, ReadsOtherTimescalesPositionsAndGains) {
   const std::string text =
       hjif(band(keyframe("0", "0") + "," + keyframe("480", "1"), "Curve", "Linear", "96"),
            R"("timescale":48000,)");
-  const std::vector<TrackSample> read = read_hjif(text);
+  std::vector<std::string> others;
+  const std::vector<TrackSample> read = read_hjif(text, kMostHjifSamples, &others);
+  EXPECT_EQ(others, std::vector<std::string>{"perceptions[0] (Vibrotactile)"});
   ASSERT_EQ(read.size(), 13u) << "2 ms and 10 ms more";
   for (size_t ms = 0; ms < read.size(); ++ms) {
     const double expected = ms < 2 ? 0 : 0.5 * 0.1 * static_cast<double>(ms - 2);
@@ -158,6 +160,8 @@ TEST(Hjif, SaysWhatIsWrongAndWhere) {
       {"[]", "not an object"},
       {"{}", "has no perceptions"},
       {R"({"perceptions":[]})", "no perception of modality Force"},
+      {R"({"perceptions":[{"perception_modality":"Pressure"}]})",
+       "no perception of modality Force, only perceptions[0] (Pressure)"},
       {R"({"perceptions":[{"perception_modality":"Force","channels":[]}]})", "0 channels"},
       {hjif(band(good), R"("timescale":0,)"), "timescale"},
       {hjif(band(good), R"("timescale":96000,)"), "timescale"},

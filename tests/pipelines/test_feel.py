@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """spidar-feel with players that are separate programs, and an SH4 board on an emulated USB."""
 
+import json
 import pathlib
 import shutil
 import signal
@@ -19,7 +20,8 @@ PLAYER = [sys.executable, HERE / "feel_player.py"]
 PLAYBINS = ("playbin", "playbin3")
 QUIET = ("gst-play-1.0", "-q", "--no-interactive", "--audiosink=fakesink")
 
-ONLY_WHICH = r"\Aspidar-feel: usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force [^\n]*\n\Z"
+ONLY_WHICH = r"\Aspidar-feel: usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force [^\n]*\n" \
+    r"spidar-feel: The film has no haptic track or script: what moves in it is felt.\n\Z"
 
 
 class FeelCase(bus_case.BusCase):
@@ -112,8 +114,9 @@ class Feel(FeelCase):
 
     def test_what_a_device_cannot_render_is_printed(self):
         bus.evdev_plug(0, Evdev.PAD)
-        self.assertEqual(self.run_all([FEEL, "device=ff", "--", *self.player("play frames=10 stop")]),
-                         "spidar-feel: Emulated Pad, rumble only: the strength of the force is felt, not its direction.\n")
+        said = self.run_all([FEEL, "device=ff", "--", *self.player("play frames=10 stop")])
+        self.assertEqual(said.splitlines()[0], "spidar-feel: Emulated Pad, rumble only: the strength of the force is felt, "
+                         "not its direction.")
 
     @track_case.needs(QUIET[0])
     def test_every_film_of_a_gapless_list_is_felt_to_its_end(self):
@@ -128,6 +131,21 @@ class Feel(FeelCase):
                 for from_s in (1.2, 2.2, 3.2):
                     felt_N = max(force for _, running, force, playing in ticks if playing and 0 <= running - from_s < .7)
                     self.assertGreater(felt_N, .1, f"from {from_s} s on")
+
+    @track_case.needs(QUIET[0])
+    def test_a_sentence_says_which_track_or_scripts_are_felt(self):
+        film = self.make_film("scripted.avi", 25)
+        script, roll, track = (film.with_suffix(end) for end in (".funscript", ".roll.funscript", ".haptic.wav"))
+
+        def expect_said(what):
+            said = self.run_all([FEEL, *QUIET, "--videosink=fakesink sync=true", film])
+            self.assertEqual(said.count(f"spidar-feel: Felt in place of what moves in the film: {what}.\n"), 1, said)
+
+        for path in (script, roll):
+            path.write_text(json.dumps({"actions": [{"at": 0, "pos": 90}, {"at": 1000, "pos": 10}]}))
+        expect_said(f"{script}: fy, gain 3.3 taken back: 100 % is 3 N; {roll}: tz, gain 10 taken back: 100 % is 0.1 N m")
+        track_case.write_wav(track, [(.1,) + (0,) * 5] * 1000)
+        expect_said(f"the haptic track {track}")
 
 
 class NoDevice(FeelCase):

@@ -187,7 +187,8 @@ class Follow(FollowCase):
         self.path("film.avi.haptic.wav").unlink()
         self.path("film.funscript").write_text(json.dumps({"actions": [{"at": 0, "pos": 0}, {"at": 60000, "pos": 0}]}))
         player, _ = self.play(least_N=1)
-        self.assertIn(f"the script {self.path('film.funscript')} is felt", self.said())
+        self.assertIn(f"Felt in place of what moves in the film: {self.path('film.funscript')}: fy, gain 3.3 taken back: "
+                      "100 % is 3 N.\n", self.said())
         self.expect_paused(player)
 
     def test_without_a_track_the_film_is_analysed(self):
@@ -445,7 +446,7 @@ class Seen(FollowCase):
                 player, process = self.play(least_N=.1, **self.screen)
                 self.wait_until(self.path("opened").exists)
                 if track == "with its track":
-                    self.assertIn("film.avi.haptic.wav is felt\n", self.said())
+                    self.assertIn("the haptic track " + str(self.path("film.avi.haptic.wav")) + ".\n", self.said())
                     self.expect_found(player)
                 self.expect_ended(process)
                 player.die()

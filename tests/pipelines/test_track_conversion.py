@@ -141,6 +141,21 @@ class Conversion(track_case.TrackCase):
         self.path("film.pitch.funscript").write_text("{")
         self.assert_said("film.pitch.funscript: it is no JSON", "info", "film.avi")
 
+    def test_hjif_beside_a_film_is_its_track(self):
+        """Where it has no other one."""
+        self.make_film("film.avi", frames=50)
+        self.make_track("a.wav", 500)
+        for name in ("film.avi.hjif", "film.hjif"):
+            self.spidartrack("convert", "a.wav", name)
+            info = json.loads(self.spidartrack("info", "--json", "film.avi"))
+            self.assertEqual((info["track"], info["samples"], info["belongs"]), (name, 500, True))
+            self.path(name).unlink()
+        self.path("film.hjif").write_text('{"perceptions":[{"perception_modality":"Vibrotactile"}]}')
+        self.assert_said("film.hjif: the file has no perception of modality Force, only perceptions[0] (Vibrotactile)",
+                         "info", "film.avi")
+        self.write_script("film.funscript")
+        self.assertEqual(json.loads(self.spidartrack("info", "--json", "film.avi"))["track"], "film.funscript")
+
     def test_a_script_may_have_several_axes(self):
         roll = [{"at": 0, "pos": 50}, {"at": 500, "pos": 100}]
         for more in ({"axes": [{"id": "R1", "actions": roll}, {"id": "V0", "actions": roll}]},

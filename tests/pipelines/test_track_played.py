@@ -268,6 +268,42 @@ class BadTracks(TrackPlayedCase):
         outcome = self.play(f"{film} track=auto ! fakesink sync=true")
         self.expect_analysed(outcome, "film.roll.funscript: it is no JSON")
 
+    def write_hjif(self, name, curve="Linear"):
+        """Force x is 5 N for 200 ms."""
+        keyframes = [{"relative_position": ms, "amplitude_modulation": .5} for ms in (0, 200)]
+        band = {"band_type": "Curve", "curve_type": curve, "effects": [{"position": 0, "keyframes": keyframes}]}
+        channels = [{"gain": 1, "bands": [band] if channel == 0 else []} for channel in range(6)]
+        self.path(name).write_text(json.dumps({"perceptions": [{"perception_modality": "Vibrotactile"},
+                                                               {"perception_modality": "Force", "channels": channels}]}))
+
+    def test_hjif_beside_a_film_is_felt_where_no_track_and_no_script_is(self):
+        self.make_film("film.avi", FRAMES)
+        self.write_hjif("film.hjif")
+        film = f"filesrc location={self.path('film.avi')} ! avidemux ! jpegdec ! videoconvert ! spidarmotion "
+
+        def felt_force(track):
+            pipeline = self.parse(f"{film} track={track} max-force=7 ! fakesink sync=true")
+            outcome = self.play(pipeline)
+            self.assertEqual((outcome.error, outcome.forces), ("", []))
+            # A sample has single precision.
+            wanted = {tuple(round(value, 6) for value in gst_case.vector(row, "wanted_force"))
+                      for row in gst_case.read_ticks(pipeline.watched[-1]) if row["found"] in ("exact", "interpolated")}
+            return wanted, outcome.warnings
+
+        for track in ("auto", self.path("film.hjif")):
+            wanted, warnings = felt_force(track)
+            self.assertEqual(wanted, {(5, 0, 0)})
+            self.assertEqual(len(warnings), 1, warnings)
+            self.assertIn(f"is felt without perceptions[0] (Vibrotactile) of {self.path('film.hjif')}", warnings[0])
+        self.write_hjif("film.hjif", "Akima")
+        self.expect_analysed(self.play(f"{film} track=auto ! fakesink sync=true"), "film.hjif: perceptions[1].channels[0]."
+                             "bands[0] is a curve of type Akima, not Linear")
+        points = [{"at": 0, "pos": 100}, {"at": 200, "pos": 100}]
+        self.path("film.funscript").write_text(json.dumps({"actions": points}))
+        self.assertEqual(felt_force("auto"), ({(0, 3, 0)}, []))
+        self.make_track("film.haptic.wav", MS, lambda _: (.25, 0, 0, 0, 0, 0))
+        self.assertEqual(felt_force("auto"), ({(2.5, 0, 0)}, []))
+
     def test_it_is_felt_in_time_without_sync_too_and_a_warning_says_so(self):
         self.make_track("a.wav", MS, lambda _: CONSTANT)
         line = f"filesrc location={self.path('a.wav')} ! wavparse ! spidarsink name=sink"

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Haptic files in formats of others that are felt with a film as they are: funscripts and HJIF.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/track/track_format.h"
+#include "plugin/tracks/open_track.h"
+
+namespace spidar::tracks {
+
+/// By the end of its name, in small or capital letters.
+bool is_exchange_file(const std::string& path);
+
+/// Beside a film: its scripts (find_script()), else FILM.hjif, with or without the extension of the
+/// film. Empty when there is none.
+std::string find_exchange_file(const std::string& film);
+
+/// Of a script, its set as read_scripts(). Throws std::runtime_error, which names the file and what
+/// in it is wrong or cannot be felt.
+std::unique_ptr<OpenTrack> open_exchange_file(const std::string& path, const std::string& film);
+
+/// 1000 samples a second, as read_hjif(), whose `unfelt` get the path. Throws as
+/// open_exchange_file().
+std::vector<TrackSample> read_hjif_file(const std::string& path, std::vector<std::string>& unfelt);
+
+}  // namespace spidar::tracks
