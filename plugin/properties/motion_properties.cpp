@@ -269,7 +269,7 @@ std::vector<MotionRow> element_rows() {
           kControllable, KEPT_IN(mute)),
       MotionRow::text(
           {"track", "Track",
-           "Haptic track that is felt instead of analysing frames: a file, or 'auto' for "
+           "Haptic track felt instead of analysing frames: a file, or 'auto' for "
            "FILM.mp4.haptic.flac, .mka or .wav, the track inside the film, FILM.funscript or "
            "FILM.hjif"},
           kReady, KEPT_IN(track)),
