@@ -7,8 +7,10 @@ source tree.
 check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path in
 `code` that begins with the name of a folder; `core/x/y` and `x/y` may stand for y.h and
 y.cpp there. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture
-must have a text for those who do not see it. Addresses on the net are not fetched."""
+must have a text for those who do not see it. A page of the site links no page that the site has not (`PAGES` in
+docs/conf.py): Sphinx refuses that. Addresses on the net are not fetched."""
 
+import ast
 import re
 import sys
 from pathlib import Path
@@ -46,6 +48,8 @@ def main():
     docs = source / "docs"
     pages = [source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "tests/README.md")] + sorted(docs.rglob("*.md"))
     texts = {page: page.read_text(encoding="utf-8") for page in pages}
+    listed = re.search(r"^PAGES = (\[.*?\])", (docs / "conf.py").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[1]
+    site = {source / name for name in ast.literal_eval(listed)} | {page for page in pages if docs in page.parents}
     wrong, links, in_contents = [], 0, {docs / "README.md"}
     files = {str(path.relative_to(source)) for top in TOP for path in (source / top).rglob("*")
              if "__pycache__" not in path.parts}
@@ -72,6 +76,8 @@ def main():
                 in_contents.add(file)
             if not file.is_relative_to(source) or not file.exists():
                 wrong.append(f"{name}: {target}: there is no such file")
+            elif file.suffix == ".md" and page in site and file not in site:
+                wrong.append(f"{name}: {target}: the site has no such page; name the file in `code`")
             elif anchor and anchor not in anchors(texts.get(file, "")):
                 wrong.append(f"{name}: {target}: {file.name} has no such heading")
             if picture and not words.strip():
