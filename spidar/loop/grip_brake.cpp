@@ -174,8 +174,8 @@ FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
                           (swung_J_ - kLightSwing_J) / (kHeavySwing_J - kLightSwing_J)),
                  0.0, 1.0);
   const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
-  // What moves faster than the strings have thrown the lightest grip, a hand moves; unless a loose
-  // one gives back what it has stored.
+  // A hand moves what is faster than the strings have thrown the lightest grip. A loose hand that
+  // gives back what it has stored does so, too, but holds nothing.
   const double least_m_s = std::max(speed_m_s - kSpeedError_m_s, 1e-3);
   const double thrown = 2 * work_J_ / (kLightestGrip_kg * least_m_s * least_m_s);
   const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
