@@ -74,9 +74,9 @@ class RepeatedPicture {
   static constexpr float kFractionWhenDue = 0.5f;
   /// The limit for the noise without any dip, as a fraction of both large changes before it: beside
   /// that of a title that appears, all motion is small. In real films, x264 at crf 20 leaves 0.01
-  /// to 0.03 of the change before it in a repeated picture. What swings and turns between two
-  /// pictures changes as little, and is held for a frame; with this limit, that is one turn in 16
-  /// at most, where a displacement changes the picture in proportion.
+  /// to 0.03 of the change before it in a repeated picture. A swing that turns between two
+  /// pictures may change as little, and is then held for a frame: at this limit, and where a
+  /// picture changes in proportion to its displacement, one turn in 16.
   static constexpr float kFractionAtOnce = 0.03f;
   /// That goes for so many frames, since what comes to rest all at once waits in vain: a picture of
   /// 24 in 60, or one drawn on threes, is repeated twice.

@@ -269,14 +269,12 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
   const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
   const ReadJson& perceptions = array(root, "perceptions", whole);
   bool is_read = false;
-  std::string unread;
+  std::vector<std::string> unread;
   for (size_t p = 0; p < perceptions.size(); ++p) {
     const std::string where = "perceptions[" + std::to_string(p) + "]";
     const std::string modality = text_of(perceptions[p], "perception_modality", where);
     if (is_read || modality != "Force") {
-      const std::string other = where + " (" + modality + ")";
-      unread += (unread.empty() ? "" : ", ") + other;
-      if (others) others->push_back(other);
+      unread.push_back(where + " (" + modality + ")");
       continue;
     }
     const ReadJson& channels = array(perceptions[p], "channels", where);
@@ -289,9 +287,13 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
     }
     is_read = true;
   }
-  if (is_read) return curves.take();
-  fail(whole, "has no perception of modality Force" +
-                  (unread.empty() ? std::string() : ", only " + unread));
+  if (!is_read) {
+    std::string only;
+    for (const std::string& other : unread) only += (only.empty() ? ", only " : ", ") + other;
+    fail(whole, "has no perception of modality Force" + only);
+  }
+  if (others) *others = std::move(unread);
+  return curves.take();
 }
 
 }  // namespace spidar

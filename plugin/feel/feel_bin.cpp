@@ -242,7 +242,7 @@ static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element
   return result;
 }
 
-/// What spidarmotion says while it plays, such as which track is felt, players hide.
+/// Players hide information such as which track is felt: spidarmotion's is passed on.
 static void gst_spidar_feel_bin_handle_message(GstBin* bin, GstMessage* message) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(bin);
   const gpointer motion = g_atomic_pointer_get(&self->motion);

@@ -101,7 +101,7 @@ FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>&
 }
 
 void FollowedFilm::build(bool has_window) {
-  // Only spidarmotion reads formats of others.
+  // Only spidarmotion reads exchange formats.
   if (!plan_.track.empty() && !tracks::is_exchange_file(plan_.track) && !has_window) {
     build_track();
   } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Haptic files in formats of others that are felt with a film as they are: funscripts and HJIF.
+/// Exchange formats, funscripts and HJIF, that are felt with a film without converting them.
 #pragma once
 
 #include <memory>

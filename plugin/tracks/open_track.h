@@ -41,7 +41,7 @@ class OpenTrack {
   /// At the beginning and after seek(): fills blocks() until nothing more of this pass is wanted.
   /// Returns at once where threads of its own do that.
   virtual void read_pass() {}
-  /// Of a file in a format of others: a line on each part, with its file and what it is felt as.
+  /// Of an exchange format: each part's file, and as what it is felt.
   virtual std::vector<std::string> about() const { return {}; }
   /// What is part of it, and not felt.
   virtual std::vector<std::string> unfelt() const { return {}; }

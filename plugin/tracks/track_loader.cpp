@@ -220,7 +220,7 @@ void Loader::stop() {
 std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns) {
   GstElement* const element = element_;
   if (loaded.path.empty()) {
-    post_what_is_felt(element, "The film has no haptic track or script: what moves in it is felt.");
+    post_what_is_felt(element, "The film has no haptic track or script: its motion is felt.");
     return nullptr;
   }
   std::string error = loaded.error;
@@ -241,7 +241,7 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
                           (nullptr));
     }
     post_what_is_felt(
-        element, "Felt in place of what moves in the film: " +
+        element, "Felt instead of the film's motion: " +
                      (loaded.about.empty() ? "the haptic track " + loaded.path : loaded.about) +
                      ".");
     path_ = loaded.path;

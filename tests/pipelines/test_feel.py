@@ -21,7 +21,7 @@ PLAYBINS = ("playbin", "playbin3")
 QUIET = ("gst-play-1.0", "-q", "--no-interactive", "--audiosink=fakesink")
 
 ONLY_WHICH = r"\Aspidar-feel: usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force [^\n]*\n" \
-    r"spidar-feel: The film has no haptic track or script: what moves in it is felt.\n\Z"
+    r"spidar-feel: The film has no haptic track or script: its motion is felt.\n\Z"
 
 
 class FeelCase(bus_case.BusCase):
@@ -139,7 +139,7 @@ class Feel(FeelCase):
 
         def expect_said(what):
             said = self.run_all([FEEL, *QUIET, "--videosink=fakesink sync=true", film])
-            self.assertEqual(said.count(f"spidar-feel: Felt in place of what moves in the film: {what}.\n"), 1, said)
+            self.assertEqual(said.count(f"spidar-feel: Felt instead of the film's motion: {what}.\n"), 1, said)
 
         for path in (script, roll):
             path.write_text(json.dumps({"actions": [{"at": 0, "pos": 90}, {"at": 1000, "pos": 10}]}))

@@ -187,7 +187,7 @@ class Follow(FollowCase):
         self.path("film.avi.haptic.wav").unlink()
         self.path("film.funscript").write_text(json.dumps({"actions": [{"at": 0, "pos": 0}, {"at": 60000, "pos": 0}]}))
         player, _ = self.play(least_N=1)
-        self.assertIn(f"Felt in place of what moves in the film: {self.path('film.funscript')}: fy, gain 3.3 taken back: "
+        self.assertIn(f"Felt instead of the film's motion: {self.path('film.funscript')}: fy, gain 3.3 taken back: "
                       "100 % is 3 N.\n", self.said())
         self.expect_paused(player)
 
