@@ -17,7 +17,7 @@ object against the background: lines `frame,x,y`, the first frame being 0, in pi
 since the frame before, x right, y down; frames that are missing are not counted. A film without
 such a file has no object, only a camera that moves. truth.py makes such a folder from a data set.
 
-The camera's motion: the model that explains it.
+It also prints how often each model explains the camera's motion.
 
 right: within 30 degrees and a factor of 2 of the truth. wrong: felt and more than 60 degrees off.
 listed: some object of the frame is right, whether it is felt or not. Counted are frames with more than 1 px of
