@@ -59,16 +59,20 @@ Placement strip(const char* name, double width_px) {
           }};
 }
 
+/// At the corner of a picture of 427 x 240 px.
+Vector2d at_corner(test::RandomMotion& random, double size_px) {
+  const Vector2d at_px = in_box(random, size_px, size_px);
+  return {213 + at_px.x(), 120 + at_px.y()};
+}
+
 std::vector<Placement> placements() {
   return {{"all over the picture", [](auto& random) { return in_box(random, 427, 240); }},
           strip("in a strip of 1 px", 1),
           strip("in a strip of 1e-3 px", 1e-3),
           strip("in a strip of 1e-6 px", 1e-6),
           strip("on a line", 0),
-          {"within 1 px at a corner",
-           [](auto& random) { return Vector2d(213, 120) + in_box(random, 1, 1); }},
-          {"within 1e-3 px at a corner",
-           [](auto& random) { return Vector2d(213, 120) + in_box(random, 1e-3, 1e-3); }},
+          {"within 1 px at a corner", [](auto& random) { return at_corner(random, 1); }},
+          {"within 1e-3 px at a corner", [](auto& random) { return at_corner(random, 1e-3); }},
           {"in one position", [](auto&) { return Vector2d(100, 50); }},
           {"weights from 1 to 1e12", [](auto& random) { return in_box(random, 427, 240); }, 1e12},
           {"8K, all over the picture", [](auto& random) { return in_box(random, 7680, 4320); }}};
