@@ -127,8 +127,7 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
 static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   Ref<GstElement> motion = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!motion) return nullptr;
-  // Rules of what is felt are for a film that is analysed.
-  if (!is_set(self->properties, "feel")) g_object_set(motion.get(), "track", "auto", nullptr);
+  g_object_set(motion.get(), "track", "auto", nullptr);
   set_properties(motion.get(), self->properties);
   const Ref<GstBus> bus(gst_bus_new());
   gst_element_set_bus(motion.get(), bus.get());

@@ -59,7 +59,8 @@ static void begin_to_load_track(GstSpidarMotionFilter* self) {
 static void take_track(MotionState& state, const GstVideoInfo& info) {
   if (const std::optional<spidar::tracks::LoadedTrack> loaded = state.loader.take()) {
     const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
-    std::shared_ptr<spidar::ReadAhead> blocks = state.felt.judge(*loaded, frame_ns);
+    std::shared_ptr<spidar::ReadAhead> blocks =
+        state.felt.judge(*loaded, frame_ns, state.frame_settings.analyzer.feel != nullptr);
     // The wrenches of frames that came before it stay: some of them may be the end of another film.
     if (blocks) state.track.set_track(std::move(blocks), loaded->path);
   }

@@ -101,13 +101,17 @@ FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>&
 }
 
 void FollowedFilm::build(bool has_window) {
-  // Only spidarmotion reads exchange formats.
-  if (!plan_.track.empty() && !tracks::is_exchange_file(plan_.track) && !has_window) {
+  // Only spidarmotion reads exchange formats, and rules, which go before a track that was found.
+  const bool has_rules = value_of(properties_, "feel") != nullptr;
+  const bool is_track = !plan_.track.empty() && !tracks::is_exchange_file(plan_.track);
+  if (is_track && !has_window && !has_rules) {
     build_track();
   } else {
     build_film();
     if (has_window) g_object_set(felt_, "debug-window", TRUE, nullptr);
-    if (!plan_.track.empty()) g_object_set(felt_, "track", plan_.track.c_str(), nullptr);
+    if (!plan_.track.empty()) {
+      g_object_set(felt_, "track", has_rules ? "auto" : plan_.track.c_str(), nullptr);
+    }
   }
   set_properties();
   // The base time is set by hand.

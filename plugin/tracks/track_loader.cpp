@@ -217,8 +217,16 @@ void Loader::stop() {
   reading_ = nullptr;
 }
 
-std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns) {
+std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t frame_ns,
+                                            bool has_rules) {
   GstElement* const element = element_;
+  if (has_rules && !loaded.is_named) {
+    if (!loaded.path.empty()) {
+      post_what_is_felt(
+          element, "The haptic track " + loaded.path + " is not felt, because feel= says what is.");
+    }
+    return nullptr;
+  }
   if (loaded.path.empty()) {
     post_what_is_felt(element, "The film has no haptic track or script: its motion is felt.");
     return nullptr;

@@ -80,8 +80,9 @@ class FeltTrack {
 
   /// The blocks to be rendered for the film that comes to the sink pad of the element. Null when
   /// there are none; a warning on the bus when the track cannot be used, or is that of another
-  /// film; else information on what is felt.
-  std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns);
+  /// film; else information on what is felt. Rules of what is felt go before a track that was only
+  /// found, not before one that track= names.
+  std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns, bool has_rules);
   /// Posts each warning once. False when the track cannot be read further.
   bool check();
   /// Nothing is rendered of a track.

@@ -147,6 +147,27 @@ class Feel(FeelCase):
         track_case.write_wav(track, [(.1,) + (0,) * 5] * 1000)
         expect_said(f"the haptic track {track}")
 
+    @track_case.needs(QUIET[0])
+    def test_rules_are_felt_before_a_track_that_lies_beside_the_film_and_a_sentence_says_so(self):
+        film = self.make_film("ruled.avi", 25)
+        rules, track = film.with_suffix(".feel"), film.with_suffix(".haptic.wav")
+
+        def said(*properties):
+            return self.run_all([FEEL, *properties, "--", *QUIET, "--videosink=fakesink sync=true", film])
+        unfelt = f"spidar-feel: The haptic track {track} is not felt, because feel= says what is.\n"
+        felt = f"spidar-feel: Felt instead of the film's motion: the haptic track {track}.\n"
+        self.assertNotIn("haptic track", said("feel=largest"))
+        track_case.write_wav(track, [(.1,) + (0,) * 5] * 1000)
+        for what, heard, unheard in (("feel=largest", [unfelt], [felt]), ("feel=auto", [felt], [unfelt])):
+            with self.subTest(what):
+                text = said(what)
+                self.assertEqual([text.count(sentence) for sentence in heard + unheard], [1, 0], text)
+        rules.write_text("0:00- largest\n")
+        text = said("feel=auto")
+        self.assertEqual([text.count(unfelt), text.count(felt)], [1, 0], text)
+        text = said("feel=auto", f"track={track}")
+        self.assertEqual([text.count(unfelt), text.count(felt)], [0, 1], text)
+
 
 class NoDevice(FeelCase):
     @track_case.needs(QUIET[0])

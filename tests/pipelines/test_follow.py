@@ -191,6 +191,14 @@ class Follow(FollowCase):
                       "100 % is 3 N.\n", self.said())
         self.expect_paused(player)
 
+    def test_rules_are_felt_before_the_track_of_the_film(self):
+        """The picture stands still, so that only the track could be felt."""
+        player = MockPlayer(self.bus, "mock")
+        player.change("Playing", uri=self.film.as_uri(), position_s=2)
+        self.follow(properties=["feel=largest"])
+        self.wait_until(lambda: f"{self.film}.haptic.wav is not felt, because feel= says what is.\n" in self.said())
+        self.assertNotIn("is felt", self.said())
+
     def test_without_a_track_the_film_is_analysed(self):
         self.path("film.avi.haptic.wav").unlink()
         self.gst("videotestsrc pattern=ball num-buffers=500 ! video/x-raw,width=160,height=120,"

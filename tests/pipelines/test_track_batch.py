@@ -136,7 +136,7 @@ class Batch(track_case.TrackCase):
         self.assertNotIn("frames are felt", self.spidartrack("export", "lib/film.avi", "page.html", env=setting))
         said = self.run_in_folder("gst-launch-1.0 filesrc location='lib/b c/film.avi' ! decodebin ! videoconvert ! "
                                   "spidarmotion device=none track=auto feel=leftmost ! fakesink", env=setting)
-        self.assertIn(f"has no effect while the haptic track {self.path('tracks/b c/film.avi.haptic.flac')} is played", said)
+        self.assertIn(f"{self.path('tracks/b c/film.avi.haptic.flac')} is not felt, because feel= says what is.", said)
         # One beside its film goes before it.
         self.make_track("lib/film.avi.haptic.wav")
         self.assertIn("is beside the film", self.spidartrack("info", "lib/film.avi", env=setting))
