@@ -198,7 +198,11 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
 }
 
 void StringGrip::update(const DeviceReading& answer, const GripCommand& command) noexcept {
+  const int left_out = watch_.faulty_string();
   watch_.update(answer, command);
+  // Poses without a string that fits after all may have been wrong: the way from them to this one
+  // is no motion.
+  if (left_out >= 0 && watch_.faulty_string() != left_out) reading_.motion.reset();
   if (watch_.trusted()) {
     reading_.motion.update(watch_.pose(), watch_.located_ns());
   } else {
