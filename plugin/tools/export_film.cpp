@@ -94,16 +94,16 @@ class ExportedFilm {
 
   /// A page that plays the film from where it is.
   void write_page(PartFile& page) {
-    const FilmPage::Html html = this->html(relative_url(film_, page.target()), film_, 0);
+    const FilmPage::Html html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
     page.write(html.text);
     publish(page);
     tell(page.target(), html,
          unplayed_.empty()
              ? ""
-             : (ends_with(unplayed_, kNotEveryBrowser) ? "; not every browser plays it: "
-                                                       : "; browsers do not play it: ") +
-                   unplayed_ +
-                   "; export it to a folder, FOLDER/, or with --embed, and it is converted");
+             : (ends_with(unplayed_, kNotEveryBrowser) ? "; not every browser plays it, because "
+                                                       : "; browsers do not play it, because ") +
+                   unplayed_ + "; spidartrack export " + film_ +
+                   " FOLDER/ converts it for them, as --embed does");
   }
 
   /// A page that has the film in it.
@@ -116,7 +116,7 @@ class ExportedFilm {
     }
     const std::string path = converted ? converted->path() : film_;
     if (converted) expect_embeddable(film_, path);
-    const FilmPage::Html html = this->html("", path, later_s(path));
+    const FilmPage::Html html = this->html("", path, later_s(path), "");
     constexpr const char* kTrack = "<script type=\"application/json\" id=\"track\">";
     const size_t at = html.text.find(kTrack);
     page.write(html.text.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
@@ -146,7 +146,7 @@ class ExportedFilm {
       missing = convert(film);
     }
     const FilmPage::Html html =
-        this->html(relative_url(copy, page.target()), film.path(), later_s(film.path()));
+        this->html(relative_url(copy, page.target()), film.path(), later_s(film.path()), "");
     page.write(html.text);
     publish(film);
     publish(page);
@@ -186,10 +186,11 @@ class ExportedFilm {
     }
   }
 
-  /// `file` is that which the page plays.
-  FilmPage::Html html(const std::string& url, const std::string& file, double more_s) const {
+  /// `file` is that which the page plays, and `unplayed` why some browser does not.
+  FilmPage::Html html(const std::string& url, const std::string& file, double more_s,
+                      const std::string& unplayed) const {
     return page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
-                      1e-9 * static_cast<double>(condition_.later_ns) + more_s);
+                      1e-9 * static_cast<double>(condition_.later_ns) + more_s, unplayed);
   }
 
   /// Returns what is missing, for the end of the line.

@@ -144,7 +144,8 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
 }
 
 FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
-                              const std::string& type, double later_s) const {
+                              const std::string& type, double later_s,
+                              const std::string& unplayed) const {
   constexpr double kCoarser = 1.25;
   // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
   double edges_off = 2 * 0.005;
@@ -152,12 +153,11 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
-  Json track = {{"film", name},
-                {"url", url},
-                {"type", type},
-                {"later_s", later_s},
-                {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
-                {"most_N", most_N}};
+  Json track = {
+      {"film", name},       {"url", url},
+      {"type", type},       {"unplayed", unplayed},
+      {"later_s", later_s}, {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
+      {"most_N", most_N}};
   Html html;
   // As exact as a hand can feel, or as there is room for in a long film.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {

@@ -47,9 +47,10 @@ class FilmPage {
     double tolerance_N;  ///< the force that is shown differs by so much at most, along each axis
   };
   /// `url` is of the film, relative to the page, and `name` for people; `type` is its MIME type.
-  /// The film shows its pictures `later_s` seconds later than the track says.
+  /// The film shows its pictures `later_s` seconds later than the track says. `unplayed` is why
+  /// some browser does not play it, as why_no_browser() says.
   Html html(const std::string& url, const std::string& name, const std::string& type,
-            double later_s) const;
+            double later_s, const std::string& unplayed) const;
 
  private:
   /// Forces are shown at the rate of a screen.

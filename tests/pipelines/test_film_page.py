@@ -40,7 +40,7 @@ LAYOUT_PROBE = """<script>
 film.muted = true;
 film.play().catch(() => {});
 const look = setInterval(() => {
-  if (film.currentTime < .2) return;
+  if (film.currentTime < .2 && !film.error) return;
   clearInterval(look);
   const page = document.documentElement, picture = film.getBoundingClientRect();
   console.log("probe: " + JSON.stringify({ width: film.videoWidth, said: said.textContent,
@@ -187,7 +187,7 @@ class FilmPage(track_case.TrackCase):
     def test_what_safari_plays_in_part_is_not_copied(self):
         for name, encoder in (("vp9.mp4", "libvpx-vp9"), ("av1.webm", "libaom-av1 -cpu-used 8")):
             self.run_in_folder(f"ffmpeg -nostdin -v error -f lavfi -i testsrc2=size=64x48:rate=25:duration=1 -c:v {encoder} {name}")
-            self.assertIn("; not every browser plays it: its picture is ", self.spidartrack("export", name, name + ".html"))
+            self.assertIn("; not every browser plays it, because its picture is ", self.spidartrack("export", name, name + ".html"))
 
     @track_case.needs("node")
     def test_a_pause_ends_the_vibration_once(self):
@@ -298,11 +298,20 @@ class FilmPage(track_case.TrackCase):
     @track_case.needs("chromium", "ffmpeg")
     def test_a_page_says_that_the_picture_does_not_play(self):
         self.make_mpeg4()
-        self.assertIn("; browsers do not play it: its picture is video/mpeg simple; export it to a folder",
+        self.assertIn("; browsers do not play it, because its picture is video/mpeg simple; spidartrack export film.mp4 FOLDER/",
                       self.spidartrack("export", "film.mp4", "page.html"))
         seen = self.layout("page.html")
         self.assertEqual(seen["width"], 0)
-        self.assertIn("The picture of film.mp4 does not play", seen["said"])
+        self.assertIn("The picture of film.mp4 does not play, because its picture is video/mpeg simple. ", seen["said"])
+
+    @track_case.needs("chromium", "ffmpeg")
+    def test_a_page_of_a_film_that_no_browser_reads_says_why_and_what_helps(self):
+        self.make_mpeg4("film.mkv")
+        self.assertIn("; browsers do not play it, because it is neither MP4 nor WebM; spidartrack export film.mkv FOLDER/ "
+                      "converts it", self.spidartrack("export", "film.mkv", "page.html"))
+        said = self.layout("page.html")["said"]
+        self.assertIn("film.mkv does not play, because it is neither MP4 nor WebM. ", said)
+        self.assertIn("“spidartrack export film.mkv FOLDER/”", said)
 
     @unittest.skipUnless(HAS_ENCODER, "needs an encoder of H.264")
     @track_case.needs("chromium", "ffmpeg")
