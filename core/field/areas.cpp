@@ -14,9 +14,13 @@ constexpr int kLeastPixels = kBlockArea_px / (kCoarser * kCoarser);
 
 }  // namespace
 
+void Areas::reserve(const BlockField& field) {
+  areas_.reserve(field.blocks().size());
+  counted_.resize(field.coarse().now.width(), field.coarse().now.height());
+}
+
 void Areas::leave_out_corners(const BlockField& field) {
-  const Vector2i size_px(field.coarse().now.width(), field.coarse().now.height());
-  counted_.resize(size_px.x(), size_px.y());
+  const Vector2i size_px(counted_.width(), counted_.height());
   for (int y = 0; y < size_px.y(); ++y) {
     std::fill_n(counted_.row(y), size_px.x(), static_cast<uint8_t>(255));
   }
@@ -66,7 +70,7 @@ const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
   areas_.clear();
   const CoarseField& coarse = field.coarse();
   if (field.pictures_back() == 0 || coarse.grid.size() == 0) return areas_;
-  areas_.reserve(field.blocks().size());
+  reserve(field);
   leave_out_corners(field);
   constexpr int kStep_px = kBlock_px / 2;
   const Vector2i size_px(coarse.now.width(), coarse.now.height());

@@ -17,6 +17,8 @@ namespace spidar {
 /// has no structure.
 class Areas {
  public:
+  /// Allocates what find() needs for pictures of this size: it may be needed long after the first.
+  void reserve(const BlockField& field);
   /// Their lengths are in pixels of the field's picture, their structure is in (grey / px)² of the
   /// coarse one. There are none while the field stands still. Valid until the next call.
   const std::vector<MotionBlock>& find(const BlockField& field);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/field/areas.h"
+#include "core/motion/camera/border.h"
 #include "core/motion/camera/camera_choice.h"
 #include "tests/core/field_film.h"
 #include "tests/support/texture.h"

@@ -39,6 +39,10 @@ ModelKind next(ModelKind kind, int step) {
 
 }  // namespace
 
+double vote_reach_px(double noise_px) {
+  return std::max(kLeastReach_px, kOutlierSigmas * noise_px);
+}
+
 double BackgroundVotes::sum() const {
   double votes = 0;
   for (const BackgroundVote& vote : cast) votes += vote.votes();
@@ -80,7 +84,7 @@ void BackgroundEstimator::reset() {
 void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   evidence_.points.clear();
   evidence_.weights.clear();
-  evidence_.sigma_px = std::max(kLeastReach_px, kOutlierSigmas * noise_px_) / 2;
+  evidence_.sigma_px = vote_reach_px(noise_px_) / 2;
   double sum = 0;
   double squares = 0;
   for (const BackgroundVote& vote : votes.cast) {

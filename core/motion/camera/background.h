@@ -17,6 +17,9 @@ constexpr double kNewestWeight = 0.4;
 /// Fewer votes say nothing about the background.
 constexpr size_t kLeastVotes = 12;
 
+/// Votes that deviate by more are outliers, px of the field's picture, if the noise is `noise_px`.
+double vote_reach_px(double noise_px);
+
 /// A displacement from which the camera's motion is estimated.
 struct BackgroundVote {
   Displacement point;

@@ -12,11 +12,6 @@
 
 namespace spidar {
 
-/// Whether the blocks along the border, with texture or without, fit the picture before better if
-/// they have moved like the model than if they rest. Known objects are left out; where they have
-/// most of the border, it says nothing.
-bool border_has_moved(const BlockField& field, const Past& past, const MotionModel& model);
-
 /// The blocks without corners. Each is compared with that of the last four pictures from which the
 /// camera has moved it furthest: noise that an encoder has moved along with an object in one
 /// picture is new some pictures later, whereas shading and stains are still there. The sums of
@@ -41,7 +36,8 @@ class PlainParts {
 
 /// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Those move
 /// with a large object before them, too: the plain parts or the border must show the same. Last of
-/// all, edges vote beside few blocks.
+/// all, edges vote beside few blocks. What explains clearly more of the border than what was found
+/// in this order is preferred to it.
 class CameraChoice {
  public:
   CameraChoice();
@@ -60,14 +56,25 @@ class CameraChoice {
   void reset();
 
  private:
-  const Background& keep(const BlockField& field, const Background& chosen,
-                         const MotionModel& likely);
+  Background find_in_order(const BlockField& field, const Past& past);
+  void prefer_rival(const BlockField& field, const Past& past, Background& chosen);
+  template <typename Counts>
+  void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
 
-  BackgroundVotes votes_;
+  BackgroundVotes votes_;  ///< that the last background has been found from
   BackgroundVotes area_votes_;
+  BackgroundVotes rival_votes_;
   Areas areas_;
   PlainParts plain_;
+  /// What explains the picture best, whether it was believed or not: over several pictures the
+  /// plain parts may show what they do not show in one.
+  MotionModel likely_;
   BackgroundEstimator estimator_;
+  RobustFitter fitter_;
+  WeightedDisplacements evidence_;
+  std::vector<MotionModel> models_;  ///< what was found in order, then its rivals
+  std::vector<double> shares_;       ///< of the border that each of them explains
+  bool is_rival_ = false;            ///< the last background is a rival
 };
 
 }  // namespace spidar

@@ -63,7 +63,9 @@ struct Background {
   /// picture is new: how the camera moves is unknown, and with it what moves by itself. The model
   /// is 'still' then, and `coverage` 0.
   bool is_known = true;
-  bool is_of_areas = false;  ///< areas of several blocks showed it, of which few had texture
+  /// Few of the blocks with texture showed it: areas of several blocks, or the border beside a
+  /// large object.
+  bool is_of_few = false;
 };
 
 /// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.

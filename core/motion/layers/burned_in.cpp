@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/camera/border.h"
 #include "core/motion/camera/motion_models.h"
 #include "core/quantile.h"
 
@@ -66,15 +67,9 @@ struct Side {
   }
 };
 
-/// Minimum number of pixels needed to decide that a block stays constant: a line across it.
-constexpr int kLeastPixels = kBlock_px;
-/// Minimum fraction of pixels that are exactly equal. With noise of one grey level after reduction,
-/// 0.35 of the pixels of a static object are exactly equal. For graphics it is nearly all of them,
-/// or 0.6 if an encoder adds noise; the standard deviation of the count is √n / 2.
-constexpr double kExactFraction = 0.5;
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
 /// needs a fraction halfway to all of them.
-constexpr double kExactFractionElsewhere = (1 + kExactFraction) / 2;
+constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
 /// The search can find a block with static graphics to move by up to kMostOff_px, because part of
 /// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
 /// picture, count as not moved.
@@ -103,11 +98,6 @@ constexpr int kMostScore = 3 * kGain;
 /// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
 /// outside.
 constexpr int kBeside_px = kBlock_px / 4;
-
-bool is_same(const StayingPixels& staying, double least_fraction) {
-  const double near = staying.near;
-  return near >= kLeastPixels && staying.exact > least_fraction * near + std::sqrt(near) / 2;
-}
 
 }  // namespace
 
@@ -190,8 +180,8 @@ bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float
 
 bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
   const auto stays = [&](int x_px, int y_px) {
-    return is_same(field.staying_pixels(block.index, block.background_px, {x_px, y_px}),
-                   kExactFractionElsewhere);
+    return are_graphics(field.staying_pixels(block.index, block.background_px, {x_px, y_px}),
+                        kExactElsewhere);
   };
   return stays(-kBeside_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
          stays(0, kBeside_px);
@@ -203,7 +193,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   const float moved_px = std::hypot(own.moved_px.x(), own.moved_px.y());
   const StayingPixels staying = field.staying_pixels(block.index, block.background_px);
   Sign& sign = signs_[block.index];
-  if (is_same(staying, moved_px < kMostOff_px ? kExactFraction : kExactFractionElsewhere)) {
+  if (are_graphics(staying, moved_px < kMostOff_px ? kExactOfGraphics : kExactElsewhere)) {
     sign = Sign::kStays;
   } else if (is_unexplained(field, block, moved_px)) {
     const bool is_mixed = block.is_slow && staying.near >= kMixedPixels;

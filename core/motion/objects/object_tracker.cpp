@@ -174,8 +174,8 @@ void ObjectTracker::turn(Life& life, const ObjectMotion& found, const FieldInFra
 /// a standard deviation: in a scene with depth, half of the picture may move against any single
 /// model of the background. A region that does not stand out from that is not an object.
 double ObjectTracker::noise_around(const Life& life) {
-  // Few blocks have texture where areas showed how the camera moves, and those may be its rim.
-  if (background_->is_of_areas) return background_->sigma_px;
+  // Where few blocks showed how the camera moves, those with texture may all be an object's rim.
+  if (background_->is_of_few) return background_->sigma_px;
   around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
