@@ -31,7 +31,7 @@ class ExampleBoard final : public boards::OnTransport<boards::Board> {
     Raw raw{};
     const LinkFault fault = exchange(volts, raw, deadline_ns);
     if (fault != LinkFault::kNone) return fault;
-    if (!counts_.follow(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
+    if (!counts_.update(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
     reading.count = counts_.counts();
     return LinkFault::kNone;
   }

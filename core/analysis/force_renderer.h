@@ -31,8 +31,9 @@ struct AnalyzerSettings {
   Eigen::Vector2d pointer{0.5, 0.5};
   /// Come before `motion` where they say something, and not with kMean, which knows no objects.
   std::shared_ptr<const FeelRules> feel;
-  KeptObject kept;                            ///< comes before `feel`
-  std::shared_ptr<const PictureBoxes> boxes;  ///< that came with this frame; null: none did
+  KeptObject kept;  ///< comes before `feel`
+  std::shared_ptr<const std::vector<PictureBox>>
+      boxes;  ///< that came with this frame; null: none did
   FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;

@@ -27,8 +27,6 @@ struct PictureBox {
   Eigen::Vector2d far_corner{1, 1};
 };
 
-using PictureBoxes = std::vector<PictureBox>;
-
 /// An object that is kept because it was clicked.
 struct KeptObject {
   uint32_t click = 0;              ///< counts the clicks; 0: none is kept
@@ -60,13 +58,13 @@ struct Chosen {
 /// shown.
 struct ChoiceInput {
   const std::vector<MovingObject>& objects;
-  const Background* background;         ///< null when it is not known
-  int width, height;                    ///< px
-  double interval_s;                    ///< since the frame before; 0 when there is none
-  bool is_cut;                          ///< nothing in it was in the frame before
-  int64_t stream_ns;                    ///< position in the film
-  Orientation turn;                     ///< of the frame before it is shown
-  const PictureBoxes* boxes = nullptr;  ///< that came with it; null: none did
+  const Background* background;                    ///< null when it is not known
+  int width, height;                               ///< px
+  double interval_s;                               ///< since the frame before; 0 when there is none
+  bool is_cut;                                     ///< nothing in it was in the frame before
+  int64_t stream_ns;                               ///< position in the film
+  Orientation turn;                                ///< of the frame before it is shown
+  const std::vector<PictureBox>* boxes = nullptr;  ///< that came with it; null: none did
 
   /// A position of the picture as it is shown, from the middle of the frame.
   Eigen::Vector2d px(const Eigen::Vector2d& position) const {

@@ -80,7 +80,7 @@ double AdaptiveController::scale_px_s() const {
   return std::exp(log_scale_);
 }
 
-void AdaptiveController::follow(double speed_px_s, double interval_s) {
+void AdaptiveController::adapt(double speed_px_s, double interval_s) {
   const double above = std::log(speed_px_s) - log_scale_;
   log_scale_ += above > 0 ? approach(above, interval_s / kAttack_s)
                           : -approach(-above, interval_s / kRelease_s);
@@ -91,7 +91,7 @@ double AdaptiveController::force_N(const MeasuredSpeed& measured) {
   const double dead_px_s =
       measured.dead_zone_px_s > 0 ? measured.dead_zone_px_s : DeadZone::kLeast_px_s;
   if (alpha_s_px_ == 0 || measured.speed_px_s <= dead_px_s) return 0;
-  follow(measured.speed_px_s, measured.interval_s);
+  adapt(measured.speed_px_s, measured.interval_s);
   return NonlinearController(max_force_N_, 1 / scale_px_s())
       .force_N(measured.speed_px_s - dead_px_s);
 }

@@ -118,7 +118,7 @@ class AdaptiveController final : public GainController {
   static constexpr double kRange = 10;
 
  private:
-  void follow(double speed_px_s, double interval_s);
+  void adapt(double speed_px_s, double interval_s);
   void limit_scale();
 
   double max_force_N_;

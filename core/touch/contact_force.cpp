@@ -43,10 +43,8 @@ void validate(const ContactSettings& s) {
           s.damping);
   require(std::isfinite(s.lateral_damping) && s.lateral_damping >= 0.5, "Contact",
           "lateral_damping", "finite and ≥ 0.5", s.lateral_damping);
-  require(std::isfinite(s.friction.fixed) && s.friction.fixed >= 0, "Contact", "friction.fixed",
-          "finite and ≥ 0", s.friction.fixed);
-  require(s.friction.dynamic >= 0 && s.friction.dynamic <= s.friction.fixed, "Contact",
-          "friction.dynamic", "≥ 0 and at most friction.fixed", s.friction.dynamic);
+  require(std::isfinite(s.friction) && s.friction >= 0, "Contact", "friction", "finite and ≥ 0",
+          s.friction);
   require(std::isfinite(s.texture) && s.texture >= 0, "Contact", "texture", "finite and ≥ 0",
           s.texture);
   require(s.max_force_N > 0, "Contact", "max_force_N", "above 0", s.max_force_N);
@@ -92,7 +90,7 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
 void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                                  const Eigen::Vector3d& grip_m) noexcept {
   if (!proxy_.touching()) {
-    budget_.follow(way_m, velocity_m_s_, 0, 0);
+    budget_.update(way_m, velocity_m_s_, 0, 0);
     return;
   }
   // Above max_force_N the spring yields.
@@ -103,7 +101,7 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   // A receding surface takes energy out at the actual force, which the bound may keep below the
   // spring force.
   if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
-  budget_.follow(way_m, velocity_m_s_, put_in_J, stored_J);
+  budget_.update(way_m, velocity_m_s_, put_in_J, stored_J);
 }
 
 /// The force before the energy bound is applied.

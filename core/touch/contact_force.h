@@ -23,8 +23,8 @@ struct ContactSettings {
   /// energy than the damping dissipates, at every frequency.
   double damping = 1.5;
   double lateral_damping = 0.5;  ///< along the surface, in units of B; finite and ≥ 0.5
-  Friction friction;
-  double texture = 1;  ///< gain of the texture's slope; finite and ≥ 0
+  double friction = 0;           ///< coefficient of static Coulomb friction; finite and ≥ 0
+  double texture = 1;            ///< gain of the texture's slope; finite and ≥ 0
   /// Limits of the safety chain. The contact stays passive only if they are correct. Above 0;
   /// max_force_N may be infinite.
   double max_force_N = std::numeric_limits<double>::infinity();

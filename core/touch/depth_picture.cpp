@@ -128,8 +128,8 @@ void DepthPicture::read_row(const DepthView& depth, int y, float* values) const 
   }
 }
 
-/// Rounded to whole samples. At least one cell must not be a hole.
-DepthPicture::Ends DepthPicture::percentiles() noexcept {
+/// The lower and the upper one, rounded to whole samples. At least one cell must not be a hole.
+std::pair<double, double> DepthPicture::percentiles() noexcept {
   sorted_.clear();
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(sorted_),
                [](float cell) { return !std::isnan(cell); });
@@ -162,9 +162,9 @@ void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
   double near = settings.near_sample;
   double far = settings.far_sample;
   if (finds_near || finds_far) {
-    const Ends ends = percentiles();
-    if (finds_near) near = settings.disparity ? ends.high : ends.low;
-    if (finds_far) far = settings.disparity ? ends.low : ends.high;
+    const auto [low, high] = percentiles();
+    if (finds_near) near = settings.disparity ? high : low;
+    if (finds_far) far = settings.disparity ? low : high;
     // Widens a narrow range about its middle, or away from the end that is set.
     const double sign = settings.disparity ? -1 : 1;
     const double least = std::max(kLeastSpan, kLeastFraction * std::max(near, far));

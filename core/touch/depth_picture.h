@@ -85,13 +85,9 @@ class DepthPicture {
   void reset() noexcept { has_range_ = false; }
 
  private:
-  struct Ends {
-    double low, high;
-  };
-
   bool average(const DepthView& depth);
   void read_row(const DepthView& depth, int y, float* values) const noexcept;
-  Ends percentiles() noexcept;
+  std::pair<double, double> percentiles() noexcept;
   bool is_cut(const DepthSettings& settings) const noexcept;
   void follow(const DepthSettings& settings, double dt_s) noexcept;
 

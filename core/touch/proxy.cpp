@@ -21,8 +21,8 @@ constexpr int kMostHalvings = 3;
 
 }  // namespace
 
-void Proxy::move(const MovingRelief& surface, const Friction& friction,
-                 const Eigen::Vector3d& grip_m, double dt_s) noexcept {
+void Proxy::move(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m,
+                 double dt_s) noexcept {
   if (!grip_m.allFinite()) {
     reset();
     return;
@@ -85,7 +85,7 @@ void Proxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vect
   normal_ = at.normal();
 }
 
-void Proxy::walk(const MovingRelief& surface, const Friction& friction,
+void Proxy::walk(const MovingRelief& surface, double friction,
                  const Eigen::Vector3d& grip_m) noexcept {
   const double longest_m = 0.5 * surface.cell_m();
   for (int n = 0; n < kMostSteps; ++n) {
@@ -99,10 +99,10 @@ void Proxy::walk(const MovingRelief& surface, const Friction& friction,
     const Eigen::Vector3d along_m = to_grip_m + depth_m * normal_;
     const double distance_m = along_m.norm();
     double held_m = 0;  // by friction
-    if (depth_m > 0 && friction.fixed > 0) {
-      held_m = friction.dynamic * depth_m;
+    if (depth_m > 0 && friction > 0) {
+      held_m = kKineticFriction * friction * depth_m;
       if (sliding_ && distance_m < kSticksAgain * held_m) sliding_ = false;
-      if (!sliding_ && distance_m <= friction.fixed * depth_m) return;
+      if (!sliding_ && distance_m <= friction * depth_m) return;
     }
     const double way_m = std::min(distance_m - held_m, longest_m);
     if (!(way_m > kLeastStep_m)) return;

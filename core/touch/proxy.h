@@ -33,17 +33,6 @@ struct MovingRelief {
   double cell_m() const noexcept { return std::min(before->cell_x_m(), before->cell_y_m()); }
 };
 
-/// Coefficients of static and dynamic Coulomb friction, 0 ≤ dynamic ≤ fixed.
-struct Friction {
-  double fixed = 0;    ///< μs
-  double dynamic = 0;  ///< μd
-};
-
-/// The friction of most surfaces: the kinetic one is four fifths of the static one.
-constexpr Friction friction_of(double fixed) {
-  return {fixed, 0.8 * fixed};
-}
-
 /// A point that stays on the surface while the grip is below it, as close to the grip as friction
 /// allows (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex graphical
 /// environments, SIGGRAPH 1997). A spring between the two generates the contact force.
@@ -57,6 +46,8 @@ constexpr Friction friction_of(double fixed) {
 /// at kRise_m_s, so cuts need not be signalled.
 class Proxy {
  public:
+  /// The coefficient of kinetic friction of most surfaces, as a fraction of the static one.
+  static constexpr double kKineticFriction = 0.8;
   static constexpr double kFastest_m_s = 0.2;  ///< of a surface in contact
   static constexpr double kRise_m_s = 0.04;
   /// The rise reaches kRise_m_s within 0.1 s. Starting at full speed would throw a lightly held
@@ -66,7 +57,7 @@ class Proxy {
 
   /// One tick, `dt_s` > 0 after the last. `grip_m` in the device frame. Neither allocates nor
   /// throws. A non-finite grip position ends the contact.
-  void move(const MovingRelief& surface, const Friction& friction, const Eigen::Vector3d& grip_m,
+  void move(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m,
             double dt_s) noexcept;
 
   bool touching() const noexcept { return touching_; }
@@ -90,8 +81,7 @@ class Proxy {
              double dt_s) noexcept;
   void enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
              double dt_s) noexcept;
-  void walk(const MovingRelief& surface, const Friction& friction,
-            const Eigen::Vector3d& grip_m) noexcept;
+  void walk(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m) noexcept;
   bool step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
             const Eigen::Vector3d& grip_m) noexcept;
   void leave(const Eigen::Vector3d& grip_m) noexcept;

@@ -71,7 +71,7 @@ void fill_line(float* line, int count, int step) noexcept {
 struct Envelope {
   float across_m, down_m, diagonal_m;
 
-  void pass(HeightField& field, int y, int from, int step) const noexcept {
+  void sweep(HeightField& field, int y, int from, int step) const noexcept {
     float* const row = field.row(y);
     if (from >= 0 && from < kRows) {
       const float* const other = field.row(from);
@@ -98,8 +98,8 @@ void limit_slope(HeightField& field) noexcept {
   const double down_m = slope * field.cell_y_m();
   const Envelope envelope{static_cast<float>(across_m), static_cast<float>(down_m),
                           static_cast<float>(std::hypot(across_m, down_m))};
-  for (int y = 0; y < kRows; ++y) envelope.pass(field, y, y - 1, 1);
-  for (int y = kRows - 1; y >= 0; --y) envelope.pass(field, y, y + 1, -1);
+  for (int y = 0; y < kRows; ++y) envelope.sweep(field, y, y - 1, 1);
+  for (int y = kRows - 1; y >= 0; --y) envelope.sweep(field, y, y + 1, -1);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct SampleSource {
 using WriteText = std::function<void(const std::string&)>;
 
 /// Says what was wrong with a file, and where.
-class HjifError : public std::runtime_error {
+class TrackFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -47,8 +47,8 @@ constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 
 /// Samples, 1000 a second, of the first perception of modality Force, which must have six channels.
 /// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
-/// effect is silent before its first and after its last keyframe. Throws HjifError: not JSON, a
-/// value that is missing or out of range, other bands or curves, or more than `most_samples`.
+/// effect is silent before its first and after its last keyframe. Throws TrackFileError: not JSON,
+/// a value that is missing or out of range, other bands or curves, or more than `most_samples`.
 /// `others` gets the perceptions that are not read: "perceptions[0] (Vibrotactile)".
 std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples,
                                    std::vector<std::string>* others = nullptr);

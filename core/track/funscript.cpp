@@ -24,18 +24,15 @@ const ReadJson* member(const ReadJson& object, const char* name) {
   return object.is_object() && found != object.end() ? &*found : nullptr;
 }
 
-struct Range {
-  double least, most;
-};
-
-double number(const ReadJson& object, const char* name, Range range, const std::string& where) {
+double number(const ReadJson& object, const char* name, double least, double most,
+              const std::string& where) {
   const ReadJson* const found = member(object, name);
-  if (!found || !found->is_number()) throw FunscriptError(where + " has no number " + name);
+  if (!found || !found->is_number()) throw TrackFileError(where + " has no number " + name);
   const double value = found->get<double>();
-  if (!(value >= range.least && value <= range.most)) {
+  if (!(value >= least && value <= most)) {
     std::string text = where + "." + name + " is ";
-    text.append(NumberText(value)).append(", not from ").append(NumberText(range.least));
-    throw FunscriptError(text.append(" to ").append(NumberText(range.most)));
+    text.append(NumberText(value)).append(", not from ").append(NumberText(least));
+    throw TrackFileError(text.append(" to ").append(NumberText(most)));
   }
   return value;
 }
@@ -53,19 +50,19 @@ void read_scale(const ReadJson& script, const std::string& where, Scale& scale) 
     scale.inverted = *inverted == ReadJson(true);
   }
   if (!member(script, "range")) return;
-  const double range = number(script, "range", {0, kPercent}, where);
+  const double range = number(script, "range", 0, kPercent, where);
   scale.used = range > 0 ? range / kPercent : 1;
 }
 
 std::vector<ScriptAxis::Point> read_points(const ReadJson& actions, const std::string& where,
                                            const Scale& scale) {
-  if (!actions.is_array()) throw FunscriptError(where + " is no list");
+  if (!actions.is_array()) throw TrackFileError(where + " is no list");
   constexpr auto kLatest_ms = static_cast<double>(kLatestPosition_ms);
   std::vector<ScriptAxis::Point> points;
   for (size_t i = 0; i < actions.size(); ++i) {
     const std::string at = where + "[" + std::to_string(i) + "]";
-    const double at_ms = number(actions[i], "at", {-kLatest_ms, kLatest_ms}, at);
-    const double position = number(actions[i], "pos", {0, 2 * kMiddle}, at);
+    const double at_ms = number(actions[i], "at", -kLatest_ms, kLatest_ms, at);
+    const double position = number(actions[i], "pos", 0, 2 * kMiddle, at);
     const double fraction = scale.used * (position / kMiddle - 1);
     points.push_back({std::llround(at_ms), scale.inverted ? -fraction : fraction});
   }
@@ -101,7 +98,7 @@ void read_axis(const ReadJson& from, const std::string& name, const std::string&
     return;
   }
   const ReadJson* const actions = member(from, "actions");
-  if (!actions) throw FunscriptError(where + " has no actions");
+  if (!actions) throw TrackFileError(where + " has no actions");
   read_scale(from, where, scale);
   put({name, *channel, usual_gain(*channel), false,
        read_points(*actions, where + ".actions", scale)},
@@ -110,18 +107,18 @@ void read_axis(const ReadJson& from, const std::string& name, const std::string&
 
 /// Version 1.1.
 void read_axes(const ReadJson& axes, const Scale& scale, Funscript& script) {
-  if (!axes.is_array()) throw FunscriptError("axes is no list");
+  if (!axes.is_array()) throw TrackFileError("axes is no list");
   for (size_t i = 0; i < axes.size(); ++i) {
     const std::string where = "axes[" + std::to_string(i) + "]";
     const ReadJson* const id = member(axes[i], "id");
-    if (!id || !id->is_string()) throw FunscriptError(where + " has no id such as \"R1\"");
+    if (!id || !id->is_string()) throw TrackFileError(where + " has no id such as \"R1\"");
     read_axis(axes[i], id->get<std::string>(), where, scale, script);
   }
 }
 
 /// Version 2.0.
 void read_channels(const ReadJson& channels, const Scale& scale, Funscript& script) {
-  if (!channels.is_object()) throw FunscriptError("channels is no object");
+  if (!channels.is_object()) throw TrackFileError("channels is no object");
   for (const auto& [name, channel] : channels.items()) {
     read_axis(channel, name, "channels." + name, scale, script);
   }
@@ -131,9 +128,8 @@ void read_channels(const ReadJson& channels, const Scale& scale, Funscript& scri
 void read_notes(const ReadJson& root, ScriptAxis& axis) {
   const ReadJson* const notes = member(root, kNotesKey);
   if (!notes) return;
-  axis.channel =
-      static_cast<size_t>(number(*notes, kChannelKey, {0, kTrackChannels - 1}, kNotesKey));
-  axis.gain = number(*notes, kGainKey, {kLeastGain, kMostGain}, kNotesKey);
+  axis.channel = static_cast<size_t>(number(*notes, kChannelKey, 0, kTrackChannels - 1, kNotesKey));
+  axis.gain = number(*notes, kGainKey, kLeastGain, kMostGain, kNotesKey);
   axis.is_noted = true;
 }
 
@@ -143,14 +139,10 @@ bool is_same_word(std::string_view a, std::string_view b) {
                     [&](char x, char y) { return small(x) == small(y); });
 }
 
-struct AxisName {
-  const char* name;
-  size_t channel;
-};
-constexpr AxisName kAxisNames[] = {{"stroke", 1}, {"L0", 1},      {"up", 1},    {"surge", 2},
-                                   {"L1", 2},     {"forward", 2}, {"sway", 0},  {"L2", 0},
-                                   {"left", 0},   {"twist", 4},   {"R0", 4},    {"yaw", 4},
-                                   {"roll", 5},   {"R1", 5},      {"pitch", 3}, {"R2", 3}};
+constexpr std::pair<const char*, size_t> kAxisNames[] = {
+    {"stroke", 1}, {"L0", 1}, {"up", 1},    {"surge", 2}, {"L1", 2}, {"forward", 2},
+    {"sway", 0},   {"L2", 0}, {"left", 0},  {"twist", 4}, {"R0", 4}, {"yaw", 4},
+    {"roll", 5},   {"R1", 5}, {"pitch", 3}, {"R2", 3}};
 constexpr const char* kOtherNames[] = {"vib", "vib0", "vib1", "vib2", "V0", "V1",   "V2",   "pump",
                                        "L3",  "suck", "A0",   "A1",   "A2", "lube", "valve"};
 
@@ -188,8 +180,8 @@ float ScriptAxis::at(int64_t time_ms) const {
 }
 
 std::optional<size_t> channel_of_axis(std::string_view name) {
-  for (const AxisName& axis : kAxisNames) {
-    if (is_same_word(name, axis.name)) return axis.channel;
+  for (const auto& [known, channel] : kAxisNames) {
+    if (is_same_word(name, known)) return channel;
   }
   return std::nullopt;
 }
@@ -202,11 +194,11 @@ bool is_other_axis(std::string_view name) {
 Funscript parse_funscript(const std::string& text, size_t channel) {
   std::string why;
   const ReadJson root = parse_json(text, why);
-  if (root.is_discarded()) throw FunscriptError(why);
+  if (root.is_discarded()) throw TrackFileError(why);
   const ReadJson* const actions = member(root, "actions");
   const ReadJson* const axes = member(root, "axes");
   const ReadJson* const channels = member(root, "channels");
-  if (!actions && !axes && !channels) throw FunscriptError("it has no actions");
+  if (!actions && !axes && !channels) throw TrackFileError("it has no actions");
   Scale scale;
   read_scale(root, "the script", scale);
   ScriptAxis own{"", channel, usual_gain(channel), false, {}};

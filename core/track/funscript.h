@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +14,6 @@
 #include "core/track/track_format.h"
 
 namespace spidar {
-
-/// Says what was wrong with a file, and where.
-class FunscriptError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// As much as the rounding of a position differs from the curve: half a step of 2 %.
 constexpr double kFunscriptTolerance = 0.01;
@@ -77,7 +70,7 @@ struct Funscript {
 /// and of two at one time the later one counts, as in players. "range" is the percentage of the
 /// full scale that is used: launchcontrol, the player that the format comes from, scales the
 /// positions by it, and its usual limits put them about the middle. As there, 0 and a script
-/// without it stand for all. Throws FunscriptError: not JSON, no actions (but they may be empty),
+/// without it stand for all. Throws TrackFileError: not JSON, no actions (but they may be empty),
 /// or a number out of its range.
 Funscript parse_funscript(const std::string& text, size_t channel);
 

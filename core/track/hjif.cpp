@@ -102,7 +102,7 @@ void write_channel(const SampleSource& samples, const WriteText& write, size_t c
 }
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw HjifError(where + " " + what);
+  throw TrackFileError(where + " " + what);
 }
 
 const ReadJson& member(const ReadJson& object, const char* name, const std::string& where) {
@@ -264,7 +264,7 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
                                    std::vector<std::string>* others) {
   std::string why;
   const ReadJson root = parse_json(text, why);
-  if (root.is_discarded()) throw HjifError(why);
+  if (root.is_discarded()) throw TrackFileError(why);
   Curves curves(timescale_of(root), most_samples);
   const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
   const ReadJson& perceptions = array(root, "perceptions", whole);

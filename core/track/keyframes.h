@@ -28,14 +28,14 @@ class KeyframeChooser {
       return;
     }
     behind_.push_back(value);
-    follow();
+    extend_line();
   }
 
   /// There are no more values.
   void finish() {
     while (count_ > 0 && end_ != begin_) {
       end_line();
-      follow();
+      extend_line();
     }
   }
 
@@ -52,7 +52,7 @@ class KeyframeChooser {
   void end_line() { begin(end_, end_value_); }
 
   /// Looks at the values that have not been seen since the line began.
-  void follow() {
+  void extend_line() {
     while (seen_ - end_ < behind_.size()) {
       const double value = behind_[seen_ - end_];
       ++seen_;

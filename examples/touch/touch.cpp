@@ -84,7 +84,7 @@ void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
     throw std::runtime_error("the picture has no pixels");
   }
   frame.has_surface = true;
-  frame.contact.friction = {0.3, 0.24};
+  frame.contact.friction = 0.3;
   mailbox.publish();
 }
 

@@ -38,7 +38,7 @@ bool is_marked_track(const GstTagList* tags) {
   return false;
 }
 
-void TrackMark::follow(GstEvent* event) {
+void TrackMark::update(GstEvent* event) {
   GstTagList* tags = nullptr;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_STREAM_START:
@@ -59,7 +59,7 @@ void TrackMark::follow(GstEvent* event) {
 bool is_marked_track(GstPad* pad) {
   TrackMark mark;
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
-    mark.follow(event);
+    mark.update(event);
     gst_event_unref(event);
   }
   return mark.is_set();

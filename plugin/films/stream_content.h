@@ -20,7 +20,7 @@ bool is_marked_track(const GstTagList* tags);
 /// Whether the stream that comes to a pad is marked, from the events that come to it.
 class TrackMark {
  public:
-  void follow(GstEvent* event);
+  void update(GstEvent* event);
   bool is_set() const { return is_set_; }
 
  private:

@@ -75,7 +75,7 @@ struct MotionState {
 
   // Any thread. These outlive the output's thread, which forwards what waits.
   WrenchBacklog schedule;
-  BlockQueue track_samples;
+  LoopQueue<TrackBlock> track_samples{kMostBlocksWaiting};
   NoForceWatch no_force;
   ReliefStream reliefs;
   HapticOutput output;

@@ -105,7 +105,7 @@ class Follower {
         bus_, bus_name,
         Player::Told{[this](Player& told) { take_state(told); },
                      [this](int64_t now_ns, int64_t position_ns) {
-                       filter_.tell(now_ns, position_ns);
+                       filter_.add(now_ns, position_ns);
                        has_moved_ = has_moved_ || (!is_beginning_ && position_ns > position_ns_);
                        take_position(now_ns, position_ns);
                      },

@@ -43,7 +43,7 @@ void PositionFilter::reset_after_jump(int64_t now_ns, int64_t position_ns) {
   is_goal_ = true;
 }
 
-void PositionFilter::tell(int64_t now_ns, int64_t position_ns) {
+void PositionFilter::add(int64_t now_ns, int64_t position_ns) {
   if (!has_begun() || position_ns == position_ns_) return;
   backward_ = position_ns < position_ns_ ? backward_ + 1 : 0;
   position_ns_ = position_ns;

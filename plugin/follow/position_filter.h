@@ -27,7 +27,7 @@ class PositionFilter {
   /// It goes on at another rate.
   void change_rate(int64_t now_ns, double rate);
   /// It tells this position, which is no news if it is the same as before.
-  void tell(int64_t now_ns, int64_t position_ns);
+  void add(int64_t now_ns, int64_t position_ns);
   /// It says that it has jumped to this position. VLC also says so when it has not.
   void tell_jump(int64_t now_ns, int64_t position_ns);
 

@@ -151,9 +151,9 @@ void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width,
   }
 }
 
-std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
-                                             std::optional<touch::DepthLayout> packed,
-                                             const Orientation& turn) {
+std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& frame,
+                                                        std::optional<touch::DepthLayout> packed,
+                                                        const Orientation& turn) {
   std::vector<ObjectBox> found = read_object_metas(frame.buffer);
   VisiblePart part = visible_part(frame);
   if (packed) (*packed == touch::DepthLayout::kRight ? part.width : part.height) /= 2;
@@ -161,7 +161,7 @@ std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
   const auto position = [&](double x_px, double y_px) {
     return turn.displayed_position({(x_px - part.x) / part.width, (y_px - part.y) / part.height});
   };
-  auto boxes = std::make_shared<PictureBoxes>();
+  auto boxes = std::make_shared<std::vector<PictureBox>>();
   for (ObjectBox& box : found) {
     const Eigen::Vector2d a = position(box.x, box.y);
     const Eigen::Vector2d b = position(box.x + box.width, box.y + box.height);

@@ -36,8 +36,8 @@ std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 /// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
-std::shared_ptr<const PictureBoxes> boxes_of(const GstVideoFrame& frame,
-                                             std::optional<touch::DepthLayout> packed,
-                                             const Orientation& turn);
+std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& frame,
+                                                        std::optional<touch::DepthLayout> packed,
+                                                        const Orientation& turn);
 
 }  // namespace spidar

@@ -68,7 +68,7 @@ std::vector<uint32_t> felt_objects(const DrawnFrame& report) {
   return felt;
 }
 
-ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible) {
+Eigen::AlignedBox2d box_px(const MovingObject& object, const VisiblePart& visible) {
   return {centre_px(visible) + object.drawn_low_px(), centre_px(visible) + object.drawn_high_px()};
 }
 

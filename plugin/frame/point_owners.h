@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "plugin/frame/frame_report.h"
 
 namespace spidar {
@@ -18,11 +20,8 @@ std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 /// felt, where its points are and not merely its box, else in the middle of the picture.
 Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 
-/// Corners of an object's box, in pixels of the frame.
-struct ObjectCorners {
-  Eigen::Vector2d low_px, high_px;
-};
-ObjectCorners corners_of(const MovingObject& object, const VisiblePart& visible);
+/// An object's box, in pixels of the frame.
+Eigen::AlignedBox2d box_px(const MovingObject& object, const VisiblePart& visible);
 
 /// Assigns points to the background or to objects, and follows them from frame to frame.
 class PointOwners {

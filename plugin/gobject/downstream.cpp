@@ -27,7 +27,7 @@ class Search {
     return false;
   }
 
-  DownstreamPath path;
+  std::vector<DownstreamStep> path;
 
  private:
   bool is_passed_to(GstPad* pad) {
@@ -50,17 +50,17 @@ class Search {
 
 }  // namespace
 
-DownstreamPath find_path_downstream(GstPad* source,
-                                    const std::function<bool(GstElement*)>& wanted) {
+std::vector<DownstreamStep> find_path_downstream(GstPad* source,
+                                                 const std::function<bool(GstElement*)>& wanted) {
   Search search(wanted);
   search.reaches(source);
   return std::move(search.path);
 }
 
-DownstreamPath find_path_downstream(GstElement* element,
-                                    const std::function<bool(GstElement*)>& wanted) {
+std::vector<DownstreamStep> find_path_downstream(GstElement* element,
+                                                 const std::function<bool(GstElement*)>& wanted) {
   const Ref<GstPad> source(gst_element_get_static_pad(element, "src"));
-  return source ? find_path_downstream(source.get(), wanted) : DownstreamPath();
+  return source ? find_path_downstream(source.get(), wanted) : std::vector<DownstreamStep>();
 }
 
 bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted) {

@@ -39,16 +39,14 @@ struct DownstreamStep {
   Ref<GstElement> element;
 };
 
-/// The pads from an element to another one.
-using DownstreamPath = std::vector<DownstreamStep>;
-
-/// The way from `element` to the first one behind it, through bins, for which `wanted` returns
+/// The pads from `element` to the first one behind it, through bins, for which `wanted` returns
 /// true; empty without such. Links that change meanwhile end the search.
-DownstreamPath find_path_downstream(GstElement* element,
-                                    const std::function<bool(GstElement*)>& wanted);
+std::vector<DownstreamStep> find_path_downstream(GstElement* element,
+                                                 const std::function<bool(GstElement*)>& wanted);
 
 /// The same, from a source pad.
-DownstreamPath find_path_downstream(GstPad* source, const std::function<bool(GstElement*)>& wanted);
+std::vector<DownstreamStep> find_path_downstream(GstPad* source,
+                                                 const std::function<bool(GstElement*)>& wanted);
 
 /// Whether `wanted` returns true for an element before `sink`, through bins, on any branch.
 bool is_upstream(GstPad* sink, const std::function<bool(GstElement*)>& wanted);

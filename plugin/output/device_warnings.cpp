@@ -163,9 +163,9 @@ void DeviceWarnings::end_haptic_trace(HapticSession* session) {
   if (!session) return;
   session->drain_trace();
   check_haptic_trace(session);
-  const TraceStatus status = session->trace_status();
+  const LineWriter::Status status = session->trace_status();
   if (status.error == 0) {
-    warn_of_missing_rows(element_, "The haptic trace", status.lost_rows + status.waiting_rows);
+    warn_of_missing_rows(element_, "The haptic trace", status.dropped + status.waiting);
   }
 }
 

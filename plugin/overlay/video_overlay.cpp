@@ -244,8 +244,8 @@ void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle s
 /// Thick and orange where it is felt.
 void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& visible,
                   Sheet& sheet) {
-  const ObjectCorners box = corners_of(object, visible);
-  const Eigen::Vector2d low_px = sheet.at_px(box.low_px), high_px = sheet.at_px(box.high_px);
+  const Eigen::AlignedBox2d box = box_px(object, visible);
+  const Eigen::Vector2d low_px = sheet.at_px(box.min()), high_px = sheet.at_px(box.max());
   const double thin_px = visible.height / 480.0;
   if (!is_felt) return sheet.box(low_px, high_px, thin_px, kWhite);
   sheet.box(low_px, high_px, 4 * thin_px, kBlack);

@@ -114,13 +114,9 @@ class LoopQueue {
   uint64_t refused_ = 0;
 };
 
-/// Samples of a track, with the running times of the sink.
-class BlockQueue : public LoopQueue<TrackBlock> {
- public:
-  /// 40 s of a track, or 1 s in blocks of one sample each.
-  static constexpr size_t kMostWaiting = 1000;
-  BlockQueue() : LoopQueue(kMostWaiting) {}
-};
+/// Of a LoopQueue<TrackBlock>, which has the running times of the sink: 40 s of a track, or 1 s in
+/// blocks of one sample each.
+constexpr size_t kMostBlocksWaiting = 1000;
 
 /// Turns the running times of an element into those of the sink behind it. Seconds of frames may
 /// wait between the element and the sink, or a long ts-offset.

@@ -45,7 +45,7 @@ class PresentationDelay {
   GstClockTimeDiff value_ns() const;
 
  private:
-  DownstreamPath path_;
+  std::vector<DownstreamStep> path_;
   std::vector<GstClockTimeDiff> latency_ns_;  ///< of live sources before each element of the path
   GstClockTimeDiff told_ns_ = 0;
 };

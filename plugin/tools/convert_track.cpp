@@ -19,32 +19,25 @@
 
 namespace spidar::tools {
 
-/// Six funscripts for the six channels of a track, as players of several axes read them.
-struct AxisScript {
-  std::string path;
-  size_t channel;
-};
+namespace {
 
-/// "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others: those
-/// of the names that MultiFunPlayer and others look for (surge forwards, sway sideways, twist about
-/// the vertical, roll, pitch). The vertical force has the name of `main`.
-std::array<AxisScript, kTrackChannels> axis_scripts(const std::string& path, size_t main);
-
-std::array<AxisScript, kTrackChannels> axis_scripts(const std::string& path, size_t main) {
+/// The paths of six funscripts for the six channels of a track, as players of several axes read
+/// them: "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others:
+/// those of the names that MultiFunPlayer and others look for (surge forwards, sway sideways, twist
+/// about the vertical, roll, pitch). The vertical force has the name of `main`.
+std::array<std::string, kTrackChannels> axis_scripts(const std::string& path, size_t main) {
   // By channel: fx, fy, fz, tx, ty, tz. The first axis of a player is the vertical one.
   constexpr const char* kNames[kTrackChannels] = {".sway",  "",       ".surge",
                                                   ".pitch", ".twist", ".roll"};
   const std::filesystem::path whole = path;
-  std::array<AxisScript, kTrackChannels> scripts;
+  std::array<std::string, kTrackChannels> scripts;
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     const size_t place = channel == main ? kUsualAxis : channel == kUsualAxis ? main : channel;
     const std::string name = whole.stem().string() + kNames[place] + whole.extension().string();
-    scripts[channel] = {(whole.parent_path() / name).string(), channel};
+    scripts[channel] = (whole.parent_path() / name).string();
   }
   return scripts;
 }
-
-namespace {
 
 /// All channels but `axis` that contain something.
 std::vector<std::string> other_channels(const tracks::Summary& summary, size_t axis) {
@@ -172,17 +165,17 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
   }
   std::vector<std::unique_ptr<PartFile>> parts;
   const auto scripts = axis_scripts(options.to, main);
-  for (const AxisScript& script : scripts) {
+  for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     parts.push_back(std::make_unique<PartFile>(
-        script.path, PartFile::Replaces{options.force, "spidartrack convert"}));
+        scripts[channel], PartFile::Replaces{options.force, "spidartrack convert"}));
     SaveOptions save = options.save;
-    save.axis = script.channel;
-    save.gain = gains[script.channel / kForces];
+    save.axis = channel;
+    save.gain = gains[channel / kForces];
     save_track(*parts.back(), samples, save);
   }
   for (size_t i = 0; i < parts.size(); ++i) {
     publish(*parts[i]);
-    std::cout << scripts[i].path << ": " << tracks::channel_name(i) << ", gain "
+    std::cout << scripts[i] << ": " << tracks::channel_name(i) << ", gain "
               << tracks::rounded(gains[i / kForces]) << '\n';
   }
 }

@@ -43,11 +43,6 @@ bool is_beside_film(const fs::path& path) {
   return end_of(stem) == ".haptic" || end_of(path) == ".feel";
 }
 
-struct FoundFilm {
-  ListedFilm film;
-  uintmax_t bytes = 0;
-};
-
 /// Finds the films in a folder and below, and counts what else is there.
 class FilmSearch {
  public:
@@ -56,12 +51,12 @@ class FilmSearch {
     if (const std::error_code error = look_into(folder)) {
       throw std::runtime_error(folder + ": cannot be read: " + error.message());
     }
-    std::sort(found_.begin(), found_.end(), [](const FoundFilm& a, const FoundFilm& b) {
-      return a.bytes != b.bytes ? a.bytes > b.bytes : a.film.path < b.film.path;
+    std::sort(found_.begin(), found_.end(), [](const ListedFilm& a, const ListedFilm& b) {
+      return a.bytes != b.bytes ? a.bytes > b.bytes : a.path < b.path;
     });
   }
 
-  const std::vector<FoundFilm>& found() const { return found_; }
+  const std::vector<ListedFilm>& found() const { return found_; }
   /// Parts of a sentence.
   std::vector<std::string> left_out() const {
     std::vector<std::string> parts = unreadable_;
@@ -127,11 +122,11 @@ class FilmSearch {
     const uintmax_t bytes = entry.file_size(gone);
     if (gone) return;
     const fs::path subfolder = entry.path().lexically_relative(folder_).parent_path();
-    found_.push_back({{entry.path().string(), subfolder}, bytes});
+    found_.push_back({entry.path().string(), subfolder, bytes});
   }
 
   const fs::path folder_;
-  std::vector<FoundFilm> found_;
+  std::vector<ListedFilm> found_;
   std::vector<std::string> unreadable_;
   std::map<std::string, size_t> passed_over_;  ///< by what they are
   std::map<std::string, size_t> others_;       ///< files, by their ending
@@ -143,7 +138,7 @@ FilmList list_films(const std::vector<std::string>& names) {
   FilmList list;
   for (const std::string& name : names) {
     if (!fs::is_directory(name)) {
-      list.films.push_back({name, {}});
+      list.films.push_back({name, {}, 0});
       continue;
     }
     const FilmSearch search(name);
@@ -154,7 +149,7 @@ FilmList list_films(const std::vector<std::string>& names) {
       throw std::runtime_error(name + ": this folder has no film (names that end in .mkv, .mp4 …)" +
                                (list.left_out.empty() ? "" : "; left out: " + list.left_out));
     }
-    for (const FoundFilm& one : search.found()) list.films.push_back(one.film);
+    list.films.insert(list.films.end(), search.found().begin(), search.found().end());
   }
   return list;
 }

@@ -3,6 +3,7 @@
 /// The films that a command line names, by themselves and by their folders.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct ListedFilm {
   std::string path;
   /// Where it is below the folder that was given; empty if the film itself was given.
   std::filesystem::path subfolder;
+  uintmax_t bytes = 0;  ///< in the file; 0 if the film itself was given
 };
 
 struct FilmList {

@@ -74,21 +74,21 @@ void place(std::ostream& script, int top, int bottom) {
 
 }  // namespace
 
-int plot_track(const PlotOptions& options) {
-  const bool has_ending = std::filesystem::path(options.png).has_extension();
-  if (has_ending && !ends_with(options.png, ".png")) {
-    throw UsageError(options.png + ": the picture is a PNG, and its name ends in .png");
+int plot_track(const std::string& track, const std::string& png, bool force) {
+  const bool has_ending = std::filesystem::path(png).has_extension();
+  if (has_ending && !ends_with(png, ".png")) {
+    throw UsageError(png + ": the picture is a PNG, and its name ends in .png");
   }
-  PartFile picture(options.png, {options.force, "spidartrack plot"});
+  PartFile picture(png, {force, "spidartrack plot"});
   size_t count = 0;
-  expect_own_track(read_track(options.track, [&count](const TrackSample&) { ++count; }));
-  if (count == 0) throw std::runtime_error(options.track + ": has no samples to draw");
+  expect_own_track(read_track(track, [&count](const TrackSample&) { ++count; }));
+  if (count == 0) throw std::runtime_error(track + ": has no samples to draw");
   std::ostringstream script;
   script << "set terminal pngcairo size " << kWidth << ',' << kHeight << " font 'sans,12'\n"
          << kStyle << "set xrange [0:" << static_cast<double>(count) / kTrackRate_Hz << "]\n";
   script << "$samples << END\n";
   BinWriter bins(script, count);
-  read_track(options.track, [&bins](const TrackSample& sample) { bins.add(sample); });
+  read_track(track, [&bins](const TrackSample& sample) { bins.add(sample); });
   script << "END\n";
   script << "set multiplot\n";
   place(script, kGap, kHeight / 2 - 2 * kGap);

@@ -99,7 +99,7 @@ class FilmBatch {
   /// Returns whether no film failed.
   bool run() {
     claim_names();
-    if (!options_.left_out.empty()) report_.tell("left out: " + options_.left_out);
+    if (!options_.left_out.empty()) report_.print("left out: " + options_.left_out);
     std::vector<std::thread> workers;
     try {
       for (unsigned i = 1; i < options_.jobs && i < options_.films.size(); ++i) {
@@ -135,7 +135,7 @@ class FilmBatch {
     const fs::path track = fs::weakly_canonical(options_.file_of(film), none);
     const fs::path found = find_sidecar(film.path);
     if (!fs::exists(track, none) || (!found.empty() && fs::equivalent(found, track, none))) return;
-    report_.tell(
+    report_.print(
         std::string(found.empty() ? "" : "warning: " + found.string() + " goes before these; ") +
         "players find these tracks with " + kTrackPath + "=" +
         fs::absolute(options_.folder, none).lexically_normal().string());

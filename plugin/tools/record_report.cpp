@@ -75,7 +75,7 @@ void RecordReport::note(size_t film, const std::string& text) {
   print(std::cout, film, text);
 }
 
-void RecordReport::tell(const std::string& text) {
+void RecordReport::print(const std::string& text) {
   const std::lock_guard<std::mutex> lock(mutex_);
   erase();
   std::cout << one_line(text) << std::endl;

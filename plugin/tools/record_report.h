@@ -33,7 +33,7 @@ class RecordReport {
   void note(size_t film, const std::string& text);
 
   /// Something about all of them.
-  void tell(const std::string& text);
+  void print(const std::string& text);
 
   /// Prints the summary, unless it was for one film. Returns whether no film failed.
   bool finish();

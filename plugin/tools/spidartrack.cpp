@@ -12,6 +12,7 @@
 
 #include <gst/gst.h>
 
+#include "core/default_limits.h"
 #include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
@@ -162,10 +163,10 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
 of each channel the peak and the root mean square, in N and N m, and the fraction of its energy
 above 30 Hz. With --json, peak and root mean square are fractions of full_scale, which is 10 N or 1 N m. Of a film, also where its track is, and whether it
 is that of this film.)");
-    add_track(app, "TRACK", info_.path);
-    app->add_flag("--json", info_.json, "print it as JSON");
+    add_track(app, "TRACK", track_);
+    app->add_flag("--json", json_, "print it as JSON");
   }
-  int info() { return print_info(info_); }
+  int info() { return print_info(track_, json_); }
 
   void add_check() {
     CLI::App* const app =
@@ -176,16 +177,16 @@ and torque above the limits, force that changes by more than 300 N/s, a channel 
 a tenth of its energy above 30 Hz, which is no motion of a film, and a track in which nothing
 is felt. The exit status is then 1. Playing such a track is safe: a device keeps its limits
 in any case. Also prints how much of the track is felt.)");
-    add_track(app, "TRACK", check_.track);
-    app->add_option("--max-force", check_.max_force_N,
+    add_track(app, "TRACK", track_);
+    app->add_option("--max-force", max_force_N_,
                     "largest force, in N; default: 3, as spidarsink has")
         ->check(number(0, 20, " N"))
         ->type_name("N");
-    app->add_option("--max-torque", check_.max_torque_Nm, "largest torque, in N m; default: 0.1")
+    app->add_option("--max-torque", max_torque_Nm_, "largest torque, in N m; default: 0.1")
         ->check(number(0, 1, " N m"))
         ->type_name("NM");
   }
-  int check() { return check_track(check_); }
+  int check() { return check_track(track_, max_force_N_, max_torque_Nm_); }
 
   void add_convert() {
     CLI::App* const app =
@@ -224,11 +225,11 @@ Prints what TO cannot hold.)");
   void add_plot() {
     CLI::App* const app = add("plot", "draw force and torque over time", &CommandLine::plot);
     app->footer("Needs gnuplot.");
-    add_track(app, "TRACK", plot_.track);
-    app->add_option("PNG", plot_.png, "the picture to write")->required()->type_name("");
-    add_force(app, "PNG", plot_.force);
+    add_track(app, "TRACK", track_);
+    app->add_option("PNG", png_, "the picture to write")->required()->type_name("");
+    add_force(app, "PNG", force_);
   }
-  int plot() { return plot_track(plot_); }
+  int plot() { return plot_track(track_, png_, force_); }
 
   void add_show() {
     CLI::App* const app =
@@ -300,10 +301,11 @@ FILM is then analysed with them:
   RecordOptions record_;
   std::vector<std::string> films_, properties_, misplaced_;
   std::string track_folder_;
-  InfoOptions info_;
-  CheckOptions check_;
+  // Of info, check and plot.
+  std::string track_, png_;
+  bool json_ = false, force_ = false;
+  double max_force_N_ = kDefaultForce_N, max_torque_Nm_ = kDefaultTorque_Nm;  ///< of spidarsink
   ConvertOptions convert_;
-  PlotOptions plot_;
   ShowOptions show_;
   ExportOptions export_;
   int status_ = kDone;

@@ -8,23 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "core/default_limits.h"
 #include "plugin/films/part_file.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
 
 namespace spidar::tools {
-
-struct InfoOptions {
-  std::string path;  ///< of a track or a film
-  bool json = false;
-};
-
-/// The limits are those of spidarsink by default.
-struct CheckOptions {
-  std::string track;
-  double max_force_N = kDefaultForce_N, max_torque_Nm = kDefaultTorque_Nm;
-};
 
 /// ConvertOptions::axis of six funscripts.
 constexpr const char* kAllAxes = "all";
@@ -35,11 +23,6 @@ struct ConvertOptions {
   std::string axis;            ///< the channel by its name; empty: the usual one
   std::optional<double> gain;  ///< empty: that which fills the range of `to`
   SaveOptions save;
-};
-
-struct PlotOptions {
-  std::string track, png;
-  bool force = false;
 };
 
 struct ShowOptions {
@@ -63,10 +46,11 @@ inline void publish(PartFile& part) {
 }
 
 int record_films(const RecordOptions& options);
-int print_info(const InfoOptions& options);
-int check_track(const CheckOptions& options);
+int print_info(const std::string& track_or_film, bool as_json);
+int check_track(const std::string& track, double max_force_N, double max_torque_Nm);
 int convert_track(const ConvertOptions& options);
-int plot_track(const PlotOptions& options);
+/// `force`: see PartFile::Replaces::any.
+int plot_track(const std::string& track, const std::string& png, bool force);
 int show_film(const ShowOptions& options);
 int export_film(const ExportOptions& options);
 

@@ -54,9 +54,9 @@ void print_json(const TrackCondition& found, const tracks::Summary& summary) {
 
 }  // namespace
 
-int print_info(const InfoOptions& options) {
-  const auto [found, summary] = summarise(options.path);
-  if (options.json) {
+int print_info(const std::string& track_or_film, bool as_json) {
+  const auto [found, summary] = summarise(track_or_film);
+  if (as_json) {
     print_json(found, summary);
     return kDone;
   }
@@ -87,8 +87,8 @@ int print_info(const InfoOptions& options) {
   return kDone;
 }
 
-int check_track(const CheckOptions& options) {
-  const auto [found, summary] = summarise(options.track);
+int check_track(const std::string& track, double max_force_N, double max_torque_Nm) {
+  const auto [found, summary] = summarise(track);
   const std::string& path = found.track;
   const tracks::Faults& faults = found.faults;
   int count = 0;
@@ -100,13 +100,13 @@ int check_track(const CheckOptions& options) {
   if (!found.missing.empty()) fault() << found.missing << '\n';
   if (faults.not_finite > 0) fault() << faults.not_finite << " samples are not numbers\n";
   if (faults.beyond_full > 0) fault() << faults.beyond_full << " samples are beyond full scale\n";
-  if (summary.largest_force_N > options.max_force_N) {
-    fault() << "the largest force is " << summary.largest_force_N << " N, more than "
-            << options.max_force_N << " N\n";
+  if (summary.largest_force_N > max_force_N) {
+    fault() << "the largest force is " << summary.largest_force_N << " N, more than " << max_force_N
+            << " N\n";
   }
-  if (summary.largest_torque_Nm > options.max_torque_Nm) {
+  if (summary.largest_torque_Nm > max_torque_Nm) {
     fault() << "the largest torque is " << summary.largest_torque_Nm << " N m, more than "
-            << options.max_torque_Nm << " N m\n";
+            << max_torque_Nm << " N m\n";
   }
   if (summary.steepest_N_s > kMaxSlew_N_s) {
     fault() << "the force changes by " << summary.steepest_N_s << " N/s, more than " << kMaxSlew_N_s

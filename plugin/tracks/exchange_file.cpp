@@ -27,10 +27,9 @@ constexpr size_t kMostText_bytes = size_t{1} << 30;
 /// What is in memory as a whole, and played from there.
 class ExchangeTrack : public OpenTrack {
  public:
-  using At = std::function<TrackSample(int64_t time_ms)>;
-
-  ExchangeTrack(const char* origin, int64_t length_ms, At at, std::vector<std::string> about,
-                std::vector<std::string> unfelt)
+  /// `at` takes a time in ms.
+  ExchangeTrack(const char* origin, int64_t length_ms, std::function<TrackSample(int64_t)> at,
+                std::vector<std::string> about, std::vector<std::string> unfelt)
       : length_ms_(length_ms),
         at_(std::move(at)),
         about_(std::move(about)),
@@ -71,7 +70,7 @@ class ExchangeTrack : public OpenTrack {
 
  private:
   const int64_t length_ms_;
-  const At at_;
+  const std::function<TrackSample(int64_t)> at_;
   const std::vector<std::string> about_, unfelt_;
   int64_t next_ms_ = 0;
   Notes notes_;

@@ -172,7 +172,6 @@ GST_DEBUG_CATEGORY_STATIC(gst_spidar_sink_debug);
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT gst_spidar_sink_debug
 
-using spidar::BlockQueue;
 using spidar::HapticOutput;
 using spidar::SinkProperties;
 
@@ -193,7 +192,7 @@ struct SinkState {
   spidar::tracks::Faults faults;  // object lock; of the stream so far
   guint64 samples = 0;            // object lock
   gint wants_no_sync = 0;         // atomic: sync=false was set, which has no effect
-  BlockQueue queue;
+  spidar::LoopQueue<spidar::TrackBlock> queue{spidar::kMostBlocksWaiting};
   HapticOutput output;
   // Streaming thread.
   spidar::tracks::Input input;
@@ -300,7 +299,7 @@ static GstFlowReturn gst_spidar_sink_wait_event(GstBaseSink* sink, GstEvent* eve
 
 static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
-  self->state->mark.follow(event);
+  self->state->mark.update(event);
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       self->state->queue.clear();

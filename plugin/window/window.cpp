@@ -60,7 +60,7 @@ class Window::Session {
   void handle(Channel& channel, FromWindow&& message);
   void answer(Channel& channel);
   void free_slot(const SlotFree& free);
-  void finish(const ProcessEnd& end);
+  void finish(const std::string& how);
   void end_waiting(const std::string& error);
   std::shared_ptr<PictureSlots> slots_for(const GstVideoFrame& frame);
   void wake() const { eventfd_write(wake_, 1); }
@@ -166,9 +166,9 @@ void Window::Session::run() {
   }
   is_asking_ = false;
   // One that is to close and has not left has had its time.
-  ProcessEnd end = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
-  if (!is_understood) end = {false, "is of another version than the plugin"};
-  finish(end);
+  std::string how = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
+  if (!is_understood) how = "is of another version than the plugin";
+  finish(how);
 }
 
 /// The window was not even started.
@@ -176,7 +176,7 @@ void Window::Session::fail(const std::string& error) {
   has_failed_ = true;
   source_->warn("The debug window cannot be started: " + error + ".",
                 "Is spidar-window installed, or named in SPIDAR_WINDOW?");
-  finish({false, ""});
+  finish("");
 }
 
 /// Until the window has closed its end, or has had its time for that. False when it sends what is
@@ -279,7 +279,8 @@ void Window::Session::end_waiting(const std::string& error) {
   changed_.notify_all();
 }
 
-void Window::Session::finish(const ProcessEnd& end) {
+/// `how` the window ended; empty if as it should.
+void Window::Session::finish(const std::string& how) {
   source_->lead_hand(std::nullopt);
   bool was_wanted = false;
   {
@@ -291,8 +292,8 @@ void Window::Session::finish(const ProcessEnd& end) {
     changed_.notify_all();
   }
   if (!was_wanted) return;
-  if (!end.is_orderly && !has_failed_) {
-    source_->warn("The debug window " + end.how + ".",
+  if (!how.empty() && !has_failed_) {
+    source_->warn("The debug window " + how + ".",
                   "debug-window=true opens it again; a driver of OpenGL may be at fault.");
   }
   source_->closed();

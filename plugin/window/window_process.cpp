@@ -79,8 +79,8 @@ std::string Process::start() {
   return path + ": " + std::strerror(error);
 }
 
-ProcessEnd Process::finish(int patience_ms) {
-  if (process_ < 0) return {true, ""};
+std::string Process::finish(int patience_ms) {
+  if (process_ < 0) return "";
   constexpr int kStep_ms = 5;
   int status = 0;
   pid_t ended = 0;
@@ -94,13 +94,10 @@ ProcessEnd Process::finish(int patience_ms) {
   }
   process_ = -1;
   // Where the application ignores SIGCHLD, the system keeps no status.
-  if (ended < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return {true, ""};
-  if (WIFEXITED(status)) {
-    return {false, "ended with status " + std::to_string(WEXITSTATUS(status))};
-  }
+  if (ended < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return "";
+  if (WIFEXITED(status)) return "ended with status " + std::to_string(WEXITSTATUS(status));
   const int number = WTERMSIG(status);
-  return {false,
-          "was ended by the signal " + std::to_string(number) + " (" + strsignal(number) + ")"};
+  return "was ended by the signal " + std::to_string(number) + " (" + strsignal(number) + ")";
 }
 
 Process::~Process() {

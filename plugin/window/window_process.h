@@ -8,12 +8,6 @@
 
 namespace spidar::window {
 
-/// What became of a child.
-struct ProcessEnd {
-  bool is_orderly = false;  ///< it ended by itself, with status 0
-  std::string how;          ///< else: "was ended by the signal 11 (Segmentation fault)"
-};
-
 /// One thread, not necessarily the same for all functions.
 class Process {
  public:
@@ -28,7 +22,9 @@ class Process {
   std::string start();
   int socket() const { return socket_; }
   /// Waits until the child has ended, which is killed when that takes longer than `patience_ms`.
-  ProcessEnd finish(int patience_ms);
+  /// Returns empty when it ended by itself, with status 0; else how: "was ended by the signal 11
+  /// (Segmentation fault)".
+  std::string finish(int patience_ms);
 
  private:
   pid_t process_ = -1;

@@ -198,8 +198,8 @@ void Device::set_callback(Callback callback, Energy energy) {
     };
   }
   const auto alone = impl_->alone();
-  alone->session.loop().callback().set(
-      std::move(function), {energy == Energy::kPassive, impl_->range.surface.drive_lag_s});
+  alone->session.loop().callback().set(std::move(function), energy == Energy::kPassive,
+                                       impl_->range.surface.drive_lag_s);
 }
 
 std::string Device::callback_error() const {

@@ -34,7 +34,7 @@ spidar::touch::ContactSettings contact_of(const Surface& surface, const SurfaceR
   spidar::touch::ContactSettings contact;
   contact.stiffness_N_m = surface.stiffness_N_m;
   contact.delay_s = spidar::surface_delay_s(range.drive_lag_s);
-  contact.friction = spidar::touch::friction_of(surface.friction);
+  contact.friction = surface.friction;
   contact.texture = surface.texture;
   spidar::touch::validate(contact);
   return contact;

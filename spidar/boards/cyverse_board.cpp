@@ -41,7 +41,7 @@ LinkFault Cyverse::cycle(const MotorVolts& volts, DeviceReading& reading,
   Readout readout;
   const LinkFault fault = exchange(digits, readout, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  if (!counts_.follow(readout.counter, monotonic_now_ns())) return LinkFault::kCounterJump;
+  if (!counts_.update(readout.counter, monotonic_now_ns())) return LinkFault::kCounterJump;
   reading.count = counts_.counts();
   reading.inputs = readout.inputs;
   return LinkFault::kNone;

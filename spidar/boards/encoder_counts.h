@@ -25,7 +25,7 @@ class CountUnwrapper {
 
   /// Converts the board's counter values to counts that continue from the last ones. Returns false
   /// and changes nothing when a counter has moved further than `max_step`.
-  bool follow(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
+  bool update(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
               int32_t max_step = kMaxStep) noexcept {
     std::array<int32_t, kMaxStrings> next = count_;
     for (size_t i = 0; i < channels; ++i) {
@@ -48,7 +48,7 @@ class CountUnwrapper {
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
                       !within(kStill, raw, raw_, channels);
-    return !anew && follow(raw, channels);
+    return !anew && update(raw, channels);
   }
 
   /// Takes the counter values, sign extended, as counts; for a first reading.
@@ -122,10 +122,10 @@ class EncoderCounts {
   /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores it if a counter
   /// changed by more than a hand can cause since the last reading, whether that one was good or
   /// not: the counters of a board that loses its power for a moment jump, and do not jump back.
-  bool follow(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {
+  bool update(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {
     const int64_t passed_ms = std::clamp<int64_t>((now_ns - last_ns_) / 1'000'000, 0, 7);
     last_ns_ = now_ns;
-    return unwrapper_.follow(raw, channels_, kMaxStepPer_ms * static_cast<int32_t>(1 + passed_ms));
+    return unwrapper_.update(raw, channels_, kMaxStepPer_ms * static_cast<int32_t>(1 + passed_ms));
   }
 
   const std::array<int32_t, kMaxStrings>& counts() const noexcept { return unwrapper_.counts(); }

@@ -58,42 +58,28 @@ double span_m(double v_m) noexcept {
   return kHinges_m + std::sqrt(kRods_m * kRods_m - v_m * v_m);
 }
 
-/// In the plane of the arm, the rods' far end is at the distance span_m() from the knee:
+/// In the plane of each arm, the rods' far end is at the distance span_m() from the knee:
 /// value = |end − knee|² − span² is zero.
-struct Constraint {
-  double value = 0;
-  Eigen::Vector3d by_position;  ///< its gradient, device frame, m
-  double by_angle = 0;          ///< m²/rad; negative unless the arm is stretched or bent back
-};
-
-Constraint constraint_of(const Arm& arm, double angle_rad,
-                         const Eigen::Vector3d& position_m) noexcept {
-  const Eigen::Vector3d end = rods_end_m(arm, position_m);
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const double u = end.x() - kUpperArm_m * c, v = end.y(), w = end.z() - kUpperArm_m * s;
-  const double span = span_m(v);
-  Constraint it;
-  it.value = u * u + w * w - span * span;
-  // d span / d v = −v / (span − hinges)
-  it.by_position =
-      arm.turn.transpose() * Eigen::Vector3d(2 * u, 2 * span * v / (span - kHinges_m), 2 * w);
-  it.by_angle = 2 * kUpperArm_m * (end.x() * s - end.z() * c);
-  return it;
-}
-
 struct Constraints {
-  Eigen::Vector3d value, by_angle;
-  Eigen::Matrix3d by_position;
+  Eigen::Vector3d value;
+  Eigen::Matrix3d by_position;  ///< a row for each: its gradient, device frame, m
+  Eigen::Vector3d by_angle;     ///< m²/rad; negative unless the arm is stretched or bent back
 };
 
 Constraints constraints_of(const Eigen::Vector3d& angles_rad,
                            const Eigen::Vector3d& position_m) noexcept {
   Constraints all;
   for (int i = 0; i < 3; ++i) {
-    const Constraint one = constraint_of(arms()[static_cast<size_t>(i)], angles_rad[i], position_m);
-    all.value[i] = one.value;
-    all.by_angle[i] = one.by_angle;
-    all.by_position.row(i) = one.by_position;
+    const Arm& arm = arms()[static_cast<size_t>(i)];
+    const Eigen::Vector3d end = rods_end_m(arm, position_m);
+    const double c = std::cos(angles_rad[i]), s = std::sin(angles_rad[i]);
+    const double u = end.x() - kUpperArm_m * c, v = end.y(), w = end.z() - kUpperArm_m * s;
+    const double span = span_m(v);
+    all.value[i] = u * u + w * w - span * span;
+    // d span / d v = −v / (span − hinges)
+    all.by_position.row(i) =
+        Eigen::RowVector3d(2 * u, 2 * span * v / (span - kHinges_m), 2 * w) * arm.turn;
+    all.by_angle[i] = 2 * kUpperArm_m * (end.x() * s - end.z() * c);
   }
   return all;
 }

@@ -43,7 +43,7 @@ class Mouse final : public OnTransport<ForceBoard> {
   LinkFault cycle(const ForceOutput& output, ForceReading& reading,
                   int64_t deadline_ns) noexcept override {
     if (cycle_++ % kCyclesPerReport == 0) {
-      mouse::encode_force({output.force_N.x(), output.force_N.y()}, out_);
+      mouse::encode_force(output.force_N.head<2>(), out_);
       const Transfer transfer = transport_->exchange({out_}, {}, deadline_ns);
       if (transfer.fault != LinkFault::kNone) return transfer.fault;
     }
@@ -53,7 +53,7 @@ class Mouse final : public OnTransport<ForceBoard> {
   void close() noexcept override {
     if (started_) {
       const int64_t deadline_ns = soon_ns();
-      mouse::encode_force({}, out_);
+      mouse::encode_force(Eigen::Vector2d::Zero(), out_);
       transport_->exchange({out_}, {}, deadline_ns);
       mouse::encode_stop(out_);
       transport_->exchange({out_}, {}, deadline_ns);
@@ -63,7 +63,7 @@ class Mouse final : public OnTransport<ForceBoard> {
   }
   std::vector<LastWill> last_wills() const override {
     mouse::Report zero, stop;
-    mouse::encode_force({}, zero);
+    mouse::encode_force(Eigen::Vector2d::Zero(), zero);
     mouse::encode_stop(stop);
     return wills(*transport_, {zero, stop});
   }

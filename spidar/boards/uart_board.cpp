@@ -129,7 +129,7 @@ LinkFault Uart::cycle(const MotorVolts& volts, DeviceReading& reading,
   std::array<uint32_t, kMaxStrings> raw{};
   const LinkFault fault = exchange_all(volts, raw, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  if (!counts_.follow(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
+  if (!counts_.update(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
   reading.count = counts_.counts();
   reading.inputs = 0;
   return LinkFault::kNone;

@@ -71,15 +71,15 @@ size_t Simple::reply(MutableBytes bytes) noexcept {
 
 void Mouse::receive(ByteView bytes) noexcept {
   mouse::Command command{};
-  mouse::Force force;
-  if (!mouse::decode_command(bytes, command, force)) return;
+  Eigen::Vector2d force_N;
+  if (!mouse::decode_command(bytes, command, force_N)) return;
   if (command == mouse::Command::kQuery) due_ = true;
   if (command == mouse::Command::kStart) started_ = true;
   if (command == mouse::Command::kStop) started_ = false;
   std::array<int, kMaxStrings> milli_N{};
   if (command == mouse::Command::kForce && started_) {
-    milli_N[0] = static_cast<int>(std::lround(1000 * force.x_N));
-    milli_N[1] = static_cast<int>(std::lround(1000 * force.y_N));
+    milli_N[0] = static_cast<int>(std::lround(1000 * force_N.x()));
+    milli_N[1] = static_cast<int>(std::lround(1000 * force_N.y()));
   }
   if (command == mouse::Command::kForce || command == mouse::Command::kStop) {
     motors_->put_out(milli_N);

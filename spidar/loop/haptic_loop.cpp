@@ -145,7 +145,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     ask_callback(record, passed_ns);
     command(record, dt_s);
     exchange(record, dt_s, passed_ns);
-    vibration_.pass(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
+    vibration_.update(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
   unfelt_ns_ = size_N(record.commanded) < kFeltForce_N ? unfelt_ns_ + passed_ns : 0;

@@ -79,15 +79,12 @@ void TickTrace::flush() noexcept {
   file_.flush();
 }
 
-TraceStatus TickTrace::status() const noexcept {
-  const LineWriter::Status file = file_.status();
-  TraceStatus status;
+LineWriter::Status TickTrace::status() const noexcept {
+  LineWriter::Status status = file_.status();
   // The header is the first line: it is written, or dropped.
-  status.rows = file.lines > 0 ? file.lines - 1 : 0;
-  const uint64_t dropped = file.lines > 0 || file.dropped == 0 ? file.dropped : file.dropped - 1;
-  status.lost_rows = missing_ticks_ + dropped;
-  status.waiting_rows = file.waiting;
-  status.error = file.error;
+  uint64_t& with_header = status.lines > 0 ? status.lines : status.dropped;
+  if (with_header > 0) --with_header;
+  status.dropped += missing_ticks_;
   return status;
 }
 
@@ -124,7 +121,7 @@ void TraceThread::take_records() noexcept {
 }
 
 void TraceThread::note_status() noexcept {
-  const TraceStatus now = trace_.status();
+  const LineWriter::Status now = trace_.status();
   const std::lock_guard lock(status_mutex_);
   status_ = now;
 }
@@ -136,7 +133,7 @@ void TraceThread::drain() noexcept {
   note_status();
 }
 
-TraceStatus TraceThread::status() const noexcept {
+LineWriter::Status TraceThread::status() const noexcept {
   const std::lock_guard lock(status_mutex_);
   return status_;
 }

@@ -21,15 +21,6 @@ struct TraceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Progress of a trace.
-struct TraceStatus {
-  uint64_t rows = 0;          ///< handed to the operating system
-  uint64_t lost_rows = 0;     ///< ticks that are missing, and rows that were not taken
-  uint64_t waiting_rows = 0;  ///< not taken yet
-  /// errno of the write that failed and ended the trace; 0 if there was no error.
-  int error = 0;
-};
-
 /// Names of the columns, ending in their SI units, separated by commas, without a line end.
 std::string trace_header();
 
@@ -49,8 +40,9 @@ class TickTrace {
   /// Returns when all rows are written, or what they go to stands still.
   void flush() noexcept;
 
-  /// After a failure, which ends the trace, all rows are counted as lost.
-  TraceStatus status() const noexcept;
+  /// Of the rows. Ticks that are missing count as dropped, and after a failure, which ends the
+  /// trace, all rows.
+  LineWriter::Status status() const noexcept;
 
  private:
   LineWriter file_;
@@ -72,7 +64,7 @@ class TraceThread {
   void drain() noexcept;
 
   /// As of the last time that records were taken; without waiting for the file.
-  TraceStatus status() const noexcept;
+  LineWriter::Status status() const noexcept;
 
  private:
   void run() noexcept;
@@ -85,7 +77,7 @@ class TraceThread {
   bool stop_ = false;
   TickTrace trace_;
   mutable std::mutex status_mutex_;
-  TraceStatus status_;
+  LineWriter::Status status_;
   std::thread thread_;
 };
 

@@ -27,9 +27,11 @@ touch::ForcePath path_of(const SafetyLimits& limits, double drive_lag_s) noexcep
 
 }  // namespace
 
-void WrenchCallback::set(Function function, const CallbackSettings& settings) {
+void WrenchCallback::set(Function function, bool passive, double drive_lag_s) {
   std::unique_ptr<Called> next;
-  if (function) next = std::make_unique<Called>(Called{std::move(function), settings, ++set_});
+  if (function) {
+    next = std::make_unique<Called>(Called{std::move(function), passive, drive_lag_s, ++set_});
+  }
   called_.store(nullptr);
   while (running_.load() != nullptr) std::this_thread::sleep_for(std::chrono::microseconds(50));
   owned_ = std::move(next);
@@ -54,8 +56,8 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
   }
   Wrench wrench = ask(*called, input);
   // The safety chain refuses what is not finite.
-  if (called->settings.passive && wrench.is_finite()) {
-    wrench = bounded(wrench, input, beside_N, path_of(limits, called->settings.drive_lag_s));
+  if (called->passive && wrench.is_finite()) {
+    wrench = bounded(wrench, input, beside_N, path_of(limits, called->drive_lag_s));
   }
   running_.store(nullptr);
   return wrench;
@@ -98,7 +100,7 @@ Wrench WrenchCallback::bounded(const Wrench& wanted, const CallbackInput& input,
   const Eigen::Vector3d way_m = has_position_ ? grip_m - position_m_ : Eigen::Vector3d(0, 0, 0);
   position_m_ = grip_m;
   has_position_ = true;
-  budget_.follow(way_m, input.velocity.linear_m_s, 0, pushes_ ? kAny_J : 0);
+  budget_.update(way_m, input.velocity.linear_m_s, 0, pushes_ ? kAny_J : 0);
   Wrench passive;
   passive.force_N = wanted.force_N * budget_.allowed_fraction(wanted.force_N, path, input.dt_s);
   pushes_ = !passive.force_N.isZero(0);

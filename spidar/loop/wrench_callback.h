@@ -23,13 +23,6 @@ struct CallbackInput {
   uint32_t buttons = 0;   ///< as GripReport::buttons
 };
 
-struct CallbackSettings {
-  /// The hand gets no more energy than it has put in since the function last returned no force;
-  /// there is no torque.
-  bool passive = true;
-  double drive_lag_s = 0.005;  ///< of the device, for that; ≥ 0
-};
-
 /// One thread sets the function, the loop calls it. A function that throws, or takes longer than
 /// kLongest_ns kSlowInARow times in a row, is not called again.
 class WrenchCallback {
@@ -44,8 +37,10 @@ class WrenchCallback {
   ~WrenchCallback() { set({}); }
 
   /// Replaces the function; an empty one removes it. When this returns, the one before does not
-  /// run any more. Not from within the function. May allocate.
-  void set(Function function, const CallbackSettings& settings = {});
+  /// run any more. Not from within the function. May allocate. `passive`: the hand gets no more
+  /// energy than it has put in since the function last returned no force, and there is no torque;
+  /// `drive_lag_s` ≥ 0 is that of the device, for this.
+  void set(Function function, bool passive = true, double drive_lag_s = 0.005);
 
   State state() const noexcept { return state_.load(std::memory_order_acquire); }
   /// With kThrew: what() of the exception, shortened to fit; "" if it was no std::exception.
@@ -69,7 +64,8 @@ class WrenchCallback {
  private:
   struct Called {
     Function function;
-    CallbackSettings settings;
+    bool passive;
+    double drive_lag_s;
     uint64_t number;  // 1 for the first
   };
 

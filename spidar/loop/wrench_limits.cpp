@@ -27,12 +27,6 @@ Eigen::Vector3d approach(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 
 }  // namespace
 
-Wrench FiniteCheck::apply(const Wrench& wanted) noexcept {
-  if (wanted.is_finite()) return wanted;
-  ++rejected_;
-  return {};
-}
-
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
   return {shorten(wanted.force_N, non_negative(limits.max_force_N)),
           shorten(wanted.torque_Nm, non_negative(limits.max_torque_Nm))};
@@ -69,7 +63,10 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   const double before = stale_.fraction();
   const double fraction = stale_.apply(fresh, dt_s, limits);
   if (fresh) {
-    return slew_.apply(fraction * limit_total(finite_.apply(wanted), limits), dt_s, limits);
+    const bool is_finite = wanted.is_finite();
+    if (!is_finite) ++rejected_;
+    const Wrench within = is_finite ? limit_total(wanted, limits) : Wrench();
+    return slew_.apply(fraction * within, dt_s, limits);
   }
   const double left = before > 0 ? fraction / before : 0;
   const Wrench last = slew_.last();
@@ -127,7 +124,7 @@ VibrationBudget::Section::Section(double n2, double n1, double n0, double omega_
   a2 = (c2 - c1 + c0) * scale;
 }
 
-VibrationBudget::Six VibrationBudget::Section::pass(const Six& in) noexcept {
+VibrationBudget::Six VibrationBudget::Section::process(const Six& in) noexcept {
   const Six out = b0 * in + s1;
   s1 = b1 * in - a1 * out + s2;
   s2 = b2 * in - a2 * out;
@@ -142,7 +139,7 @@ VibrationBudget::VibrationBudget(double grip_radius_m) noexcept
   to_acceleration_.tail<3>().setConstant(grip_radius_m > 0 ? 1 / (kMoved_kg * grip_radius_m) : 0);
 }
 
-void VibrationBudget::pass(const Wrench& strings, double passed_s, int64_t now_ns) noexcept {
+void VibrationBudget::update(const Wrench& strings, double passed_s, int64_t now_ns) noexcept {
   if (!strings.is_finite()) return;
   Six given;
   given << strings.force_N.array(), strings.torque_Nm.array();
@@ -151,7 +148,7 @@ void VibrationBudget::pass(const Wrench& strings, double passed_s, int64_t now_n
   double squared_m2_s4 = 0, step_s = 0;
   for (; due_s_ > 0.5 * kTick_s; due_s_ -= kTick_s, step_s += kTick_s) {
     squared_m2_s4 +=
-        high_pass_.pass(transition_.pass(given * to_acceleration_ + kOffset)).square().sum();
+        high_pass_.process(transition_.process(given * to_acceleration_ + kOffset)).square().sum();
   }
   if (!(step_s > 0)) return;
   squared_m2_s4 *= kTick_s / step_s;

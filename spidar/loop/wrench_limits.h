@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The last steps of a wrench before the grip, after the vibration budget and the brake: finite →
-/// limit → slew → stale. Each step is a small object that can be tested alone. None of them
-/// allocates, locks or throws.
+/// limit → slew → stale. None of them allocates, locks or throws.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +14,6 @@
 #include "spidar/grip/grip.h"
 
 namespace spidar {
-
-/// Replaces a wrench that is not finite in any component by zero, and counts it.
-class FiniteCheck {
- public:
-  Wrench apply(const Wrench& wanted) noexcept;
-  uint64_t rejected() const noexcept { return rejected_; }
-
- private:
-  uint64_t rejected_ = 0;
-};
 
 /// Scales force and torque down to their limits without changing their directions. A wrench that is
 /// not finite becomes zero.
@@ -89,10 +78,11 @@ class WrenchLimits {
   /// Sets the state to rest, as after construction. The count of rejected wrenches is kept.
   void reset() noexcept;
 
-  uint64_t rejected() const noexcept { return finite_.rejected(); }
+  /// How many wanted wrenches were not finite. Each counted as zero.
+  uint64_t rejected() const noexcept { return rejected_; }
 
  private:
-  FiniteCheck finite_;
+  uint64_t rejected_ = 0;
   SlewLimit slew_;
   StaleRamp stale_;
   SlewLimit slew_before_;  ///< the last apply()
@@ -144,17 +134,17 @@ class VibrationBudget {
 
   /// The strings exert `strings` in a tick, `passed_s` after the last one. The filters run in steps
   /// of kTick_s, however irregular the ticks are. `now_ns` rises.
-  void pass(const Wrench& strings, double passed_s, int64_t now_ns) noexcept;
+  void update(const Wrench& strings, double passed_s, int64_t now_ns) noexcept;
 
   double fraction() const noexcept { return state_.fraction; }
-  /// The state after the last pass().
+  /// The state after the last update().
   const State& state() const noexcept { return state_; }
 
-  /// When the store will be full again if there is no more vibration, on the clock of pass().
+  /// When the store will be full again if there is no more vibration, on the clock of update().
   int64_t full_at_ns() const noexcept {
     return std::max(full_at_ns_, restored_ns_.load(std::memory_order_relaxed));
   }
-  /// From the next pass() on, the store will not be full before this time. Any thread.
+  /// From the next update() on, the store will not be full before this time. Any thread.
   void restore(int64_t full_at_ns) noexcept {
     restored_ns_.store(full_at_ns, std::memory_order_relaxed);
   }
@@ -168,7 +158,7 @@ class VibrationBudget {
   struct Section {
     /// (n2 s² + n1 s + n0) / (s² + ω/Q s + ω²) by the bilinear transform.
     Section(double n2, double n1, double n0, double omega_rad_s, double q) noexcept;
-    Six pass(const Six& in) noexcept;
+    Six process(const Six& in) noexcept;
 
     double b0, b1, b2, a1, a2;
     Six s1 = Six::Zero(), s2 = Six::Zero();

@@ -15,15 +15,11 @@ output.write_text(
 #include "spidar/profiles/profile_file.h"
 
 namespace spidar {{
-namespace {{
 
-constexpr ShippedProfile kProfiles[] = {{
+const std::vector<ShippedProfile>& shipped_profiles() {{
+  static const std::vector<ShippedProfile> all{{
 {rows}}};
-
-}}  // namespace
-
-ShippedProfiles shipped_profiles() noexcept {{
-  return {{kProfiles, kProfiles + sizeof kProfiles / sizeof kProfiles[0]}};
+  return all;
 }}
 
 }}  // namespace spidar

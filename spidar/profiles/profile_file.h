@@ -32,6 +32,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "spidar/profiles/profile.h"
 
@@ -53,14 +54,7 @@ struct ShippedProfile {
   const char* text;  ///< TOML
 };
 
-struct ShippedProfiles {
-  const ShippedProfile* first;
-  const ShippedProfile* last;  ///< one past the end
-  const ShippedProfile* begin() const noexcept { return first; }
-  const ShippedProfile* end() const noexcept { return last; }
-};
-
 /// All of them, sorted by name.
-ShippedProfiles shipped_profiles() noexcept;
+const std::vector<ShippedProfile>& shipped_profiles();
 
 }  // namespace spidar

@@ -31,7 +31,6 @@ constexpr size_t kPacketSize = 512;
 constexpr size_t kChannels = 8;
 constexpr int kDacBits = 12;
 constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
-constexpr double kAdc_V = 24.0 / 4096;  ///< volts per digit of the A/D
 
 using Packet = std::array<uint8_t, kPacketSize>;
 
@@ -40,7 +39,7 @@ struct Reading {
   CyverseDigits dac_echo{};
   /// 16 bits, counting in the opposite direction to the Simple board: its host negates them.
   std::array<uint16_t, kChannels> counter{};
-  std::array<uint16_t, kChannels> adc{};  ///< digits of kAdc_V
+  std::array<uint16_t, kChannels> adc{};  ///< digits of 24 V / 4096
   uint16_t inputs = 0;                    ///< bits 4–7: rotary switch
   uint32_t info = 0;                      ///< meaning not published
 

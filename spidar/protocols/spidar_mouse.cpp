@@ -46,27 +46,27 @@ void encode_start(Report& report) noexcept {
   put_float(report, 3, kDutyB);
 }
 
-void encode_force(const Force& force, Report& report) noexcept {
+void encode_force(const Eigen::Vector2d& force_N, Report& report) noexcept {
   begin(Command::kForce, report);
-  const double total_N = std::hypot(force.x_N, force.y_N);
+  const double total_N = std::hypot(force_N.x(), force_N.y());
   if (!std::isfinite(total_N) || total_N <= 0) return;
   // Numbers 0 and 1 are the position of the grip, for which there is no sensor.
   put_float(report, 2, static_cast<float>(std::fmin(total_N, kMaxForce_N)));
-  put_float(report, 3, static_cast<float>(force.x_N / total_N));
-  put_float(report, 4, static_cast<float>(force.y_N / total_N));
+  put_float(report, 3, static_cast<float>(force_N.x() / total_N));
+  put_float(report, 4, static_cast<float>(force_N.y() / total_N));
 }
 
 void encode_stop(Report& report) noexcept {
   begin(Command::kStop, report);
 }
 
-bool decode_command(ByteView report, Command& command, Force& force) noexcept {
+bool decode_command(ByteView report, Command& command, Eigen::Vector2d& force_N) noexcept {
   if (report.size != kReportSize) return false;
   switch (static_cast<Command>(report.u8(0))) {
     case Command::kForce: {
       const double magnitude_N = static_cast<double>(get_float(report, 2));
-      force = {magnitude_N * static_cast<double>(get_float(report, 3)),
-               magnitude_N * static_cast<double>(get_float(report, 4))};
+      force_N = {magnitude_N * static_cast<double>(get_float(report, 3)),
+                 magnitude_N * static_cast<double>(get_float(report, 4))};
       break;
     }
     case Command::kStart:

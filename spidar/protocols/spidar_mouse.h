@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 
+#include <Eigen/Core>
+
 #include "spidar/protocols/bytes.h"
 
 namespace spidar::mouse {
@@ -33,22 +35,17 @@ enum class Command : uint8_t {
   kStop = 0x99,
 };
 
-/// Force on the hand, x right, y away from the user (its sign is inferred).
-struct Force {
-  double x_N = 0;
-  double y_N = 0;
-};
-
 void encode_query(Report& report) noexcept;
 /// With the published constants from force to duty.
 void encode_start(Report& report) noexcept;
-/// Shortened to kMaxForce_N; NaN counts as zero. The position of the grip is sent as the centre.
-void encode_force(const Force& force, Report& report) noexcept;
+/// Force on the hand, x right, y away from the user (its sign is inferred). Shortened to
+/// kMaxForce_N; NaN counts as zero. The position of the grip is sent as the centre.
+void encode_force(const Eigen::Vector2d& force_N, Report& report) noexcept;
 void encode_stop(Report& report) noexcept;
 
 /// Decodes a report to the device. Returns false when it is none of the commands, or does not have
-/// kReportSize bytes.
-bool decode_command(ByteView report, Command& command, Force& force) noexcept;
+/// kReportSize bytes. `force_N` is written only with kForce.
+bool decode_command(ByteView report, Command& command, Eigen::Vector2d& force_N) noexcept;
 
 /// The answer to kQuery begins with its number (inferred).
 bool is_state(ByteView report) noexcept;

@@ -107,12 +107,6 @@ constexpr double kMostMisfit = 3;
 /// Coefficients of the denominator, and the delay.
 constexpr int kUnknowns = 5;
 
-struct Weighed {
-  double rate_rad_s = 0;
-  std::complex<double> response;
-  double weight = 0;  ///< 1 / standard deviation of the real and of the imaginary part
-};
-
 /// The best denominator for a given delay.
 struct LagCandidate {
   double lag_s = 0;
@@ -137,10 +131,19 @@ struct FirstOrderPart {
   }
 };
 
+/// 1 / standard deviation of the real and of the imaginary part.
+double weight_of(const ResponseLine& line, int periods) {
+  // The variance is itself an estimate, which increases the expected chi² by this factor.
+  const double estimated = static_cast<double>(periods - 1) / (periods - 2);
+  const double systematic = kSystematic * kSystematic * std::norm(line.response);
+  // Half of the variance belongs to the real part.
+  return 1 / std::sqrt(0.5 * (estimated * line.variance + systematic));
+}
+
 /// The response is not linear in the coefficients, its inverse is: linear least squares on that, in
 /// which the first pass weighs errors by the measured response, and the others by the response that
 /// was found (Sanathanan and Koerner 1963).
-LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) {
+LagCandidate best_with_delay(const std::vector<ResponseLine>& lines, int periods, double delay_s) {
   constexpr int kPasses = 4;
   LagCandidate found;
   Eigen::Vector4d a = Eigen::Vector4d::Zero();
@@ -151,9 +154,9 @@ LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) 
     normal.setZero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (size_t i = 0; i < lines.size(); ++i) {
-      const double w = lines[i].rate_rad_s;
+      const double w = 2 * M_PI * lines[i].frequency_Hz;
       const std::complex<double> inverse = std::polar(1.0, -w * delay_s) / lines[i].response;
-      const double weight = lines[i].weight * std::abs(model[i] * lines[i].response);
+      const double weight = weight_of(lines[i], periods) * std::abs(model[i] * lines[i].response);
       const Eigen::Vector4d real(1, 0, -w * w, 0), imaginary(0, w, 0, -w * w * w);
       normal += weight * weight * (real * real.transpose() + imaginary * imaginary.transpose());
       right += weight * weight * (real * inverse.real() + imaginary * inverse.imag());
@@ -161,10 +164,10 @@ LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) 
     a = normal.ldlt().solve(right);
     found.cost = 0;
     for (size_t i = 0; i < lines.size(); ++i) {
-      const double w = lines[i].rate_rad_s;
+      const double w = 2 * M_PI * lines[i].frequency_Hz;
       model[i] = std::polar(1.0, -w * delay_s) /
                  std::complex<double>(a[0] - a[2] * w * w, w * (a[1] - a[3] * w * w));
-      found.cost += std::norm(lines[i].weight * (lines[i].response - model[i]));
+      found.cost += std::norm(weight_of(lines[i], periods) * (lines[i].response - model[i]));
     }
   }
   const FirstOrderPart part(a);
@@ -176,19 +179,6 @@ LagCandidate best_with_delay(const std::vector<Weighed>& lines, double delay_s) 
 
 bool stands_out(const ResponseLine& line) {
   return std::norm(line.response) > 9 * line.variance;
-}
-
-std::vector<Weighed> weigh(const std::vector<ResponseLine>& lines, int periods) {
-  // The variance is itself an estimate, which increases the expected chi² by this factor.
-  const double estimated = static_cast<double>(periods - 1) / (periods - 2);
-  std::vector<Weighed> weighed;
-  for (const ResponseLine& line : lines) {
-    const double systematic = kSystematic * kSystematic * std::norm(line.response);
-    // Half of the variance belongs to the real part.
-    const double variance = 0.5 * (estimated * line.variance + systematic);
-    weighed.push_back({2 * M_PI * line.frequency_Hz, line.response, 1 / std::sqrt(variance)});
-  }
-  return weighed;
 }
 
 /// Empty if the fit can be used.
@@ -224,10 +214,9 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
     return result;
   }
   // Uses all lines: selecting those with a large response would bias the result upwards.
-  const std::vector<Weighed> weighed = weigh(lines, periods);
   std::vector<LagCandidate> found;
   for (double delay_s = kShortestDelay_s; delay_s <= kScanTo_s; delay_s += kScan_s) {
-    found.push_back(best_with_delay(weighed, delay_s));
+    found.push_back(best_with_delay(lines, periods, delay_s));
   }
   const LagCandidate best =
       *std::min_element(found.begin(), found.end(),

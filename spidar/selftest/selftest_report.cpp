@@ -101,7 +101,7 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
         << (idle_encoder ? "still: the encoder is disconnected, or its string is slack\n" : "");
   } else if (const std::string motors = unclear_motors(report); !motors.empty()) {
     out << "The responses of the encoders to pulls of these motors are unclear:" << motors
-        << ". They have been pulled in " << WiringTest::kTries
+        << ". They have been pulled in " << kWiringTries
         << " tries. Fix the grip at the centre so that it yields a little, for example with rubber "
            "bands, and test again. If the result is the same, check these motors and their "
            "strings.\n";

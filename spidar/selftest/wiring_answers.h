@@ -21,9 +21,6 @@ struct PulledMotor {
   bool steady = true;       ///< see WiringAnswers::unsteady
 };
 
-/// Holds more than are pulled in all tries.
-using PulledMotors = SpscRing<PulledMotor, 64>;
-
 struct WiringSettings {
   double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
   double ramp_s = 0.05;  ///< time to build up the pull, and to release it
@@ -31,7 +28,9 @@ struct WiringSettings {
   double average_s = 0.1;
   /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
   bool try_reversed = false;
-  PulledMotors* pulled = nullptr;  ///< gets each motor as soon as it has been pulled, if not null
+  /// Gets each motor as soon as it has been pulled, if not null. Holds more than are pulled in all
+  /// tries.
+  SpscRing<PulledMotor, 64>* pulled = nullptr;
 };
 
 /// Counts of encoder (row) for a pull of motor (column).

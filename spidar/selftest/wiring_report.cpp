@@ -274,27 +274,27 @@ Profile rewired_profile(const Profile& profile, const WiringReport& report,
   return rewired;
 }
 
-WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                       const WiringSettings& settings,
-                       const std::function<void(const WiringReport&)>& repeat) {
-  WiringTest test;
-  test.answers = ask_wiring(device, profile, pace, settings);
-  for (int tries = 1; test.answers.complete; ++tries) {
-    test.report = judge_wiring(profile, test.answers);
-    const auto& channels = test.report.channel;
+std::pair<WiringAnswers, WiringReport> test_wiring(
+    StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
+    const std::function<void(const WiringReport&)>& repeat) {
+  WiringReport report;
+  WiringAnswers answers = ask_wiring(device, profile, pace, settings);
+  for (int tries = 1; answers.complete; ++tries) {
+    report = judge_wiring(profile, answers);
+    const auto& channels = report.channel;
     const bool silent = std::all_of(channels.begin(), channels.end(), [](const WiringChannel& c) {
       return c.motor_string < 0 && !c.unclear;
     });
-    if (test.report.understood() || silent || tries == WiringTest::kTries) break;
+    if (report.understood() || silent || tries == kWiringTries) break;
     std::array<bool, kMaxStrings> doubtful{};
-    for (size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = test.report.channel[i].unclear;
+    for (size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = report.channel[i].unclear;
     if (std::none_of(doubtful.begin(), doubtful.end(), [](bool d) { return d; })) {
       doubtful.fill(true);
     }
-    if (repeat) repeat(test.report);
-    ask_again(device, profile, pace, settings, doubtful, test.answers);
+    if (repeat) repeat(report);
+    ask_again(device, profile, pace, settings, doubtful, answers);
   }
-  return test;
+  return {answers, report};
 }
 
 std::string unclear_motors(const WiringReport& report) {

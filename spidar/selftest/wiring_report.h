@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -55,20 +56,17 @@ WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 /// provenance. Throws std::invalid_argument when the report is not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
-struct WiringTest {
-  /// A hand that moves is unclear in other strings each time, a wrong wire in the same ones.
-  static constexpr int kTries = 3;
+/// How often test_wiring() asks: a hand that moves is unclear in other strings each time, a wrong
+/// wire in the same ones.
+constexpr int kWiringTries = 3;
 
-  WiringAnswers answers;
-  WiringReport report;  ///< of these answers; not valid if they are not complete
-};
-
-/// ask_wiring() and judge_wiring(). As long as the report is not understood, up to kTries times in
-/// all, and something has moved, calls `repeat`, when all tensions are zero, and asks the motors
-/// again that are unclear, or all if none is. Throws DeviceError like ask_wiring().
-WiringTest test_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                       const WiringSettings& settings,
-                       const std::function<void(const WiringReport&)>& repeat = {});
+/// ask_wiring() and judge_wiring(); the report is not valid if the answers are not complete. As
+/// long as it is not understood, up to kWiringTries times in all, and something has moved, calls
+/// `repeat`, when all tensions are zero, and asks the motors again that are unclear, or all if none
+/// is. Throws DeviceError like ask_wiring().
+std::pair<WiringAnswers, WiringReport> test_wiring(
+    StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
+    const std::function<void(const WiringReport&)>& repeat = {});
 
 /// Text like " 2, 5": the motors whose answers are unclear.
 std::string unclear_motors(const WiringReport& report);

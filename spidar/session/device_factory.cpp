@@ -29,11 +29,7 @@ std::string known_names(bool with_elements) {
 }
 
 /// What people call their device, and how it is named here.
-struct Word {
-  const char* word;
-  const char* name;
-};
-constexpr Word kWords[] = {
+constexpr std::pair<const char*, const char*> kWords[] = {
     {"gamepad", "ff"},
     {"joystick", "ff"},
     {"wheel", "ff"},
@@ -53,9 +49,9 @@ std::string meant_device(const std::string& device) {
 
 /// What to write for a word of kWords; else empty.
 std::string called_here(const std::string& word) {
-  for (const Word& one : kWords) {
-    if (word == one.word) {
-      return "unknown device \"" + word + "\": here it is called " + one.name +
+  for (const auto& [called, name] : kWords) {
+    if (word == called) {
+      return "unknown device \"" + word + "\": here it is called " + name +
              "; spidarctl list names what is plugged in";
     }
   }

@@ -79,8 +79,8 @@ void HapticSession::drain_trace() noexcept {
   if (impl_->trace) impl_->trace->drain();
 }
 
-TraceStatus HapticSession::trace_status() const noexcept {
-  return impl_->trace ? impl_->trace->status() : TraceStatus();
+LineWriter::Status HapticSession::trace_status() const noexcept {
+  return impl_->trace ? impl_->trace->status() : LineWriter::Status();
 }
 
 std::string HapticSession::vibration_error() const {

@@ -53,7 +53,7 @@ class HapticSession {
   /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
   /// Of the trace, if there is one. Does not wait for what it is written to.
-  TraceStatus trace_status() const noexcept;
+  LineWriter::Status trace_status() const noexcept;
 
   /// Why VibrationMemory::of_user() cannot be used; empty if it can.
   std::string vibration_error() const;

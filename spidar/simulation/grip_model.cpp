@@ -145,13 +145,14 @@ Wrench GripDynamics::string_wrench(const GripDynamics::State& state) const noexc
   return {wrench.head<3>(), wrench.tail<3>()};
 }
 
-const Pose& LedHand::follow(const Pose& rest, const HandLead& lead, double dt_s) noexcept {
+const Pose& LedHand::advance(const Pose& rest, const std::optional<Eigen::Vector3d>& to_m,
+                             double dt_s) noexcept {
   if (!away_) pose_ = rest;
-  if (!away_ && !lead.leads) return pose_;
-  const Eigen::Vector3d way_m = (lead.leads ? lead.to_m : rest.position_m) - pose_.position_m;
+  if (!away_ && !to_m) return pose_;
+  const Eigen::Vector3d way_m = to_m.value_or(rest.position_m) - pose_.position_m;
   const double most_m = kFastest_m_s * dt_s;
   const double length_m = way_m.norm();
-  away_ = lead.leads || length_m > most_m;
+  away_ = to_m || length_m > most_m;
   pose_.orientation = rest.orientation;
   if (length_m > most_m) {
     pose_.position_m += most_m / length_m * way_m;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -119,12 +120,6 @@ class DelayedTensions {
   StringVector acting_N_ = StringVector::Zero();
 };
 
-/// Target of the hand in the device frame.
-struct HandLead {
-  bool leads = false;  ///< false: return to the resting pose
-  Eigen::Vector3d to_m = Eigen::Vector3d::Zero();
-};
-
 /// Moves the hand towards its target at a limited speed. Without a target it returns to its resting
 /// pose, and then stays exactly there.
 class LedHand {
@@ -134,8 +129,10 @@ class LedHand {
   /// Perception & Psychophysics 61, 1999), and reach faster.
   static constexpr double kFastest_m_s = 0.5;
 
-  /// Returns the pose of the hand `dt_s` ≥ 0 later. Neither allocates nor throws.
-  const Pose& follow(const Pose& rest, const HandLead& lead, double dt_s) noexcept;
+  /// Returns the pose of the hand `dt_s` ≥ 0 later, on its way to `to_m` in the device frame, or to
+  /// `rest`. Neither allocates nor throws.
+  const Pose& advance(const Pose& rest, const std::optional<Eigen::Vector3d>& to_m,
+                      double dt_s) noexcept;
 
  private:
   bool away_ = false;  ///< not at the resting pose

@@ -55,13 +55,13 @@ struct SimulatedDevice::Impl {
 
   void advance(int64_t elapsed_ns) noexcept {
     hand_shared.try_load(hand);
-    lead_shared.try_load(lead);
+    lead_shared.try_load(lead_to_m);
     const int64_t end_ns = time_ns + elapsed_ns;
     while (time_ns < end_ns) {
       const StringVector acting_N = delayed.at(time_ns);
       const int64_t step_ns = std::min(end_ns, delayed.next_ns()) - time_ns;
       const double step_s = 1e-9 * static_cast<double>(step_ns);
-      dynamics.advance(acting_N, led_hand.follow(hand, lead, step_s), step_s, state);
+      dynamics.advance(acting_N, led_hand.advance(hand, lead_to_m, step_s), step_s, state);
       time_ns += step_ns;
     }
   }
@@ -121,14 +121,14 @@ struct SimulatedDevice::Impl {
   int64_t time_ns = 0;
   int64_t last_ns = 0;
   Pose hand;
-  HandLead lead;
+  std::optional<Eigen::Vector3d> lead_to_m;
   LedHand led_hand;
   GripDynamics::State state;
   DelayedTensions delayed;
   // Shared.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
-  Seqlock<HandLead> lead_shared;
+  Seqlock<std::optional<Eigen::Vector3d>> lead_shared;
   std::atomic<LinkFault> fault{LinkFault::kNone};
   std::array<std::atomic<int32_t>, kMaxStrings> count_error{};
   Seqlock<FeltState> felt;
@@ -194,14 +194,12 @@ void SimulatedDevice::set_hand(const Pose& pose) noexcept {
 }
 
 void SimulatedDevice::lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept {
-  HandLead lead;
-  if (to_m) {
-    if (!to_m->allFinite()) return;
-    const Eigen::Vector3d& limit_m = impl_->dynamics.limit_m();
-    lead = {true, to_m->cwiseMax(-limit_m).cwiseMin(limit_m)};
-  }
+  if (to_m && !to_m->allFinite()) return;
+  const Eigen::Vector3d& limit_m = impl_->dynamics.limit_m();
+  std::optional<Eigen::Vector3d> within_m;
+  if (to_m) within_m = to_m->cwiseMax(-limit_m).cwiseMin(limit_m);
   const std::lock_guard<std::mutex> lock(impl_->hand_writers);
-  impl_->lead_shared.store(lead);
+  impl_->lead_shared.store(within_m);
 }
 
 void SimulatedDevice::set_fault(LinkFault fault) noexcept {

@@ -113,15 +113,15 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
   };
   selftest::WiringSettings settings;
   settings.try_reversed = can_reverse(options.device, profile);
-  const selftest::WiringTest test = [&] {
+  const auto [answers, report] = [&] {
     PullRows rows(profile.geometry.count);
     settings.pulled = rows.pulled();
     return selftest::test_wiring(bench.device(), profile, pace, settings,
                                  selftest::tell_to_hold_still);
   }();
-  if (!test.answers.complete) return false;
-  if (test.report.as_profile()) return true;
-  selftest::print_wiring(std::cerr, profile, test.answers, test.report);
+  if (!answers.complete) return false;
+  if (report.as_profile()) return true;
+  selftest::print_wiring(std::cerr, profile, answers, report);
   std::cerr << "nothing is calibrated: spidarctl selftest finds out what to change\n";
   return false;
 }
@@ -160,12 +160,8 @@ std::string triple(const Eigen::Vector3d& value, const char* pattern) {
   return text;
 }
 
-struct StatusText {
-  const char* name;
-  const char* advice;
-};
-
-StatusText text_of(calibration::Status status) {
+/// Its name, and what to do about it.
+std::pair<const char*, const char*> text_of(calibration::Status status) {
   switch (status) {
     case calibration::Status::kSolved:
       return {"solved", ""};
@@ -211,7 +207,7 @@ Json result_json(const Profile& profile, const calibration::Result& result,
   const int strings = profile.geometry.count;
   Json json{{"profile", profile.name},
             {"how", how},
-            {"status", text_of(result.status).name},
+            {"status", text_of(result.status).first},
             {"samples", result.samples},
             {"residual_m", result.residual_m},
             {"home_offset_m", json_array(result.home_offset_m.head(strings))},

@@ -26,7 +26,7 @@ class PullRows {
   PullRows(const PullRows&) = delete;
   PullRows& operator=(const PullRows&) = delete;
 
-  selftest::PulledMotors* pulled() { return &pulled_; }
+  auto* pulled() { return &pulled_; }
 
  private:
   void print(int strings) {
@@ -45,7 +45,7 @@ class PullRows {
     }
   }
 
-  selftest::PulledMotors pulled_;
+  SpscRing<selftest::PulledMotor, 64> pulled_;
   std::atomic<bool> ends_{false};
   std::thread thread_;  ///< begins when all else is there
 };

@@ -17,10 +17,6 @@
 namespace spidar::tools {
 namespace {
 
-struct ListOptions {
-  bool json = false;
-};
-
 struct InfoOptions : DeviceOptions {
   bool json = false;
 };
@@ -56,9 +52,9 @@ std::string text_of(const Json& object, const char* name) {
   return object.value(name, std::string());
 }
 
-int list(const ListOptions& options) {
+int list(const bool& as_json) {
   const Json found = found_devices();
-  if (options.json) {
+  if (as_json) {
     std::cout << json_text(found, 2) << '\n';
     return kDone;
   }
@@ -259,8 +255,8 @@ int info(const InfoOptions& options) {
 }  // namespace
 
 void add_list(Program& program) {
-  const auto [app, options] = add_command(program, "list", "list devices and profiles", list);
-  add_json(app, options.json);
+  const auto [app, as_json] = add_command(program, "list", "list devices and profiles", list);
+  add_json(app, as_json);
   app.footer(
       "Lists the devices, how far the driver of each has been tested, the serial lines to which\n"
       "motor boards may be connected, and the profiles. No device is opened.");

@@ -16,7 +16,7 @@ using namespace spidar;
 test::StringTouch touch_of(double stiffness_N_m) {
   test::StringTouch touch;
   touch.contact.stiffness_N_m = stiffness_N_m;
-  touch.contact.friction = {0.3, 0.24};
+  touch.contact.friction = 0.3;
   return touch;
 }
 
@@ -46,7 +46,7 @@ int spidar::bench::touch_strings(int argc, char** argv) {
   touch.film_N = 3;
   explore("800 N/m with friction, and a film of 3 N", touch, ticks);
   touch = touch_of(700);
-  touch.contact.friction = {};
+  touch.contact.friction = 0;
   touch.contact.damping = 0;
   touch.contact.bounds_energy = false;
   explore("700 N/m without damping and energy budget", touch, ticks);

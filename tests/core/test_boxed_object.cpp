@@ -45,7 +45,7 @@ class Watcher {
   }
 
   /// The id of the object that is felt; 0: none.
-  uint32_t update(const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
+  uint32_t update(const std::vector<MovingObject>& objects, const std::vector<PictureBox>& boxes) {
     const int64_t now_ns = int64_t{frames_++} * 40'000'000;
     const Chosen chosen = choice_.choose(
         {objects, nullptr, kWidth, kHeight, kFrame_s, frames_ == 1, now_ns, turn_, &boxes});
@@ -53,7 +53,8 @@ class Watcher {
     return chosen.object ? chosen.object->id : 0;
   }
   /// The same for so long; the last answer.
-  uint32_t see_for(double s, const std::vector<MovingObject>& objects, const PictureBoxes& boxes) {
+  uint32_t see_for(double s, const std::vector<MovingObject>& objects,
+                   const std::vector<PictureBox>& boxes) {
     uint32_t last = 0;
     for (const int end = frames_ + static_cast<int>(s / kFrame_s + 0.5); frames_ < end;) {
       last = update(objects, boxes);
@@ -76,7 +77,7 @@ const std::vector<MovingObject>& two() {
 }
 
 TEST(BoxedObject, IsTheOneInABoxOfThatName) {
-  const PictureBoxes boxes = {box("dog", kLeft, kSize), box("face", kRight, kSize)};
+  const std::vector<PictureBox> boxes = {box("dog", kLeft, kSize), box("face", kRight, kSize)};
   EXPECT_EQ(Watcher("box dog").update(two(), boxes), 1u);
   EXPECT_EQ(Watcher("box face").update(two(), boxes), 2u);
   EXPECT_EQ(Watcher("box cat").update(two(), boxes), 0u);
@@ -121,7 +122,7 @@ TEST(BoxedObject, ADetectorMayMissFramesButNotTheThing) {
 }
 
 TEST(BoxedObject, SaysWhetherBoxesOrObjectsAreMissingAndNotAtOnce) {
-  const std::pair<PictureBoxes, Chosen::State> cases[] = {
+  const std::pair<std::vector<PictureBox>, Chosen::State> cases[] = {
       {{}, Chosen::State::kNoBox},
       {{box("cat", kLeft, kSize)}, Chosen::State::kNoBox},
       {{box("dog", {0, 60}, {20, 20})}, Chosen::State::kBoxAtRest}};

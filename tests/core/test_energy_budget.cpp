@@ -20,7 +20,7 @@ touch::EnergyBudget budget_of(double left_J, double out_m_s, double force_N,
                               const touch::ForcePath& path) {
   touch::EnergyBudget budget;
   for (int n = 0; n < 100; ++n) {
-    budget.follow(kStill, out_m_s * kUp, n == 99 ? left_J : 0, left_J);
+    budget.update(kStill, out_m_s * kUp, n == 99 ? left_J : 0, left_J);
     budget.command(force_N * kUp, kNothing, path, kTick_s);
   }
   return budget;
@@ -69,16 +69,16 @@ TEST(EnergyBudget, IsWhatTheHandHasDoneAndNoMoreThanTheSpringHolds) {
   budget.command(2 * kUp, kNothing, path, kTick_s);
   budget.command(3 * kUp, kNothing, path, kTick_s);
   // The way of the tick of 2 N.
-  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  budget.update(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 2e-3, 1e-15);
   budget.command(3 * kUp, kNothing, path, kTick_s);
-  budget.follow(0.0005 * kUp, kStill, 0, 1);
+  budget.update(0.0005 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 0.5e-3, 1e-15);
-  budget.follow(kStill, kStill, 1e-3, 1);
+  budget.update(kStill, kStill, 1e-3, 1);
   EXPECT_NEAR(budget.left_J(), 1.5e-3, 1e-15) << "the surface has put some in";
-  budget.follow(kStill, kStill, 0, 1e-4);
+  budget.update(kStill, kStill, 0, 1e-4);
   EXPECT_EQ(budget.left_J(), 1e-4);
-  budget.follow(kStill, kStill, 0, 0);
+  budget.update(kStill, kStill, 0, 0);
   EXPECT_EQ(budget.left_J(), 0) << "nothing is touched";
 }
 
@@ -89,12 +89,12 @@ TEST(EnergyBudget, KnowsTheLimitsOfThePath) {
   touch::EnergyBudget budget;
   // 0.3 N in the first tick, and 1 N at most.
   for (int n = 0; n < 10; ++n) budget.command(50 * kUp, kNothing, path, kTick_s);
-  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  budget.update(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
   touch::EnergyBudget fresh;
   fresh.command(50 * kUp, kNothing, path, kTick_s);
   fresh.command(50 * kUp, kNothing, path, kTick_s);
-  fresh.follow(-0.001 * kUp, kStill, 0, 1);
+  fresh.update(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(fresh.left_J(), 0.3e-3, 1e-15);
 }
 
@@ -107,7 +107,7 @@ TEST(EnergyBudget, CountsWhatTheContactAddsToAForceBesideIt) {
   touch::EnergyBudget budget;
   for (int n = 0; n < 3; ++n) budget.command(2.5 * kUp, 2 * kUp, path, kTick_s);
   EXPECT_NEAR(budget.force_N().z(), 1, 1e-12);
-  budget.follow(-0.001 * kUp, kStill, 0, 1);
+  budget.update(-0.001 * kUp, kStill, 0, 1);
   EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
   // Against it there is room for all of it.
   touch::EnergyBudget against;

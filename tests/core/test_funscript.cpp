@@ -121,7 +121,7 @@ TEST(Funscript, ItsNotesSayWhatItIsAGainThatLosesItsSamplesIsRefused) {
     try {
       noted(notes);
       ADD_FAILURE() << notes;
-    } catch (const FunscriptError& error) {
+    } catch (const TrackFileError& error) {
       EXPECT_STREQ(error.what(), message);
     }
   }
@@ -202,7 +202,7 @@ TEST(Funscript, MistakesAreNamed) {
     try {
       parse_funscript(text, 1);
       ADD_FAILURE() << "no error";
-    } catch (const FunscriptError& error) {
+    } catch (const TrackFileError& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, std::string(message).size()), message);
     }
   }

@@ -181,7 +181,7 @@ TEST(Hjif, SaysWhatIsWrongAndWhere) {
     try {
       read_hjif(text);
       ADD_FAILURE() << "read: " << text;
-    } catch (const HjifError& error) {
+    } catch (const TrackFileError& error) {
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
           << error.what() << " for " << text;
     }

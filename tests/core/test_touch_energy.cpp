@@ -38,7 +38,7 @@ constexpr double kStiffBound_J = 1e-4;
 TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
   touch::ContactSettings settings;
   EXPECT_LE(explore_all(settings, false).worst_J, kBound_J);
-  settings.friction = {0.3, 0.24};
+  settings.friction = 0.3;
   EXPECT_LE(explore_all(settings, false).worst_J, kBound_J) << "with friction";
   EXPECT_LE(explore_all(settings, true).worst_J, kBound_J) << "with texture";
 }
@@ -46,7 +46,7 @@ TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
 TEST(TouchEnergy, NoContactGivesMuchOutWhereItIsStiffest) {
   touch::ContactSettings settings;
   settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
-  settings.friction = {0.3, 0.24};
+  settings.friction = 0.3;
   EXPECT_LE(explore_all(settings, false).worst_J, kStiffBound_J);
   EXPECT_LE(explore_all(settings, true).worst_J, kStiffBound_J) << "with texture";
 }

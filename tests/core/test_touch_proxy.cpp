@@ -17,7 +17,7 @@ namespace {
 constexpr double kTick_s = 1e-3;
 
 /// Moves straight to `to_m` in so many ticks.
-void go(touch::Proxy& proxy, const touch::MovingRelief& surface, const touch::Friction& friction,
+void go(touch::Proxy& proxy, const touch::MovingRelief& surface, double friction,
         Eigen::Vector3d from_m, const Eigen::Vector3d& to_m, int ticks) {
   for (int n = 1; n <= ticks; ++n) {
     proxy.move(surface, friction, from_m + (to_m - from_m) * n / ticks, kTick_s);
@@ -27,7 +27,7 @@ void go(touch::Proxy& proxy, const touch::MovingRelief& surface, const touch::Fr
 TEST(TouchProxy, IsTheGripWhereItDoesNotTouch) {
   const touch::HeightField plane = plane_field(0);
   touch::Proxy proxy;
-  go(proxy, {&plane}, {}, {0, 0, 0.01}, {0.003, 0.002, 0.001}, 20);
+  go(proxy, {&plane}, 0, {0, 0, 0.01}, {0.003, 0.002, 0.001}, 20);
   EXPECT_FALSE(proxy.touching());
   // Rounding of a centimetre.
   EXPECT_LT((proxy.position_m() - Eigen::Vector3d(0.003, 0.002, 0.001)).norm(), 1e-15);
@@ -44,8 +44,8 @@ TEST(TouchProxy, IsTheNearestPointOfASphere) {
     touch::Proxy proxy;
     // From above, 2 mm deep, where it then stays.
     const Eigen::Vector3d end_m = centre_m + (kRadius_m - 0.002) * out;
-    go(proxy, {&sphere}, {}, end_m + Eigen::Vector3d(0, 0, 0.006), end_m, 100);
-    go(proxy, {&sphere}, {}, end_m, end_m, 50);
+    go(proxy, {&sphere}, 0, end_m + Eigen::Vector3d(0, 0, 0.006), end_m, 100);
+    go(proxy, {&sphere}, 0, end_m, end_m, 50);
     ASSERT_TRUE(proxy.touching());
     const Eigen::Vector3d force = (proxy.position_m() - end_m).normalized();
     EXPECT_LT(std::acos(std::min(1.0, force.dot(out))) * 180 / M_PI, 0.1) << degrees;
@@ -54,11 +54,11 @@ TEST(TouchProxy, IsTheNearestPointOfASphere) {
 
 TEST(TouchProxy, SticksAndSlides) {
   const touch::HeightField plane = plane_field(0);
-  const touch::Friction friction{0.5, 0.3};
+  constexpr double friction = 0.5;
   constexpr double kDepth_m = 0.002;
   touch::Proxy proxy;
   go(proxy, {&plane}, friction, {0, 0, 0.001}, {0, 0, -kDepth_m}, 100);
-  // Still held at 0.49 of the depth, not any more at 0.51; then it stays 0.3 behind.
+  // Still held at 0.49 of the depth, not any more at 0.51; then it stays 0.4 behind.
   go(proxy, {&plane}, friction, {0, 0, -kDepth_m}, {0.49 * kDepth_m, 0, -kDepth_m}, 50);
   EXPECT_NEAR(proxy.position_m().x(), 0, 1e-12);
   EXPECT_FALSE(proxy.sliding());
@@ -67,7 +67,8 @@ TEST(TouchProxy, SticksAndSlides) {
   EXPECT_TRUE(proxy.sliding());
   go(proxy, {&plane}, friction, {0.51 * kDepth_m, 0, -kDepth_m}, {0.01, 0, -kDepth_m}, 200);
   // The plane's heights are exact; steps shorter than 1 nm are not taken.
-  EXPECT_NEAR(0.01 - proxy.position_m().x(), 0.3 * kDepth_m, 1e-9);
+  EXPECT_NEAR(0.01 - proxy.position_m().x(), touch::Proxy::kKineticFriction * friction * kDepth_m,
+              1e-9);
   // Turned round: it sticks until the force is the other way.
   const double held_at_m = proxy.position_m().x();
   go(proxy, {&plane}, friction, {0.01, 0, -kDepth_m}, {held_at_m - 0.49 * kDepth_m, 0, -kDepth_m},
@@ -88,7 +89,7 @@ TEST(TouchProxy, ItsOwnMoveNeverMakesTheSpringLonger) {
       grip_m += 5e-4 * way_m - 0.02 * (grip_m - Eigen::Vector3d(0, 0, -0.004));
       const bool was_touching = proxy.touching();
       const double before_m = (proxy.position_m() - grip_m).norm();
-      proxy.move({&scene.relief}, {0.3, 0.2}, grip_m, kTick_s);
+      proxy.move({&scene.relief}, 0.3, grip_m, kTick_s);
       // The surface stands still and is not shifted: all that moves the proxy is its walk.
       if (was_touching && proxy.touching() && proxy.shift_m() == 0) {
         ++touched;
@@ -104,13 +105,13 @@ TEST(TouchProxy, StartingInsideTheSurfaceComesUpSlowly) {
   const touch::HeightField plane = plane_field(0);
   touch::Proxy proxy;
   const Eigen::Vector3d inside_m(0, 0, -0.005);
-  proxy.move({&plane}, {}, inside_m, kTick_s);
+  proxy.move({&plane}, 0, inside_m, kTick_s);
   ASSERT_TRUE(proxy.touching());
   EXPECT_LE(proxy.position_m().z() - inside_m.z(), touch::Proxy::kFastest_m_s * kTick_s + 1e-12);
   double last_m = proxy.position_m().z();
   int ticks = 0;
   for (; ticks < 1000 && proxy.position_m().z() < -1e-9; ++ticks) {
-    proxy.move({&plane}, {}, inside_m, kTick_s);
+    proxy.move({&plane}, 0, inside_m, kTick_s);
     ASSERT_LE(proxy.position_m().z() - last_m, touch::Proxy::kRise_m_s * kTick_s + 1e-12);
     last_m = proxy.position_m().z();
   }
@@ -126,11 +127,11 @@ TEST(TouchProxy, ACutNeitherJumpsUpNorDown) {
   const touch::HeightField high = plane_field(0.010);
   const Eigen::Vector3d grip_m(0, 0, -0.001);
   touch::Proxy proxy;
-  go(proxy, {&low}, {}, {0, 0, 0.001}, grip_m, 100);
+  go(proxy, {&low}, 0, {0, 0, 0.001}, grip_m, 100);
   double last_m = proxy.position_m().z();
   for (const touch::HeightField* field : {&high, &low, &high, &low}) {
     for (int n = 0; n < 400; ++n) {
-      proxy.move({field}, {}, grip_m, kTick_s);
+      proxy.move({field}, 0, grip_m, kTick_s);
       ASSERT_TRUE(proxy.touching());
       ASSERT_LE(std::abs(proxy.position_m().z() - last_m),
                 touch::Proxy::kFastest_m_s * kTick_s + 1e-12);
@@ -144,7 +145,7 @@ TEST(TouchProxy, AGripThatIsPushedInFastIsNotTakenForACut) {
   // 1 m/s onto the steepest flank, sideways too: all of the depth is its own way.
   const touch::HeightField slope = sampled_field([](double x_m, double) { return 1.4 * x_m; });
   touch::Proxy proxy;
-  go(proxy, {&slope}, {}, {-0.006, 0, 0.004}, {0.004, 0, -0.004}, 12);
+  go(proxy, {&slope}, 0, {-0.006, 0, 0.004}, {0.004, 0, -0.004}, 12);
   EXPECT_TRUE(proxy.touching());
   EXPECT_EQ(proxy.shift_m(), 0);
 }
@@ -173,7 +174,7 @@ TEST(TouchProxy, NeverGoesThrough) {
       if (std::abs(grip_m[axis]) > 0.012) velocity_m_s[axis] = -std::copysign(1, grip_m[axis]);
     }
     if (n % 977 == 0) proxy.reset();
-    proxy.move(surface, {0.4, 0.3}, grip_m, kTick_s);
+    proxy.move(surface, 0.4, grip_m, kTick_s);
     const double surface_m = surface.at(grip_m.head<2>()).z_m + proxy.shift_m();
     ASSERT_TRUE(proxy.touching() || grip_m.z() >= surface_m) << n;
     touched += proxy.touching();
@@ -185,9 +186,9 @@ TEST(TouchProxy, NeverGoesThrough) {
 TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {
   const touch::HeightField plane = plane_field(0);
   touch::Proxy proxy;
-  go(proxy, {&plane}, {}, {0, 0, 0.001}, {0, 0, -0.001}, 20);
+  go(proxy, {&plane}, 0, {0, 0, 0.001}, {0, 0, -0.001}, 20);
   ASSERT_TRUE(proxy.touching());
-  proxy.move({&plane}, {}, {0, std::numeric_limits<double>::quiet_NaN(), 0}, kTick_s);
+  proxy.move({&plane}, 0, {0, std::numeric_limits<double>::quiet_NaN(), 0}, kTick_s);
   EXPECT_FALSE(proxy.touching());
 }
 

@@ -54,7 +54,7 @@ void read(const std::string& text) {
   Funscript script;
   try {
     script = parse_funscript(text, kChannel);
-  } catch (const FunscriptError& error) {
+  } catch (const TrackFileError& error) {
     if (*error.what() == '\0') fail("an error without words");
     return;
   }

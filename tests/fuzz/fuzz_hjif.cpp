@@ -27,7 +27,7 @@ void read(const std::string& text) {
       for (const float value : sample) sound = sound && std::isfinite(value);
     }
     if (sound) return;
-  } catch (const HjifError&) {
+  } catch (const TrackFileError&) {
     return;
   }
   std::fputs("a track that is too long or has no numbers\n", stderr);

@@ -84,13 +84,13 @@ void fuzz_uart(ByteView bytes, int board) {
 
 void fuzz_mouse(ByteView bytes) {
   mouse::Command command{};
-  mouse::Force force;
-  if (!mouse::decode_command(bytes, command, force) || command != mouse::Command::kForce) return;
+  Eigen::Vector2d force_N;
+  if (!mouse::decode_command(bytes, command, force_N) || command != mouse::Command::kForce) return;
   mouse::Report report;
-  mouse::encode_force(force, report);
-  require(mouse::decode_command(report, command, force), "fuzz_protocols: a force is refused");
+  mouse::encode_force(force_N, report);
+  require(mouse::decode_command(report, command, force_N), "fuzz_protocols: a force is refused");
   // Magnitude and direction are single precision: three roundings of 6e-8.
-  require(std::hypot(force.x_N, force.y_N) <= mouse::kMaxForce_N * (1 + 2e-7),
+  require(std::hypot(force_N.x(), force_N.y()) <= mouse::kMaxForce_N * (1 + 2e-7),
           "fuzz_protocols: the mouse pulls too hard");
 }
 
@@ -153,7 +153,7 @@ void fuzz_counts(ByteView bytes, int bits) {
   for (size_t at = 0; at < bytes.size; at += 4 * kMaxStrings) {
     for (size_t i = 0; i < kMaxStrings; ++i) raw[i] = bytes.u32(at + 4 * i);
     const auto before = unwrapper.counts();
-    const bool followed = unwrapper.follow(raw, kMaxStrings);
+    const bool followed = unwrapper.update(raw, kMaxStrings);
     for (size_t i = 0; i < kMaxStrings; ++i) {
       const int64_t step = int64_t{unwrapper.counts()[i]} - before[i];
       require(followed || step == 0, "fuzz_protocols: a count jumped");

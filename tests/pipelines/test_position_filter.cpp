@@ -65,7 +65,7 @@ class Followed {
     next_ns_ += habit_.every_ns;
     const int64_t late_ns =
         std::uniform_int_distribution<int64_t>(habit_.earliest_ns, habit_.latest_ns)(random_);
-    filter_.tell(now_ns_, position_ns_ - std::llround(static_cast<double>(late_ns) * rate_));
+    filter_.add(now_ns_, position_ns_ - std::llround(static_cast<double>(late_ns) * rate_));
   }
 
   const Habit habit_;
@@ -121,7 +121,7 @@ TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
   filter.reset(kBegin, 0, 1);
   filter.tell_jump(kBegin, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 50 * kMs), 20 * kSecond + 50 * kMs);
-  filter.tell(kBegin + 300 * kMs, 20 * kSecond + 250 * kMs);
+  filter.add(kBegin + 300 * kMs, 20 * kSecond + 250 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + 300 * kMs), 20 * kSecond + 250 * kMs);
 }
 
@@ -129,9 +129,9 @@ TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
 TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
-  for (int i = 1; i < 5; ++i) filter.tell(kBegin + i * 300 * kMs, i * 300 * kMs);
+  for (int i = 1; i < 5; ++i) filter.add(kBegin + i * 300 * kMs, i * 300 * kMs);
   filter.tell_jump(kBegin + 1300 * kMs, 1300 * kMs);
-  filter.tell(kBegin + 1600 * kMs, 1520 * kMs);
+  filter.add(kBegin + 1600 * kMs, 1520 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + 1600 * kMs), 1520 * kMs);
 }
 
@@ -139,7 +139,7 @@ TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
 TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
-  filter.tell(kBegin + kSecond, 40 * kMs);
+  filter.add(kBegin + kSecond, 40 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 40 * kMs);
 }
 
@@ -147,9 +147,9 @@ TEST(PositionFilter, OneThatBeginsLaterThanItSaidIsFoundByItsNextPosition) {
 TEST(PositionFilter, GoesOnAtAnotherRateFromWhereItIs) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
-  filter.tell(kBegin + kSecond, kSecond);
+  filter.add(kBegin + kSecond, kSecond);
   filter.change_rate(kBegin + 1300 * kMs, 2);
-  filter.tell(kBegin + 1310 * kMs, kSecond);
+  filter.add(kBegin + 1310 * kMs, kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 2300 * kMs), 3300 * kMs);
 }
 
@@ -175,17 +175,17 @@ TEST(PositionFilter, AJumpThatWasNoneChangesNothing) {
 TEST(PositionFilter, OneThatWasHeldUpAloneChangesNothing) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
-  filter.tell(kBegin + 500 * kMs, 500 * kMs);
-  filter.tell(kBegin + kSecond, 600 * kMs);
+  filter.add(kBegin + 500 * kMs, 500 * kMs);
+  filter.add(kBegin + kSecond, 600 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), kSecond);
-  filter.tell(kBegin + 2 * kSecond, 2 * kSecond);
+  filter.add(kBegin + 2 * kSecond, 2 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 2 * kSecond), 2 * kSecond);
 }
 
 TEST(PositionFilter, TheSamePositionOnceMoreIsNoNews) {
   follow::PositionFilter filter;
   filter.reset(kBegin, kSecond, 1);
-  for (int i = 1; i < 100; ++i) filter.tell(kBegin + i * 20 * kMs, kSecond);
+  for (int i = 1; i < 100; ++i) filter.add(kBegin + i * 20 * kMs, kSecond);
   EXPECT_EQ(filter.newest_ns(), kBegin);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 2 * kSecond);
 }

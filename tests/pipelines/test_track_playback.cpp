@@ -116,7 +116,7 @@ TEST(TrackPlayback, EachBlockHasAMessageAsAFrameHas) {
 TEST(TrackPlayback, AMarkBeforeTheStartOfItsStreamCounts) {
   TrackMark mark;
   const auto follow = [&mark](GstEvent* event) {
-    mark.follow(event);
+    mark.update(event);
     gst_event_unref(event);
     return mark.is_set();
   };

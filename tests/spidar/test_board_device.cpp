@@ -40,15 +40,15 @@ TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
   int64_t now_ns = 5 * kMs;
   boards::EncoderCounts counts(16);
   counts.open({5000}, 1);
-  EXPECT_TRUE(counts.follow({5000}, now_ns));
-  EXPECT_TRUE(counts.follow({5000 + 4096}, now_ns += kMs));
-  EXPECT_FALSE(counts.follow({5000}, now_ns += kMs - 1));  // 2048 for less than a millisecond
+  EXPECT_TRUE(counts.update({5000}, now_ns));
+  EXPECT_TRUE(counts.update({5000 + 4096}, now_ns += kMs));
+  EXPECT_FALSE(counts.update({5000}, now_ns += kMs - 1));  // 2048 for less than a millisecond
   // The counters began anew: that does not pass by waiting for it.
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.follow({0}, now_ns += kMs));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.update({0}, now_ns += kMs));
   EXPECT_EQ(counts.counts()[0], 9096);
   // After a break of many milliseconds a quarter of the range, after a longer one no more.
-  EXPECT_FALSE(counts.follow({9096 + 16385}, now_ns += 100 * kMs));
-  EXPECT_TRUE(counts.follow({9096 + 16384}, now_ns += 7 * kMs));
+  EXPECT_FALSE(counts.update({9096 + 16385}, now_ns += 100 * kMs));
+  EXPECT_TRUE(counts.update({9096 + 16384}, now_ns += 7 * kMs));
 }
 
 /// The other end of the example in docs/extend.md.

@@ -22,7 +22,7 @@ TEST(LedHand, IsWhereItRestsAsLongAsNobodyLeadsIt) {
   LedHand hand;
   for (int tick = 0; tick < 100; ++tick) {
     const Pose rest = hand_at(random);  // leaps from one to the next
-    const Pose& now = hand.follow(rest, {}, kTick_s);
+    const Pose& now = hand.advance(rest, {}, kTick_s);
     EXPECT_EQ(now.position_m, rest.position_m);
     EXPECT_EQ(now.orientation.coeffs(), rest.orientation.coeffs());
   }
@@ -34,23 +34,23 @@ TEST(LedHand, GoesThereAndBackNoFasterThanAHand) {
   const Eigen::Vector3d there_m(0.03, -0.02, -0.006);
   LedHand hand;
   Eigen::Vector3d before_m = rest.position_m;
-  const auto follow = [&](const HandLead& lead) {
-    const Eigen::Vector3d now_m = hand.follow(rest, lead, kTick_s).position_m;
+  const auto follow = [&](const std::optional<Eigen::Vector3d>& to_m) {
+    const Eigen::Vector3d now_m = hand.advance(rest, to_m, kTick_s).position_m;
     EXPECT_LE((now_m - before_m).norm(), LedHand::kFastest_m_s * kTick_s + kRounding_m);
     before_m = now_m;
   };
   const double way_m = (there_m - rest.position_m).norm();
   const int ticks = static_cast<int>(way_m / (LedHand::kFastest_m_s * kTick_s));
-  for (int tick = 0; tick < ticks; ++tick) follow({true, there_m});
+  for (int tick = 0; tick < ticks; ++tick) follow(there_m);
   EXPECT_GT((before_m - there_m).norm(), kRounding_m) << "not before its time";
-  follow({true, there_m});
+  follow(there_m);
   EXPECT_LE((before_m - there_m).norm(), kRounding_m);
   for (int tick = 0; tick < ticks; ++tick) follow({});
   EXPECT_GT((before_m - rest.position_m).norm(), kRounding_m);
   follow({});
   EXPECT_LE((before_m - rest.position_m).norm(), kRounding_m);
   rest.position_m = {0.01, 0, 0};
-  EXPECT_EQ(hand.follow(rest, {}, kTick_s).position_m, rest.position_m) << "at rest as before";
+  EXPECT_EQ(hand.advance(rest, {}, kTick_s).position_m, rest.position_m) << "at rest as before";
 }
 
 TEST_F(SimulatedDeviceTest, TheGripFollowsALedHandAndComesBack) {

@@ -102,10 +102,10 @@ TEST(TickTrace, WritesOnFlushAndAtTheEnd) {
     trace.add(record);
     trace.flush();
     EXPECT_EQ(lines(path).size(), 2u);
-    EXPECT_EQ(trace.status().rows, 1u);
+    EXPECT_EQ(trace.status().lines, 1u);
     record.tick = 5;  // 2, 3 and 4 did not fit into the ring
     trace.add(record);
-    EXPECT_EQ(trace.status().lost_rows, 3u);
+    EXPECT_EQ(trace.status().dropped, 3u);
   }
   const std::vector<std::string> written = lines(path);
   ASSERT_EQ(written.size(), 3u);
@@ -154,8 +154,8 @@ TEST(TickTrace, FullDiskEndsTheTrace) {
   for (record.tick = 1; record.tick <= 1000; ++record.tick) trace.add(record);
   trace.flush();
   EXPECT_EQ(trace.status().error, ENOSPC);
-  EXPECT_EQ(trace.status().rows, 0u);
-  EXPECT_EQ(trace.status().lost_rows, 1000u);
+  EXPECT_EQ(trace.status().lines, 0u);
+  EXPECT_EQ(trace.status().dropped, 1000u);
 }
 
 }  // namespace

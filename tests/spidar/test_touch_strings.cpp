@@ -38,7 +38,7 @@ ContactEnergy explore_all(const StringTouch& touch,
 StringTouch touch_of(double stiffness_N_m) {
   StringTouch touch;
   touch.contact.stiffness_N_m = stiffness_N_m;
-  touch.contact.friction = {0.3, 0.24};
+  touch.contact.friction = 0.3;
   return touch;
 }
 
@@ -85,7 +85,7 @@ TEST(TouchStrings, APassiveWallOfACallbackGivesTheHandNoEnergy) {
 TEST(TouchStrings, ALightTouchOnTheWayOutGivesNothing) {
   const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
   StringTouch touch = touch_of(500);
-  touch.contact.friction = {};
+  touch.contact.friction = 0;
   constexpr double kRound_s = 3;
   const ContactEnergy energy =
       touch_through_strings(plane, touch, kLightHand, 10'000, [](double time_s) {

@@ -37,7 +37,7 @@ struct Shaken {
   void run(double seconds, Force force_N) {
     for (int64_t end = tick + std::llround(1e3 * seconds); tick < end; ++tick) {
       const double lowered_N = budget.fraction() * force_N(1e-3 * static_cast<double>(tick));
-      budget.pass(push(lowered_N), 1e-3, tick * kTick_ns);
+      budget.update(push(lowered_N), 1e-3, tick * kTick_ns);
       if (budget.fraction() < 1 && begun_s < 0) begun_s = 1e-3 * static_cast<double>(tick);
     }
   }
@@ -90,8 +90,8 @@ TEST(VibrationBudget, ATorqueCountsAsTheForceAtTheRadiusOfTheGrip) {
   Budget pushed(kRadius_m), turned(kRadius_m);
   for (int tick = 0; tick < 1000; ++tick) {
     const double force_N = strobe_N(1e-3 * tick);
-    pushed.pass(push(force_N), 1e-3, tick * kTick_ns);
-    turned.pass({{0, 0, 0}, {kRadius_m * force_N, 0, 0}}, 1e-3, tick * kTick_ns);
+    pushed.update(push(force_N), 1e-3, tick * kTick_ns);
+    turned.update({{0, 0, 0}, {kRadius_m * force_N, 0, 0}}, 1e-3, tick * kTick_ns);
   }
   EXPECT_GT(pushed.full_at_ns(), 1000 * kTick_ns);
   // Each tick is rounded to a nanosecond.
@@ -194,7 +194,7 @@ struct StrobeFilm {
       const Eigen::Vector3d before_m_s = grip.device.felt().velocity_m_s;
       grip.tick();
       const Eigen::Vector3d change_m_s = grip.device.felt().velocity_m_s - before_m_s;
-      truth.pass({change_m_s / 1e-3 * Budget::kMoved_kg, {0, 0, 0}}, 1e-3, grip.now_ns);
+      truth.update({change_m_s / 1e-3 * Budget::kMoved_kg, {0, 0, 0}}, 1e-3, grip.now_ns);
     }
   }
   /// Of the grip as it really moved.

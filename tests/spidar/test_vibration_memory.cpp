@@ -193,7 +193,7 @@ TEST_F(VibrationMemories, ALoopKeepsWhatItTakesWhileItRuns) {
     Wrench wrench;
     for (int64_t t = 0; t < ns; t += 1'000'000) {
       wrench.force_N.x() = t / 40'000'000 % 2 ? 3 : -3;
-      budget.pass(wrench, 1e-3, monotonic_now_ns());
+      budget.update(wrench, 1e-3, monotonic_now_ns());
     }
   };
   VibrationMemory memory(file);
@@ -212,7 +212,7 @@ TEST_F(VibrationMemories, ALoopKeepsWhatItTakesWhileItRuns) {
   }
   VibrationBudget next(0);
   const VibrationKeeper keeper(next, memory);
-  next.pass({}, 1e-3, monotonic_now_ns());
+  next.update({}, 1e-3, monotonic_now_ns());
   // The time between the two is refilled; the test has a limit.
   EXPECT_NEAR(static_cast<double>(next.full_at_ns()), static_cast<double>(budget.full_at_ns()),
               60.0 * kSecond);

@@ -76,13 +76,13 @@ TEST(Wiring, AnUnrulyHandDoesNotMakeAGoodDeviceFail) {
     const Profile profile = load_profile(kThree[seed % 3]);
     UnrulyHand device(profile, "", seed, kMean_s);
     bool again = false;
-    const selftest::WiringTest test = selftest::test_wiring(
-        device, profile, without_pauses, {}, [&](const selftest::WiringReport& report) {
+    const auto [answers, report] = selftest::test_wiring(
+        device, profile, without_pauses, {}, [&](const selftest::WiringReport& unclear) {
           again = true;
-          EXPECT_FALSE(report.understood());
+          EXPECT_FALSE(unclear.understood());
         });
     first += again;
-    rejected += !test.report.as_profile();
+    rejected += !report.as_profile();
   }
   EXPECT_GT(first, kDevices / 5) << "this hand is too quiet for the test";
   EXPECT_LE(rejected, kDevices / 20);
@@ -97,8 +97,8 @@ TEST(Wiring, AnUnrulyHandNeverMakesABadDevicePass) {
     std::string fault = kFaults[seed % 6] + std::to_string(channel);
     if (fault[0] == 's') fault += channel == 0 ? ",1" : ",0";
     UnrulyHand device(profile, fault, seed, kMean_s);
-    const selftest::WiringTest test = selftest::test_wiring(device, profile, without_pauses, {});
-    EXPECT_FALSE(test.report.as_profile()) << profile.name << ", " << fault << ", seed " << seed;
+    const auto [answers, report] = selftest::test_wiring(device, profile, without_pauses, {});
+    EXPECT_FALSE(report.as_profile()) << profile.name << ", " << fault << ", seed " << seed;
   }
 }
 

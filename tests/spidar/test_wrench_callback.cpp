@@ -19,7 +19,7 @@ namespace {
 
 using State = WrenchCallback::State;
 
-constexpr CallbackSettings kAnyEnergy{false, 0};
+constexpr bool kAnyEnergy = false;  // it is not passive
 
 TEST(WrenchCallback, IsAskedInEveryTickAndFelt) {
   LoopDriver driver;
@@ -108,7 +108,7 @@ TEST(WrenchCallback, WhatIsNotFiniteIsRefused) {
   for (const bool passive : {false, true}) {
     driver.loop->callback().set(
         [](const CallbackInput&) { return push_right(std::numeric_limits<double>::quiet_NaN()); },
-        {passive, 0.002});
+        passive, 0.002);
     const uint64_t before = driver.counters().rejected_wrenches;
     EXPECT_TRUE(driver.run(10 * kMs).commanded.force_N.isZero());
     EXPECT_EQ(driver.counters().rejected_wrenches - before, 10u);

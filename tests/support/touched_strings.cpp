@@ -135,7 +135,7 @@ class Pair {
         film_N_(touch.film_N),
         mailbox_(kPictureWidth_m, kPictureHeight_m, touch::Mailbox::kLeastSlots) {
     if (touch.wall_N_m > 0) {
-      loop_->callback().set(wall_of(touch), {touch.passive, profile_.drive_lag_s});
+      loop_->callback().set(wall_of(touch), touch.passive, profile_.drive_lag_s);
     } else {
       publish(mailbox_, scene, touch);
       loop_->connect_touch(&mailbox_);

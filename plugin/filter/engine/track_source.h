@@ -71,8 +71,8 @@ class TrackSource {
  public:
   /// All outlive this. `samples` takes those of the track; `times` knows when
   /// the sink shows a frame.
-  TrackSource(const HapticOutput& output, BlockQueue& samples, const WrenchBacklog& times,
-              NoForceWatch& no_force, ReliefStream& reliefs)
+  TrackSource(const HapticOutput& output, LoopQueue<TrackBlock>& samples,
+              const WrenchBacklog& times, NoForceWatch& no_force, ReliefStream& reliefs)
       : output_(output), samples_(samples), times_(times), no_force_(no_force), reliefs_(reliefs) {}
 
   /// Frames are not analysed: the samples of this track, of the file `path`, are rendered. Null:
@@ -93,7 +93,7 @@ class TrackSource {
   void play(const FrameStamp& stamp, FrameReport& report);
 
   const HapticOutput& output_;
-  BlockQueue& samples_;
+  LoopQueue<TrackBlock>& samples_;
   const WrenchBacklog& times_;
   NoForceWatch& no_force_;
   ReliefStream& reliefs_;

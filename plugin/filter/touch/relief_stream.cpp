@@ -50,7 +50,7 @@ touch::ContactSettings contact_settings(const TouchProperties& properties, const
   touch::ContactSettings contact;
   contact.stiffness_N_m = std::min(properties.stiffness_N_m, most_stiffness_N_m(profile));
   contact.delay_s = surface_delay_s(assumed_lag_s(profile));
-  contact.friction = touch::friction_of(properties.friction);
+  contact.friction = properties.friction;
   contact.texture = properties.texture;
   validate(contact);
   return contact;

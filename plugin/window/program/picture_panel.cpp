@@ -32,8 +32,8 @@ struct Overlay {
   }
   /// Upper left and lower right corner of an object's box.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
-    const ObjectCorners corners = corners_of(object, report.visible);
-    return {map(corners.low_px), map(corners.high_px)};
+    const Eigen::AlignedBox2d box = box_px(object, report.visible);
+    return {map(box.min()), map(box.max())};
   }
 };
 

@@ -64,17 +64,17 @@ ImVec2 Plot::at(double x, double y) const {
   return im(area_.x + x_.fraction(x) * area_.width, area_.bottom() - y_.fraction(y) * area_.height);
 }
 
-void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_px) const {
+void Plot::line(const std::vector<Eigen::Vector2d>& points, ImU32 color, double width_px) const {
   std::vector<ImVec2> corners;
   corners.reserve(points.size());
   const float mark = brush_.px(4);
   brush_.list.PushClipRect(upper_left(area_), lower_right(area_), true);
-  for (const PlotPoint& point : points) {
+  for (const Eigen::Vector2d& point : points) {
     // Far beyond the range coordinates would lose their precision.
-    const double fraction = std::clamp(y_.fraction(point.y), -1.0, 2.0);
-    corners.push_back(at(point.x, y_.low + fraction * (y_.high - y_.low)));
-    if (point.y <= y_.high) continue;
-    const ImVec2 top = at(point.x, y_.high);
+    const double fraction = std::clamp(y_.fraction(point.y()), -1.0, 2.0);
+    corners.push_back(at(point.x(), y_.low + fraction * (y_.high - y_.low)));
+    if (point.y() <= y_.high) continue;
+    const ImVec2 top = at(point.x(), y_.high);
     brush_.list.AddTriangleFilled(top, {top.x + mark, top.y + 1.5F * mark},
                                   {top.x - mark, top.y + 1.5F * mark}, color);
   }
@@ -86,7 +86,7 @@ void Plot::line(const std::vector<PlotPoint>& points, ImU32 color, double width_
 void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px) const {
   const double part = (x_.high - x_.low) / static_cast<double>(std::max<size_t>(spans.size(), 1));
   const float least = brush_.px(width_px);
-  std::vector<PlotPoint> middles;
+  std::vector<Eigen::Vector2d> middles;
   const auto end_line = [&] {
     line(middles, color, width_px);
     middles.clear();
@@ -101,7 +101,7 @@ void Plot::band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px
     const ImVec2 high = at(x, std::clamp(span.high, y_.low, y_.high));
     const ImVec2 low = at(x + part, std::clamp(span.low, y_.low, y_.high));
     if (low.y - high.y > least) brush_.list.AddRectFilled(high, low, color);
-    middles.push_back({x + part / 2, (span.low + span.high) / 2});
+    middles.emplace_back(x + part / 2, (span.low + span.high) / 2);
   }
   end_line();
 }
@@ -127,7 +127,7 @@ void Plot::dot(double x, double y, ImU32 color) const {
   brush_.list.AddCircleFilled(centre, brush_.px(4.5), color);
 }
 
-void Plot::legend(const std::vector<Key>& keys) const {
+void Plot::legend(const std::vector<std::pair<const char*, ImU32>>& keys) const {
   const ImFont* font = brush_.fonts.small;
   const float gap = brush_.px(kGap_px), stroke = brush_.px(12);
   // To the right of the unit; names for which there is no room are left out, the last ones first.
@@ -135,18 +135,18 @@ void Plot::legend(const std::vector<Key>& keys) const {
   float width = 0;
   size_t count = 0;
   for (; count < keys.size(); ++count) {
-    const float next = stroke + 3 * gap + text_size(font, keys[count].name).x;
+    const float next = stroke + 3 * gap + text_size(font, keys[count].first).x;
     if (width + next - 2 * gap > room) break;
     width += next;
   }
   ImVec2 at = im(area_.right() - width + 2 * gap, area_.y - font->FontSize - gap);
   for (size_t i = 0; i < count; ++i) {
-    const Key& key = keys[i];
+    const auto& [name, color] = keys[i];
     const float middle = at.y + font->FontSize / 2;
-    brush_.list.AddLine({at.x, middle}, {at.x + stroke, middle}, key.color, brush_.px(2));
+    brush_.list.AddLine({at.x, middle}, {at.x + stroke, middle}, color, brush_.px(2));
     at.x += stroke + gap;
-    draw_text(brush_, font, at, kMutedColor, key.name);
-    at.x += text_size(font, key.name).x + 2 * gap;
+    draw_text(brush_, font, at, kMutedColor, name);
+    at.x += text_size(font, name).x + 2 * gap;
   }
 }
 

@@ -5,16 +5,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/overlay/plot_axis.h"
 #include "plugin/window/program/style.h"
 
 namespace spidar::window {
-
-struct PlotPoint {
-  double x = 0, y = 0;
-};
 
 /// All that was there in one of several equal parts of the axis of x.
 struct PlotSpan {
@@ -30,18 +27,14 @@ class Plot {
 
   /// Line through points in order; what lies beyond the range is cut off, and a small triangle at
   /// the edge says where a value is above it.
-  void line(const std::vector<PlotPoint>& points, ImU32 color, double width_px = 1.6) const;
+  void line(const std::vector<Eigen::Vector2d>& points, ImU32 color, double width_px = 1.6) const;
   /// From the lowest to the highest value in each part of the width, never lower than a line of
   /// `width_px`.
   void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
   /// Names beside each other at the upper right, in their colours, as many as there is room for.
-  struct Key {
-    const char* name;
-    ImU32 color;
-  };
-  void legend(const std::vector<Key>& keys) const;
+  void legend(const std::vector<std::pair<const char*, ImU32>>& keys) const;
 
   const Rect& area() const { return area_; }
   ImVec2 at(double x, double y) const;

@@ -27,10 +27,10 @@ PlotAxis time_axis(const Brush& brush, const Rect& panel, const Timeline& timeli
 }
 
 template <typename Value>
-std::vector<PlotPoint> series(const Timeline& timeline, const Value& value) {
-  std::vector<PlotPoint> points;
+std::vector<Eigen::Vector2d> series(const Timeline& timeline, const Value& value) {
+  std::vector<Eigen::Vector2d> points;
   for (const Moment& moment : timeline.plotted()) {
-    points.push_back({moment.time_s - timeline.newest_s(), value(moment)});
+    points.emplace_back(moment.time_s - timeline.newest_s(), value(moment));
   }
   return points;
 }
@@ -134,14 +134,14 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
   const PlotAxis y =
       make_axis(0, highest_speed_px_s(timeline), Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "px/s at 480 lines");
-  const std::vector<PlotPoint> speed =
+  const std::vector<Eigen::Vector2d> speed =
       series(timeline, [](const Moment& m) { return m.speed_px_s; });
   plot.line(speed, kSpeedColor);
   const std::optional<double> at_s = plot.hovered_x();
   if (!at_s) return;
   const auto after = std::find_if(speed.begin(), speed.end(),
-                                  [&](const PlotPoint& point) { return point.x >= *at_s; });
-  if (after != speed.end()) ImGui::SetTooltip("%.2f s: %.0f px/s", after->x, after->y);
+                                  [&](const Eigen::Vector2d& point) { return point.x() >= *at_s; });
+  if (after != speed.end()) ImGui::SetTooltip("%.2f s: %.0f px/s", after->x(), after->y());
 }
 
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
@@ -157,9 +157,9 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const auto draw_curve = [&](const ControllerSettings& of, ImU32 color) {
     const std::vector<double> curve_N = timeline.gain_curve(of, highest_px_s, kCurvePoints);
     if (&of == &controller) shade_unfelt(brush, plot, curve_N, highest_px_s);
-    std::vector<PlotPoint> curve;
+    std::vector<Eigen::Vector2d> curve;
     for (size_t i = 0; i < curve_N.size(); ++i) {
-      curve.push_back({highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]});
+      curve.emplace_back(highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]);
     }
     plot.line(curve, color);
   };

@@ -14,26 +14,26 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav;
 
 /// The largest force in each part of the width.
-std::vector<PlotPoint> profile(const Timeline& timeline, size_t parts) {
-  std::vector<PlotPoint> points;
+std::vector<Eigen::Vector2d> profile(const Timeline& timeline, size_t parts) {
+  std::vector<Eigen::Vector2d> points;
   const double whole_s = timeline.remembered_s();
   const double part_s = whole_s / static_cast<double>(parts);
   double x = 0.5 * part_s - whole_s;
   for (const ForceColumn& column :
        timeline.columns(timeline.newest_s() - whole_s, timeline.newest_s(), parts)) {
-    if (!column.is_empty) points.push_back({x, column.most_N});
+    if (!column.is_empty) points.emplace_back(x, column.most_N);
     x += part_s;
   }
   return points;
 }
 
 /// Beside the mouse: the largest force there.
-void tell_force(const Plot& plot, const std::vector<PlotPoint>& force) {
+void tell_force(const Plot& plot, const std::vector<Eigen::Vector2d>& force) {
   const double x_px = ImGui::GetMousePos().x;
-  const auto after = std::find_if(force.begin(), force.end(), [&](const PlotPoint& point) {
-    return plot.at(point.x, 0).x >= x_px;
+  const auto after = std::find_if(force.begin(), force.end(), [&](const Eigen::Vector2d& point) {
+    return plot.at(point.x(), 0).x >= x_px;
   });
-  if (after != force.end()) ImGui::SetTooltip("%.0f s: %.2f N", after->x, after->y);
+  if (after != force.end()) ImGui::SetTooltip("%.0f s: %.2f N", after->x(), after->y());
 }
 
 /// In whole seconds.
@@ -97,10 +97,10 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
                      std::max(panel.height - 10 * brush.scale - below, 1.0)};
   const PlotAxis x =
       make_axis(-timeline.remembered_s(), 0, Plot::steps_across(brush, content.width));
-  const std::vector<PlotPoint> force =
+  const std::vector<Eigen::Vector2d> force =
       profile(timeline, static_cast<size_t>(std::max(content.width / 2, 1.0)));
   double largest_N = 0;
-  for (const PlotPoint& point : force) largest_N = std::max(largest_N, point.y);
+  for (const Eigen::Vector2d& point : force) largest_N = std::max(largest_N, point.y());
   const PlotAxis y =
       make_axis(0, force_axis_end_N(largest_N), Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "s", "N");

@@ -17,8 +17,8 @@
 namespace spidar::window {
 
 /// Writes values, or reads what was written. A structure is passed by one function, `template
-/// <typename Wire> void pass(Wire&, T&)`, which calls wire(…) for each of its members. Nothing of
-/// it is changed when it is written.
+/// <typename Wire> void transfer(Wire&, T&)`, which calls wire(…) for each of its members. Nothing
+/// of it is changed when it is written.
 ///
 /// Reading survives all other bytes: once a value does not fit into what is left or into its own
 /// range, ok() is false, and the values are of no use.
@@ -110,7 +110,7 @@ class Wire {
     if constexpr (std::is_arithmetic_v<Value>) {
       raw(&value, sizeof value);
     } else {
-      pass(*this, value);
+      transfer(*this, value);
     }
   }
 
@@ -123,23 +123,23 @@ class Wire {
 // Every structure that goes through the socket, member by member; see Wire.
 
 template <typename Wire>
-void pass(Wire& wire, ImagePoint& point) {
+void transfer(Wire& wire, ImagePoint& point) {
   wire(point.x_px, point.y_px);
 }
 
 template <typename Wire>
-void pass(Wire& wire, VisiblePart& part) {
+void transfer(Wire& wire, VisiblePart& part) {
   wire(part.x, part.y, part.width, part.height);
 }
 
 template <typename Wire>
-void pass(Wire& wire, Wrench& wrench) {
+void transfer(Wire& wire, Wrench& wrench) {
   wire(wrench.force_N, wrench.torque_Nm);
 }
 
 /// As one of the eight ways in which a picture can be turned.
 template <typename Wire>
-void pass(Wire& wire, Orientation& turn) {
+void transfer(Wire& wire, Orientation& turn) {
   constexpr int kQuarters = 4;
   const auto way = [](int number) { return Orientation(number % kQuarters, number >= kQuarters); };
   const auto is_same = [&](const Orientation& other) {
@@ -155,38 +155,38 @@ void pass(Wire& wire, Orientation& turn) {
 // --- the frame
 
 template <typename Wire>
-void pass(Wire& wire, FrameStamp& stamp) {
+void transfer(Wire& wire, FrameStamp& stamp) {
   wire(stamp.epoch, stamp.stream_ns, stamp.running_ns, stamp.length_ns, stamp.rate);
 }
 
 template <typename Wire>
-void pass(Wire& wire, FilmScene& film) {
+void transfer(Wire& wire, FilmScene& film) {
   std::string path = film.name();
   wire(path, film.begin_ns, film.length_ns);
   if constexpr (Wire::kReads) film.path = std::make_shared<const std::string>(std::move(path));
 }
 
 template <typename Wire>
-void pass(Wire& wire, OwnedPoint& point) {
+void transfer(Wire& wire, OwnedPoint& point) {
   wire(point.id, point.from, point.to, point.object, point.is_new);
   wire.choice(point.owner, PointOwner::kObject);
 }
 
 template <typename Wire>
-void pass(Wire& wire, MovingObject& object) {
+void transfer(Wire& wire, MovingObject& object) {
   wire(object.id, object.position_px, object.size_px, object.low_off_px, object.high_off_px,
        object.relative_px_s, object.on_screen_px_s, object.growth_1_s, object.roll_rad_s,
        object.points, object.error_px_s, object.area_px2, object.prominence);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ControllerSettings& controller) {
+void transfer(Wire& wire, ControllerSettings& controller) {
   wire.choice(controller.law, ControlLaw::kAdaptive);
   wire(controller.max_force_N, controller.alpha_s_px);
 }
 
 template <typename Wire>
-void pass(Wire& wire, TouchScene& touch) {
+void transfer(Wire& wire, TouchScene& touch) {
   Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
   wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction,
        touch.shading);
@@ -198,7 +198,7 @@ void pass(Wire& wire, TouchScene& touch) {
 
 /// What is shown of it.
 template <typename Wire>
-void pass(Wire& wire, DrawnFrame& report) {
+void transfer(Wire& wire, DrawnFrame& report) {
   Frame& frame = report.frame;
   wire(frame.stamp, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
   wire(report.film, report.took_ns, report.visible, report.turn, report.points, report.lost,
@@ -215,30 +215,30 @@ void pass(Wire& wire, DrawnFrame& report) {
 // --- the element
 
 template <typename Wire>
-void pass(Wire& wire, Pose& pose) {
+void transfer(Wire& wire, Pose& pose) {
   wire(pose.position_m, pose.orientation.coeffs());
 }
 
 template <typename Wire>
-void pass(Wire& wire, touch::Contact& contact) {
+void transfer(Wire& wire, touch::Contact& contact) {
   wire(contact.has_surface, contact.touching, contact.depth_m, contact.proxy_m, contact.force_N);
 }
 
 /// Of a tick, what is drawn.
 template <typename Wire>
-void pass(Wire& wire, TickRecord& tick) {
+void transfer(Wire& wire, TickRecord& tick) {
   wire(tick.monotonic_ns, tick.lateness_ns, tick.running_ns, tick.wanted, tick.delivered,
        tick.tension_N, tick.pose, tick.faulty_string, tick.playing, tick.max_force_N, tick.contact);
   wire.choice(tick.device, DeviceState::kLost);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ForceTick& tick) {
+void transfer(Wire& wire, ForceTick& tick) {
   wire(tick.monotonic_ns, tick.wanted_N, tick.delivered_N);
 }
 
 template <typename Wire>
-void pass(Wire& wire, StringGeometry& geometry) {
+void transfer(Wire& wire, StringGeometry& geometry) {
   wire(geometry.count);
   if (geometry.count < 0 || geometry.count > kMaxStrings) return wire.fail();
   for (Eigen::Vector3d& exit_m : geometry.exit_m) wire(exit_m);
@@ -246,25 +246,25 @@ void pass(Wire& wire, StringGeometry& geometry) {
 }
 
 template <typename Wire>
-void pass(Wire& wire, DeviceView& device) {
+void transfer(Wire& wire, DeviceView& device) {
   wire(device.name, device.has_hand, device.has_strings, device.last, device.overruns, device.ticks,
        device.geometry, device.min_tension_N, device.max_tension_N);
 }
 
 template <typename Wire>
-void pass(Wire& wire, Setting::Choice& choice) {
+void transfer(Wire& wire, Setting::Choice& choice) {
   wire(choice.value, choice.name);
 }
 
 template <typename Wire>
-void pass(Wire& wire, Setting& setting) {
+void transfer(Wire& wire, Setting& setting) {
   wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices,
        setting.usual);
   wire.choice(setting.kind, Setting::Kind::kNumber);
 }
 
 template <typename Wire>
-void pass(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
+void transfer(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
   std::string text = rules ? rules->text() : "";
   wire(text);
   if constexpr (Wire::kReads) {
@@ -281,100 +281,100 @@ void pass(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
 // --- the messages
 
 template <typename Wire>
-void pass(Wire& wire, PictureMemory& memory) {
+void transfer(Wire& wire, PictureMemory& memory) {
   wire(memory.id, memory.caps, memory.slots, memory.slot_bytes);
   if (memory.slots > PictureMemory::kMostSlots) wire.fail();
 }
 
 template <typename Wire>
-void pass(Wire& wire, FrameShown& frame) {
+void transfer(Wire& wire, FrameShown& frame) {
   wire(frame.memory, frame.slot, frame.report);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ElementState& state) {
+void transfer(Wire& wire, ElementState& state) {
   wire(state.name, state.is_playing, state.has_ended, state.device, state.settings, state.presets,
        state.no_force, state.rules);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ChoicesSaved& saved) {
+void transfer(Wire& wire, ChoicesSaved& saved) {
   wire(saved.is_done, saved.what);
 }
 
 template <typename Wire>
-void pass(Wire& wire, TakePicture& take) {
+void transfer(Wire& wire, TakePicture& take) {
   wire(take.path);
 }
 
 template <typename Wire>
-void pass(Wire& wire, Mouse& mouse) {
+void transfer(Wire& wire, Mouse& mouse) {
   wire(mouse.at_px, mouse.down, mouse.shift, mouse.wheel, mouse.taken);
 }
 
 template <typename Wire>
-void pass(Wire& wire, UserInput& input) {
+void transfer(Wire& wire, UserInput& input) {
   wire(input.key, input.mouse, input.size_px);
 }
 
 template <typename Wire>
-void pass(Wire&, Close&) {}
+void transfer(Wire&, Close&) {}
 
 template <typename Wire>
-void pass(Wire&, Ask&) {}
+void transfer(Wire&, Ask&) {}
 
 template <typename Wire>
-void pass(Wire& wire, SlotFree& free) {
+void transfer(Wire& wire, SlotFree& free) {
   wire(free.memory, free.slot);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ChangeSetting& change) {
+void transfer(Wire& wire, ChangeSetting& change) {
   wire(change.name, change.value);
 }
 
 template <typename Wire>
-void pass(Wire& wire, LoadPreset& preset) {
+void transfer(Wire& wire, LoadPreset& preset) {
   wire(preset.name);
 }
 
 template <typename Wire>
-void pass(Wire& wire, LeadHand& lead) {
+void transfer(Wire& wire, LeadHand& lead) {
   wire(lead.to_m);
 }
 
 template <typename Wire>
-void pass(Wire& wire, ChooseObject& choose) {
+void transfer(Wire& wire, ChooseObject& choose) {
   wire(choose.position);
 }
 
 template <typename Wire>
-void pass(Wire& wire, FeelEdit& edit) {
+void transfer(Wire& wire, FeelEdit& edit) {
   wire(edit.from_ns, edit.to_ns, edit.position);
 }
 
 template <typename Wire>
-void pass(Wire& wire, SaveChoices& save) {
+void transfer(Wire& wire, SaveChoices& save) {
   wire(save.film, save.edits);
 }
 
 template <typename Wire>
-void pass(Wire& wire, PlayFilm& play) {
+void transfer(Wire& wire, PlayFilm& play) {
   wire(play.plays);
 }
 
 template <typename Wire>
-void pass(Wire& wire, SeekFilm& seek) {
+void transfer(Wire& wire, SeekFilm& seek) {
   wire(seek.to_ns);
 }
 
 template <typename Wire>
-void pass(Wire& wire, PictureTaken& taken) {
+void transfer(Wire& wire, PictureTaken& taken) {
   wire(taken.error);
 }
 
 template <typename Wire>
-void pass(Wire& wire, CannotOpen& failed) {
+void transfer(Wire& wire, CannotOpen& failed) {
   wire(failed.what, failed.advice);
 }
 
