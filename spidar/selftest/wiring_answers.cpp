@@ -182,8 +182,8 @@ class Asking {
       char text[200];
       std::snprintf(text, sizeof text,
                     ": encoder %d ran by %.0f mm when motor %d pulled; hold the grip, and if it "
-                    "was held, the motor's wires are reversed",
-                    j, 1e3 * std::fabs(moved_m), pulling_);
+                    "was held, string %d is broken, or the motor's wires are reversed",
+                    j, 1e3 * std::fabs(moved_m), pulling_, j);
       throw DeviceError(device_.name() + text);
     }
   }

@@ -99,6 +99,10 @@ class Rehearsal(PlugIn):
         self.wait_for("No encoder moves, whichever motor pulls.")
         self.wait_for("wiring: as in the profile\\n(.*\\n)*released")
 
+    def test_a_selftest_says_that_a_string_may_be_broken(self):
+        self.begin("sh", "-c", f"plug_in break 3; {SPIDARCTL} selftest usb --profile {PROFILE} --yes; read wait")
+        self.wait_for("encoder 3 ran by [0-9]+ mm .*string 3 is broken")
+
     def test_the_hand_confirms_a_profile(self):
         choose = self.begin(SPIDARCTL, "choose", "usb", "--profile", PROFILE)
         self.wait_for("at the centre")
