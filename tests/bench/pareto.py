@@ -28,8 +28,9 @@ from real_films import Tally, films_of, measure, print_head, read_truth
 from shares import mean_of_films, share, within
 
 HAND_DEG = 18.4  # a turn of a force that a hand tells apart: Barbagli, Salisbury and others, 2006
-KINDS = {"object": "this element", "paper": "motion=mean", "dis": "DIS", "farneback": "Farnebäck",
-         "phase": "phase correlation", "lk": "Lucas-Kanade", "vectors": "H.264 vectors"}
+KINDS = {"object": "motion=object", "paper": "motion=mean", "dis:ultrafast": "DIS, ultrafast", "dis:fast": "DIS, fast",
+         "dis:medium": "DIS, medium", "farneback": "Farnebäck", "phase": "phase correlation",
+         "lk": "sparse Lucas-Kanade", "vectors": "H.264 vectors"}
 
 
 def method_names(program):
@@ -81,12 +82,15 @@ def draw(rows, output):
     """One point for each method, and a line through those of one kind."""
     blocks = {}
     for method, lines, ms, _, _, right, *_ in rows:
-        blocks.setdefault(KINDS[method.split(":")[0]], []).append((float(ms), right.split()[0], f"{method} {lines}"))
-    script = (f'set terminal svg size 720,480 font "sans,12"; set output "{output / "pareto.svg"}"; set logscale x; '
-              'set xlabel "processor time of a frame, ms (one thread)"; set ylabel "right, % of frames"; '
-              'set key bottom right; set grid; set yrange [0:100]; plot '
+        kind = next(name for start, name in KINDS.items() if method.startswith(start))
+        blocks.setdefault(kind, []).append((float(ms), right.split()[0], f"{method} {lines}"))
+    most_ms = 1.5 * max(ms for points in blocks.values() for ms, _, _ in points)
+    script = (f'set terminal svg size 720,480 font "sans,12" background "white"; set output "{output / "pareto.svg"}"; '
+              f'set logscale x; set xrange [:{most_ms}]; set yrange [0:100]; set grid; set key bottom right; '
+              'set xlabel "processor time of a frame, ms (one thread)"; set ylabel "right, % of frames"; plot '
               + ", ".join(f'"-" using 1:2 with linespoints pt 7 title "{kind}"' for kind in blocks) + "\n"
-              + "".join("".join(f"{ms} {right}\n" for ms, right, _ in sorted(points)) + "e\n" for points in blocks.values()))
+              + "".join("".join(f"{ms} {right}\n" for ms, right, _ in sorted(points)) + "e\n"
+                        for points in blocks.values()))
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
 
 
