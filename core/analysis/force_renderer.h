@@ -32,8 +32,8 @@ struct AnalyzerSettings {
   /// Come before `motion` where they say something, and not with kMean, which knows no objects.
   std::shared_ptr<const FeelRules> feel;
   KeptObject kept;  ///< comes before `feel`
-  std::shared_ptr<const std::vector<PictureBox>>
-      boxes;  ///< that came with this frame; null: none did
+  /// That came with this frame; null: none did.
+  std::shared_ptr<const std::vector<PictureBox>> boxes;
   FilterSettings filter;
   AxisGains axes;
   ControllerSettings controller;
