@@ -5,7 +5,7 @@
 # into BUILD/results/NAME.txt, which a release attaches. BUILD has -Dbenchmarks=enabled. All of them take hours; the
 # machine should do nothing else.
 #   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
-#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films and pareto, with the films that truth.py has made
+#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films and pareto, with films made by truth.py
 #   GYROSCOPE=FOLDER, DAVIS=FOLDER             also gyroscope and davis; their scripts say what is in these folders
 set -eu
 cd "$(dirname "$0")/../.."
