@@ -51,7 +51,7 @@ test_with_other_packages() {
     say "building in $root$build: $(in_root g++ --version | head -n 1)"
     # What another clone of the project has built refers to its sources.
     grep -qF "\"source\": \"$PWD\"" "$root$build/meson-info/meson-info.json" 2>/dev/null || rm -rf "${root:?}$build"
-    [[ -f $root$build/build.ninja ]] || in_root meson setup "$build" --werror
+    [[ -f $root$build/build.ninja ]] || in_root meson setup "$build" -Dunity=on --werror
     # Results of an earlier run would stand for a test program that crashes in this one.
     rm -f "$root$build"/*.xml "$root$build"/meson-logs/testlog*
     in_root ninja -C "$build" -j"$(nproc)"
