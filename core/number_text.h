@@ -20,8 +20,8 @@ class NumberText {
   template <typename Number>
   explicit NumberText(Number number) noexcept {
     static_assert(std::is_arithmetic_v<Number> && sizeof number <= sizeof(uint64_t));
-    const char* const end = std::to_chars(text_.data(), text_.data() + text_.size(), number).ptr;
-    length_ = static_cast<size_t>(end - text_.data());
+    const auto [end, error] = std::to_chars(text_.data(), text_.data() + text_.size(), number);
+    if (error == std::errc()) length_ = static_cast<size_t>(end - text_.data());
   }
   operator std::string_view() const noexcept { return {text_.data(), length_}; }
 
