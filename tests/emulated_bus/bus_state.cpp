@@ -43,7 +43,7 @@ UsbPort& plug_into(BusState& state, size_t port, size_t kind, const char* serial
 }
 
 /// UsbPort::kind of this DeviceKind::board; 0 if there is none.
-size_t kind_named(const std::string& board) {
+size_t kind_named(std::string_view board) {
   for (size_t i = 0; i < kinds().size(); ++i)
     if (board == kinds()[i].board) return i + 1;
   return 0;
@@ -84,9 +84,10 @@ BusState& bus() {
   return *state;
 }
 
-UsbPort& plug(size_t port, const std::string& board, const char* serial) {
+UsbPort& plug(size_t port, std::string_view board, const char* serial) {
   const size_t kind = kind_named(board);
-  if (kind == 0) throw std::invalid_argument("no board on USB is called \"" + board + "\"");
+  if (kind == 0)
+    throw std::invalid_argument("no board on USB is called \"" + std::string(board) + "\"");
   return plug_into(bus(), port, kind, serial);
 }
 

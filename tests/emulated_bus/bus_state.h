@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "spidar/device.h"
 #include "spidar/emulation/emulated_transport.h"
@@ -89,7 +90,7 @@ BUS_API BusState& bus();
 
 /// Adds the device with this DeviceKind::board to the list of the bus, as 1-1, 1-2, …, at rest.
 /// Throws std::invalid_argument if there is none on USB.
-BUS_API UsbPort& plug(size_t port, const std::string& board, const char* serial = "");
+BUS_API UsbPort& plug(size_t port, std::string_view board, const char* serial = "");
 
 /// What is plugged in there; null when nothing is.
 const DeviceKind* kind_in(const UsbPort& port);
