@@ -136,7 +136,7 @@ class Properties(ElementCase):
         if spec.value_type == GObject.TYPE_BOOLEAN:
             return not spec.default_value
         if GObject.type_is_a(spec.value_type, GObject.TYPE_ENUM):
-            return max(spec.enum_class.__enum_values__)
+            return max(type(make().get_property(spec.name)).__enum_values__)
         return spec.maximum
 
     def test_every_setting_reads_back_what_was_written(self):
