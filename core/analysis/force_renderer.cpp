@@ -78,7 +78,7 @@ void validate(const AnalyzerSettings& settings) {
 }
 
 ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
-    : settings_(settings), controller_(make_controller(settings.controller)) {
+    : settings_(settings), controller_(settings.controller) {
   validate(settings);
   choice_.set_rules(settings.feel);
   choice_.set_kept(settings.kept);
@@ -86,11 +86,7 @@ ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
 
 void ForceRenderer::configure(const AnalyzerSettings& settings) {
   validate(settings);
-  if (settings.controller.law == settings_.controller.law) {
-    controller_->configure(settings.controller);
-  } else {
-    controller_ = make_controller(settings.controller);
-  }
+  controller_.configure(settings.controller);
   settings_ = settings;
   choice_.set_rules(settings.feel);
   choice_.set_kept(settings.kept);
@@ -140,7 +136,7 @@ ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
 }
 
 void ForceRenderer::reset() {
-  controller_->reset();
+  controller_.reset();
   choice_.reset();
 }
 
@@ -183,7 +179,7 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   const ImageMotion steady =
       filter_.filter(frame.motion, frame.height, interval_s, settings_.filter);
   const Wrench wanted =
-      render_motion(*controller_, steady, settings_.axes, frame.height, interval_s);
+      render_motion(controller_, steady, settings_.axes, frame.height, interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
   const double most_N = settings_.controller.max_force_N;
   const Wrench passed =

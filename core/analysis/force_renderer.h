@@ -115,7 +115,7 @@ class ForceRenderer {
   MotionFilter filter_;
   Washout washout_;
   WrenchFade fade_;
-  std::unique_ptr<GainController> controller_;
+  GainController controller_;
 };
 
 }  // namespace spidar

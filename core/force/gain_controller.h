@@ -3,8 +3,6 @@
 /// How strongly a speed is rendered.
 #pragma once
 
-#include <memory>
-
 #include "core/default_limits.h"
 
 namespace spidar {
@@ -20,74 +18,19 @@ struct ControllerSettings {
   double alpha_s_px = 0.0025;
 };
 
-/// What a controller receives for one frame, in px/s of the reference frame.
-struct MeasuredSpeed {
-  // A bare number is a speed of which nothing else is known.
-  MeasuredSpeed(double speed, double interval = 0, double dead_zone = 0)
-      : speed_px_s(speed), interval_s(interval), dead_zone_px_s(dead_zone) {}
-
-  double speed_px_s;      ///< ≥ 0
-  double interval_s;      ///< running time since the frame before, ≥ 0; 0: not known
-  double dead_zone_px_s;  ///< as ImageMotion has it, ≥ 0; 0: not known
-};
-
-/// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
-/// and the direction is kept, which is the isotropic reading of them.
-class GainController {
- public:
-  virtual ~GainController() = default;
-
-  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once per frame, in
-  /// the order of the frames.
-  virtual double force_N(const MeasuredSpeed& speed) = 0;
-
-  /// Other limits from now on; what was learnt stays. `settings.law` does not matter here.
-  virtual void configure(const ControllerSettings& settings) = 0;
-
-  /// Forgets what was learnt: after a flush or a discontinuity of the stream.
-  virtual void reset() = 0;
-};
-
-/// F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k never rises.
-class LinearController final : public GainController {
- public:
-  explicit LinearController(double max_force_N) : max_force_N_(max_force_N) {}
-  double force_N(const MeasuredSpeed& speed) override;
-  void configure(const ControllerSettings& settings) override {
-    max_force_N_ = settings.max_force_N;
-  }
-  void reset() override { max_speed_px_s_ = 0; }
-
- private:
-  double max_force_N_;
-  double max_speed_px_s_ = 0;
-};
-
-/// F = (2 Fmax / π) atan(α V) (eq. 14–15).
-class NonlinearController final : public GainController {
- public:
-  NonlinearController(double max_force_N, double alpha_s_px)
-      : max_force_N_(max_force_N), alpha_s_px_(alpha_s_px) {}
-  double force_N(const MeasuredSpeed& speed) override;
-  void configure(const ControllerSettings& settings) override {
-    max_force_N_ = settings.max_force_N;
-    alpha_s_px_ = settings.alpha_s_px;
-  }
-  void reset() override {}
-
- private:
-  double max_force_N_;
-  double alpha_s_px_;
-};
-
 /// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
 void validate(const ControllerSettings& settings);
 
-/// The controller of `settings.law`. Throws as validate() does.
-std::unique_ptr<GainController> make_controller(const ControllerSettings& settings);
-
-/// F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the speeds seen,
-/// and a dead zone V₀ that the force leaves without a step.
+/// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
+/// and the direction is kept, which is the isotropic reading of them.
+///
+/// kLinear: F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k
+/// never rises.
+///
+/// kNonlinear: F = (2 Fmax / π) atan(α V) (eq. 14–15).
+///
+/// kAdaptive: F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the
+/// speeds seen, and a dead zone V₀ that the force leaves without a step.
 ///
 /// The dead zone is that of the motion, or DeadZone::kLeast_px_s where it is not known. Within it
 /// the force is exactly zero and the scale stays as it is, so that a pause does not make the
@@ -103,14 +46,25 @@ std::unique_ptr<GainController> make_controller(const ControllerSettings& settin
 ///
 /// S starts at 1/α and stays within a factor of kRange of it, so that the noise of a film in which
 /// hardly anything moves is not amplified.
-class AdaptiveController final : public GainController {
+class GainController {
  public:
-  AdaptiveController(double max_force_N, double alpha_s_px);
-  double force_N(const MeasuredSpeed& speed) override;
-  void configure(const ControllerSettings& settings) override;
-  void reset() override;
+  /// Throws as validate() does.
+  explicit GainController(const ControllerSettings& settings);
 
-  /// S in px/s: the speed that gives half of the maximum force; infinite with α = 0.
+  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once per frame, in
+  /// the order of the frames. In px/s of the reference frame: `speed_px_s` ≥ 0, and
+  /// `dead_zone_px_s` as ImageMotion has it. `interval_s`: running time since the frame before. 0:
+  /// the interval, or the dead zone, is not known.
+  double force_N(double speed_px_s, double interval_s = 0, double dead_zone_px_s = 0);
+
+  /// Other limits from now on; what was learnt stays, unless the law is another one. Throws as
+  /// validate() does.
+  void configure(const ControllerSettings& settings);
+
+  /// Forgets what was learnt: after a flush or a discontinuity of the stream.
+  void reset();
+
+  /// S of kAdaptive, px/s: the speed that gives half of the maximum force; infinite with α = 0.
   double scale_px_s() const;
 
   static constexpr double kAttack_s = 2;
@@ -121,8 +75,8 @@ class AdaptiveController final : public GainController {
   void adapt(double speed_px_s, double interval_s);
   void limit_scale();
 
-  double max_force_N_;
-  double alpha_s_px_;
+  ControllerSettings settings_;
+  double max_speed_px_s_ = 0;
   double log_scale_ = 0;  ///< ln S
 };
 

@@ -55,7 +55,7 @@ inline Wrench render_motion(GainController& controller, const ImageMotion& motio
   const Eigen::Vector4d u = reference_speeds_px_s(motion, gains, frame_height);
   const double dead_zone_px_s = kReferenceHeight_px / frame_height * motion.dead_zone_px_s;
   const double speed_px_s = u.norm();
-  const double force_N = controller.force_N({speed_px_s, interval_s, dead_zone_px_s});
+  const double force_N = controller.force_N(speed_px_s, interval_s, dead_zone_px_s);
   Wrench wrench;
   if (!(speed_px_s > 0)) return wrench;
   const Eigen::Vector4d direction = u / speed_px_s;

@@ -24,7 +24,7 @@ enum class MotionKind {
   kCamera,  ///< motion of the camera
 };
 
-/// The dead zone of AdaptiveController: slower than this, a motion may be an error of measurement
+/// The dead zone of ControlLaw::kAdaptive: slower than this, a motion may be an error of measurement
 /// that changes from frame to frame.
 struct DeadZone {
   /// Of a velocity whose standard error in each coordinate is known: for a Gaussian error of two

@@ -21,7 +21,7 @@ class CellSpans {
   struct Span {
     int first = 0;
     int count = 0;
-    const float* weight = nullptr;
+    size_t weight = 0;  // index of its first weight
   };
 
   /// Allocates only when `samples` differs from the last call. `samples` and `cells` ≥ 1.
@@ -40,18 +40,10 @@ class CellSpans {
     }
   }
 
-  Span span(int cell) const noexcept {
-    const Cell& c = cells_[static_cast<size_t>(cell)];
-    return {c.first, c.count, weights_.data() + c.weight};
-  }
+  const Span& span(int cell) const noexcept { return cells_[static_cast<size_t>(cell)]; }
+  const float* weights(const Span& span) const noexcept { return weights_.data() + span.weight; }
 
  private:
-  struct Cell {
-    int first = 0;
-    int count = 0;
-    size_t weight = 0;  // index of its first weight
-  };
-
   void add_mean(double begin, double end, int samples) {
     // Keeps a rounding error at a border between two samples from adding a sample.
     constexpr double kRounding = 1e-9;
@@ -73,7 +65,7 @@ class CellSpans {
   }
 
   int samples_ = 0;
-  std::vector<Cell> cells_;
+  std::vector<Span> cells_;
   std::vector<float> weights_;
 };
 
@@ -89,7 +81,8 @@ class CellAverage {
   void read(int width, int height, ReadRow&& read_row, float* cells) {
     start(width, height);
     for (int cell = 0; cell < kRows; ++cell) {
-      const CellSpans::Span span = down_.span(cell);
+      const CellSpans::Span& span = down_.span(cell);
+      const float* const weight = down_.weights(span);
       begin_cells();
       for (int k = 0; k < span.count; ++k) {
         const int y = span.first + k;
@@ -99,7 +92,7 @@ class CellAverage {
           read_row(y, samples_.data());
           reduce(y, line);
         }
-        add(line, span.weight[k]);
+        add(line, weight[k]);
       }
       end_cells(cells + cell * kColumns);
     }
@@ -122,14 +115,15 @@ class CellAverage {
   void reduce(int y, Line& line) noexcept {
     line.y = y;
     for (int x = 0; x < kColumns; ++x) {
-      const CellSpans::Span span = across_.span(x);
+      const CellSpans::Span& span = across_.span(x);
+      const float* const weights = across_.weights(span);
       const float* const samples = samples_.data() + span.first;
       float sum = 0;
       float weight = 0;
       for (int k = 0; k < span.count; ++k) {
         const bool hole = std::isnan(samples[k]);
-        sum += hole ? 0.0F : span.weight[k] * samples[k];
-        weight += hole ? 0.0F : span.weight[k];
+        sum += hole ? 0.0F : weights[k] * samples[k];
+        weight += hole ? 0.0F : weights[k];
       }
       line.sum[x] = sum;
       line.weight[x] = weight;

@@ -22,35 +22,19 @@ int chosen(int nth, int wanted, int count) noexcept {
   return static_cast<int>((2LL * nth + 1) * count / (2LL * wanted));
 }
 
-struct Half {
-  int x, y, width, height;
-};
-
-Half second_half(const ImageView& packed, DepthLayout layout) noexcept {
-  if (layout == DepthLayout::kRight) {
-    const int width = packed.width / 2;
-    return {packed.width - width, 0, width, packed.height};
-  }
-  const int height = packed.height / 2;
-  return {0, packed.height - height, packed.width, height};
-}
-
 }  // namespace
 
 ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept {
-  const Half half = second_half(packed, layout);
-  ImageView picture = packed;
-  picture.width = half.width;
-  picture.height = half.height;
-  return picture;
+  ImageView half = packed;
+  (layout == DepthLayout::kRight ? half.width : half.height) /= 2;
+  return half;
 }
 
-DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept {
-  const Half half = second_half(packed, layout);
+ImageView depth_half(const ImageView& packed, DepthLayout layout) noexcept {
+  ImageView half = picture_half(packed, layout);
   if (packed.data == nullptr || half.width == 0 || half.height == 0) return {};
-  return {
-      packed.at(half.x, half.y), half.width, half.height, packed.stride_bytes, packed.sample.bytes,
-      packed.sample.big_endian,  false};
+  half.data = packed.at(packed.width - half.width, packed.height - half.height);
+  return half;
 }
 
 void validate(const DepthSettings& s) {
@@ -73,9 +57,9 @@ DepthPicture::DepthPicture() : cells_(kCells, kHole), levels_(kCells, kHole) {
   sorted_.reserve(kCells);
 }
 
-bool DepthPicture::read(const DepthView& depth, const DepthSettings& settings, double dt_s) {
+bool DepthPicture::read(const ImageView& depth, const DepthSettings& settings, double dt_s) {
   if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return false;
-  if (!average(depth)) return false;
+  if (!average(depth, settings.has_holes)) return false;
   const bool same = settings.disparity == settings_.disparity &&
                     settings.near_sample == settings_.near_sample &&
                     settings.far_sample == settings_.far_sample;
@@ -93,7 +77,7 @@ bool DepthPicture::read(const DepthView& depth, const DepthSettings& settings, d
 }
 
 /// Returns false if all cells are holes.
-bool DepthPicture::average(const DepthView& depth) {
+bool DepthPicture::average(const ImageView& depth, bool has_holes) {
   const int width = std::min(depth.width, kSamplesAcross * HeightField::kColumns);
   const int height = std::min(depth.height, kSamplesAcross * HeightField::kRows);
   if (width != read_width_ || depth.width != from_width_) {
@@ -104,25 +88,28 @@ bool DepthPicture::average(const DepthView& depth) {
   }
   average_.read(
       width, height,
-      [&](int y, float* values) { read_row(depth, chosen(y, height, depth.height), values); },
+      [&](int y, float* values) {
+        read_row(depth, chosen(y, height, depth.height), has_holes, values);
+      },
       cells_.data());
   return std::any_of(cells_.begin(), cells_.end(), [](float cell) { return !std::isnan(cell); });
 }
 
-void DepthPicture::read_row(const DepthView& depth, int y, float* values) const noexcept {
+void DepthPicture::read_row(const ImageView& depth, int y, bool has_holes,
+                            float* values) const noexcept {
   const uint8_t* const row = depth.data + y * depth.stride_bytes;
   const size_t count = column_.size();
-  if (depth.bytes == 1) {
+  if (depth.sample.bytes == 1) {
     for (size_t x = 0; x < count; ++x) values[x] = row[column_[x]];
   } else {
-    const int high = depth.big_endian ? 0 : 1;
+    const int high = depth.sample.big_endian ? 0 : 1;
     for (size_t x = 0; x < count; ++x) {
       const uint8_t* const word = row + 2 * column_[x];
       values[x] = static_cast<float>(word[high] * 256 + word[1 - high]);
     }
   }
-  if (!depth.has_holes) return;
-  const float most = depth.bytes == 1 ? kMostSample + 1.0F : kMostSample;
+  if (!has_holes) return;
+  const float most = depth.sample.bytes == 1 ? kMostSample + 1.0F : kMostSample;
   for (size_t x = 0; x < count; ++x) {
     if (values[x] == 0 || values[x] == most) values[x] = kHole;
   }

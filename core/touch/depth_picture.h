@@ -13,27 +13,13 @@
 
 namespace spidar::touch {
 
-/// A depth image: `height` rows of `width` samples of one or two bytes, rows `stride_bytes` apart.
-/// Does not own the memory.
-struct DepthView {
-  const uint8_t* data = nullptr;
-  int width = 0;
-  int height = 0;
-  ptrdiff_t stride_bytes = 0;
-  int bytes = 1;            ///< per sample: 1 or 2; words need not be aligned
-  bool big_endian = false;  ///< of words
-  /// Samples of 0, and words of 65535, mean that nothing was measured. Set to false for drawn or
-  /// computed depth, as in 2D+Z films, where these values are the ends of the range.
-  bool has_holes = true;
-};
-
 /// Position of the depth half in the frame of a 2D+Z film.
 enum class DepthLayout { kRight, kBelow };
 
 /// Return the visible half and the depth half of a packed picture. With an odd width or height the
 /// middle line belongs to neither. Words keep all of their bits, whatever `sample.shift` is.
 ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept;
-DepthView depth_half(const ImageView& packed, DepthLayout layout) noexcept;
+ImageView depth_half(const ImageView& packed, DepthLayout layout) noexcept;
 
 /// Meaning of the samples. A distance has near < far; a disparity, which grows towards the viewer,
 /// has near > far.
@@ -43,6 +29,9 @@ struct DepthSettings {
   /// clamped to this range. A value below 0 means that the end is estimated from the pictures.
   double near_sample = -1;
   double far_sample = -1;
+  /// Samples of 0, and words of 65535, mean that nothing was measured. Set to false for drawn or
+  /// computed depth, as in 2D+Z films, where these values are the ends of the range.
+  bool has_holes = true;
 };
 
 /// Throws std::invalid_argument naming the error: a value that is not finite or too large, or near
@@ -72,7 +61,7 @@ class DepthPicture {
   /// `dt_s` is the time since the last picture; the range does not adapt if it is not above 0.
   /// Returns false, and keeps the last levels, when the picture has no samples or only holes. The
   /// settings must be valid.
-  bool read(const DepthView& depth, const DepthSettings& settings, double dt_s);
+  bool read(const ImageView& depth, const DepthSettings& settings, double dt_s);
 
   /// Rows of HeightField::kColumns levels from 0 (far) to 1 (near), NaN for a hole. All are holes
   /// before the first picture.
@@ -85,8 +74,8 @@ class DepthPicture {
   void reset() noexcept { has_range_ = false; }
 
  private:
-  bool average(const DepthView& depth);
-  void read_row(const DepthView& depth, int y, float* values) const noexcept;
+  bool average(const ImageView& depth, bool has_holes);
+  void read_row(const ImageView& depth, int y, bool has_holes, float* values) const noexcept;
   std::pair<double, double> percentiles() noexcept;
   bool is_cut(const DepthSettings& settings) const noexcept;
   void follow(const DepthSettings& settings, double dt_s) noexcept;

@@ -37,25 +37,20 @@ double number(const ReadJson& object, const char* name, double least, double mos
   return value;
 }
 
-/// How the positions of a script are scaled.
-struct Scale {
-  double used = 1;  ///< of the full scale
-  bool inverted = false;
-};
-
-/// What is not said stays as it is.
-void read_scale(const ReadJson& script, const std::string& where, Scale& scale) {
+/// The part of the full scale that a script uses, negative for one that is inverted. What is not
+/// said stays as in `scale`.
+double read_scale(const ReadJson& script, const std::string& where, double scale) {
   constexpr double kPercent = 100;
   if (const ReadJson* const inverted = member(script, "inverted")) {
-    scale.inverted = *inverted == ReadJson(true);
+    scale = std::copysign(scale, *inverted == ReadJson(true) ? -1 : 1);
   }
-  if (!member(script, "range")) return;
+  if (!member(script, "range")) return scale;
   const double range = number(script, "range", 0, kPercent, where);
-  scale.used = range > 0 ? range / kPercent : 1;
+  return std::copysign(range > 0 ? range / kPercent : 1, scale);
 }
 
 std::vector<ScriptAxis::Point> read_points(const ReadJson& actions, const std::string& where,
-                                           const Scale& scale) {
+                                           double scale) {
   if (!actions.is_array()) throw TrackFileError(where + " is no list");
   constexpr auto kLatest_ms = static_cast<double>(kLatestPosition_ms);
   std::vector<ScriptAxis::Point> points;
@@ -63,8 +58,7 @@ std::vector<ScriptAxis::Point> read_points(const ReadJson& actions, const std::s
     const std::string at = where + "[" + std::to_string(i) + "]";
     const double at_ms = number(actions[i], "at", -kLatest_ms, kLatest_ms, at);
     const double position = number(actions[i], "pos", 0, 2 * kMiddle, at);
-    const double fraction = scale.used * (position / kMiddle - 1);
-    points.push_back({std::llround(at_ms), scale.inverted ? -fraction : fraction});
+    points.push_back({std::llround(at_ms), scale * (position / kMiddle - 1)});
   }
   const auto is_before = [](const auto& a, const auto& b) { return a.at_ms < b.at_ms; };
   std::stable_sort(points.begin(), points.end(), is_before);
@@ -90,8 +84,8 @@ void put(ScriptAxis axis, Funscript& script) {
   }
 }
 
-void read_axis(const ReadJson& from, const std::string& name, const std::string& where, Scale scale,
-               Funscript& script) {
+void read_axis(const ReadJson& from, const std::string& name, const std::string& where,
+               double scale, Funscript& script) {
   const std::optional<size_t> channel = channel_of_axis(name);
   if (!channel) {
     script.others.push_back(name);
@@ -99,14 +93,13 @@ void read_axis(const ReadJson& from, const std::string& name, const std::string&
   }
   const ReadJson* const actions = member(from, "actions");
   if (!actions) throw TrackFileError(where + " has no actions");
-  read_scale(from, where, scale);
   put({name, *channel, usual_gain(*channel), false,
-       read_points(*actions, where + ".actions", scale)},
+       read_points(*actions, where + ".actions", read_scale(from, where, scale))},
       script);
 }
 
 /// Version 1.1.
-void read_axes(const ReadJson& axes, const Scale& scale, Funscript& script) {
+void read_axes(const ReadJson& axes, double scale, Funscript& script) {
   if (!axes.is_array()) throw TrackFileError("axes is no list");
   for (size_t i = 0; i < axes.size(); ++i) {
     const std::string where = "axes[" + std::to_string(i) + "]";
@@ -117,7 +110,7 @@ void read_axes(const ReadJson& axes, const Scale& scale, Funscript& script) {
 }
 
 /// Version 2.0.
-void read_channels(const ReadJson& channels, const Scale& scale, Funscript& script) {
+void read_channels(const ReadJson& channels, double scale, Funscript& script) {
   if (!channels.is_object()) throw TrackFileError("channels is no object");
   for (const auto& [name, channel] : channels.items()) {
     read_axis(channel, name, "channels." + name, scale, script);
@@ -199,8 +192,7 @@ Funscript parse_funscript(const std::string& text, size_t channel) {
   const ReadJson* const axes = member(root, "axes");
   const ReadJson* const channels = member(root, "channels");
   if (!actions && !axes && !channels) throw TrackFileError("it has no actions");
-  Scale scale;
-  read_scale(root, "the script", scale);
+  const double scale = read_scale(root, "the script", 1);
   ScriptAxis own{"", channel, usual_gain(channel), false, {}};
   read_notes(root, own);
   if (actions) own.points = read_points(*actions, "actions", scale);

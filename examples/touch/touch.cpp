@@ -75,8 +75,7 @@ void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
   touch::ReliefBuilder builder;
   if (is_depth) {
     touch::DepthPicture depth;
-    const touch::DepthView view{picture.data, picture.width, picture.height, picture.stride_bytes};
-    if (!depth.read(view, {true}, 0) ||
+    if (!depth.read(picture, {true}, 0) ||
         !builder.from_levels(depth.levels(), settings, frame.relief)) {
       throw std::runtime_error("the picture is black: it has no depth");
     }

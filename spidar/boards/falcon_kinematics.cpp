@@ -25,31 +25,26 @@ constexpr double kStepDone_m = 1e-9;
 /// Smallest |det| of three unit rows that counts as independent: within kReach_m it is above 0.17.
 constexpr double kLeastDeterminant = 0.05;
 
-/// One arm in its own frame: u outwards, v sideways, w towards the hand.
-struct Arm {
-  Eigen::Matrix3d turn;    ///< from the device frame, rows u, v, w
-  Eigen::Vector3d knee_m;  ///< what is added to the turned grip position to point at the rods' end
-};
-
-std::array<Arm, 3> make_arms() noexcept {
-  std::array<Arm, 3> arms;
-  for (size_t i = 0; i < arms.size(); ++i) {
+/// From the device frame to that of each arm, rows u outwards, v sideways, w towards the hand.
+std::array<Eigen::Matrix3d, 3> make_turns() noexcept {
+  std::array<Eigen::Matrix3d, 3> turns;
+  for (size_t i = 0; i < turns.size(); ++i) {
     const double at_rad = kFirstArm_rad - static_cast<double>(i) * 2 * M_PI / 3;
     const double c = std::cos(at_rad), s = std::sin(at_rad);
-    arms[i].turn << c, s, 0, -s, c, 0, 0, 0, 1;
-    arms[i].knee_m = {kGripOut_m - kBaseOut_m, kGripAside_m - kBaseAside_m, kCentre_m};
+    turns[i] << c, s, 0, -s, c, 0, 0, 0, 1;
   }
-  return arms;
+  return turns;
 }
 
-const std::array<Arm, 3>& arms() noexcept {
-  static const std::array<Arm, 3> it = make_arms();
-  return it;
+const Eigen::Matrix3d& turn_to(int arm) noexcept {
+  static const std::array<Eigen::Matrix3d, 3> turns = make_turns();
+  return turns[static_cast<size_t>(arm)];
 }
 
 /// The far end of the rods of an arm, from the axis of the arm, in the arm's frame.
-Eigen::Vector3d rods_end_m(const Arm& arm, const Eigen::Vector3d& position_m) noexcept {
-  return arm.turn * position_m + arm.knee_m;
+Eigen::Vector3d rods_end_m(int arm, const Eigen::Vector3d& position_m) noexcept {
+  return turn_to(arm) * position_m +
+         Eigen::Vector3d(kGripOut_m - kBaseOut_m, kGripAside_m - kBaseAside_m, kCentre_m);
 }
 
 /// The rods lean sideways by v, which shortens what they span in the plane of the arm: this is the
@@ -70,15 +65,14 @@ Constraints constraints_of(const Eigen::Vector3d& angles_rad,
                            const Eigen::Vector3d& position_m) noexcept {
   Constraints all;
   for (int i = 0; i < 3; ++i) {
-    const Arm& arm = arms()[static_cast<size_t>(i)];
-    const Eigen::Vector3d end = rods_end_m(arm, position_m);
+    const Eigen::Vector3d end = rods_end_m(i, position_m);
     const double c = std::cos(angles_rad[i]), s = std::sin(angles_rad[i]);
     const double u = end.x() - kUpperArm_m * c, v = end.y(), w = end.z() - kUpperArm_m * s;
     const double span = span_m(v);
     all.value[i] = u * u + w * w - span * span;
     // d span / d v = −v / (span − hinges)
     all.by_position.row(i) =
-        Eigen::RowVector3d(2 * u, 2 * span * v / (span - kHinges_m), 2 * w) * arm.turn;
+        Eigen::RowVector3d(2 * u, 2 * span * v / (span - kHinges_m), 2 * w) * turn_to(i);
     all.by_angle[i] = 2 * kUpperArm_m * (end.x() * s - end.z() * c);
   }
   return all;
@@ -101,7 +95,7 @@ bool within_range(const Eigen::Vector3d& angles_rad) noexcept {
 std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noexcept {
   Eigen::Vector3d angles_rad;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d end = rods_end_m(arms()[static_cast<size_t>(i)], position_m);
+    const Eigen::Vector3d end = rods_end_m(i, position_m);
     const double span = span_m(end.y()), reach_m = std::hypot(end.x(), end.z());
     // Law of cosines in the triangle of axis, knee and rods' end; the knee is on the outside.
     const double cosine =

@@ -36,8 +36,6 @@ struct CalibrateOptions : DeviceOptions {
   std::optional<double> seconds;  ///< of moving; none: not named
   std::string free;               ///< empty, exits, scale or exits,scale
   OutputFile output;
-  bool yes = false;
-  bool json = false;
 
   double move_s() const { return seconds.value_or(20); }
   bool frees(const char* name) const { return free.find(name) != std::string::npos; }

@@ -25,17 +25,11 @@ struct Program {
   int status = kDone;  ///< of the command that ran
 };
 
-template <typename Options>
-struct AddedCommand {
-  CLI::App& app;
-  Options& options;  ///< live as long as the program
-};
-
 /// `run` is called when the command line has been parsed, and returns the exit status. It throws
-/// UsageError, DeviceError and ProfileError.
+/// UsageError, DeviceError and ProfileError. What is returned lives as long as the program.
 template <typename Options>
-AddedCommand<Options> add_command(Program& program, const char* name, const char* description,
-                                  int (*run)(const Options&)) {
+std::pair<CLI::App&, Options&> add_command(Program& program, const char* name,
+                                           const char* description, int (*run)(const Options&)) {
   const auto options = std::make_shared<Options>();
   CLI::App* const app = program.app.add_subcommand(name, description);
   app->callback([&program, options, run] { program.status = run(*options); });
@@ -52,10 +46,11 @@ void add_choose(Program& program);
 void add_selftest(Program& program);
 void add_calibrate(Program& program);
 
-/// Arguments of every command that opens a device.
+/// Arguments of every command that opens a device, and flags of most of them.
 struct DeviceOptions {
   std::string device;
   std::string profile;  ///< empty: the default profile of the board
+  bool json = false, yes = false;
 };
 
 /// Adds DEVICE and --profile.

@@ -16,7 +16,7 @@ namespace spidar::tools {
 namespace {
 
 struct MonitorOptions : DeviceOptions {
-  bool json = false, taut = false, yes = false;
+  bool taut = false;
   double seconds = std::numeric_limits<double>::infinity();
 };
 

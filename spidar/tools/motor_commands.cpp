@@ -18,7 +18,6 @@ struct PullOptions : DeviceOptions {
   int string = 0;
   double tension_N = 0;
   double seconds = 0;
-  bool yes = false, json = false;
 };
 
 int zero(const DeviceOptions& options) {

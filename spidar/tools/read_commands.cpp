@@ -17,10 +17,6 @@
 namespace spidar::tools {
 namespace {
 
-struct InfoOptions : DeviceOptions {
-  bool json = false;
-};
-
 /// What is listed, as JSON, which the text is made of, too.
 Json found_devices() {
   Json devices = Json::array(), lines = Json::array(), profiles = Json::array();
@@ -238,7 +234,7 @@ Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
   return json;
 }
 
-int info(const InfoOptions& options) {
+int info(const DeviceOptions& options) {
   // Shows the counts as the board gives them, without a new zero.
   ChosenDevice chosen = choose_device(options, Motors::kOff, boards::CountZero::kNever);
   catch_signals();

@@ -27,7 +27,7 @@ namespace {
 struct SelftestOptions : DeviceOptions {
   double newton = 0.5;
   OutputFile output;
-  bool lag = false, yes = false, json = false;
+  bool lag = false;
 };
 
 /// `lag`: what was measured of the drives, if it was.

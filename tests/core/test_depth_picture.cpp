@@ -25,7 +25,7 @@ class Samples {
  public:
   Samples(int width, int height, int bytes, bool big_endian = false, int padding = 0)
       : stride_(bytes * width + padding),
-        view_{nullptr, width, height, stride_, bytes, big_endian, true},
+        view_{nullptr, width, height, stride_, {bytes, 0, big_endian}},
         bytes_(static_cast<size_t>(stride_ * height), uint8_t{255}) {}
 
   template <typename Depth>
@@ -35,21 +35,21 @@ class Samples {
     }
     return *this;
   }
-  touch::DepthView view() {
+  ImageView view() {
     view_.data = bytes_.data();
     return view_;
   }
 
  private:
   void set(int x, int y, int value) {
-    uint8_t* const sample = bytes_.data() + y * stride_ + x * view_.bytes;
-    const int low = view_.bytes == 2 && view_.big_endian ? 1 : 0;
+    uint8_t* const sample = bytes_.data() + y * stride_ + x * view_.sample.bytes;
+    const int low = view_.sample.bytes == 2 && view_.sample.big_endian ? 1 : 0;
     sample[low] = static_cast<uint8_t>(value & 255);
-    if (view_.bytes == 2) sample[1 - low] = static_cast<uint8_t>(value >> 8);
+    if (view_.sample.bytes == 2) sample[1 - low] = static_cast<uint8_t>(value >> 8);
   }
 
   int stride_;
-  touch::DepthView view_;
+  ImageView view_;
   std::vector<uint8_t> bytes_;
 };
 
@@ -113,9 +113,7 @@ TEST(DepthPicture, MarksHoles) {
   ASSERT_TRUE(picture.read(bytes.view(), {true, 255, 0}, kFrame_s));
   EXPECT_TRUE(std::isnan(level_at(picture, 5, 5)));
   EXPECT_EQ(level_at(picture, 15, 5), 1) << "of a byte the largest value is one";
-  touch::DepthView drawn = bytes.view();
-  drawn.has_holes = false;
-  ASSERT_TRUE(picture.read(drawn, {true, 255, 0}, kFrame_s));
+  ASSERT_TRUE(picture.read(bytes.view(), {true, 255, 0, false}, kFrame_s));
   EXPECT_EQ(level_at(picture, 5, 5), 0);
 }
 
@@ -227,17 +225,16 @@ TEST(DepthPicture, APackedPictureIsSplit) {
       for (size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<uint8_t>(i % 251);
       const ImageView packed{memory.data(), width, height, bytes * width, {bytes, 2, false}};
       const ImageView left = touch::picture_half(packed, touch::DepthLayout::kRight);
-      const touch::DepthView right = touch::depth_half(packed, touch::DepthLayout::kRight);
+      const ImageView right = touch::depth_half(packed, touch::DepthLayout::kRight);
       EXPECT_EQ(left.width, width / 2);
       EXPECT_EQ(right.width, width / 2);
       EXPECT_EQ(right.height, height);
       EXPECT_EQ(right.data, packed.at(width - width / 2, 0));
-      EXPECT_FALSE(right.has_holes);
-      const touch::DepthView below = touch::depth_half(packed, touch::DepthLayout::kBelow);
+      const ImageView below = touch::depth_half(packed, touch::DepthLayout::kBelow);
       EXPECT_EQ(touch::picture_half(packed, touch::DepthLayout::kBelow).height, height / 2);
       EXPECT_EQ(below.height, height / 2);
       EXPECT_EQ(below.data, packed.at(0, height - height / 2));
-      EXPECT_EQ(below.bytes, bytes);
+      EXPECT_EQ(below.sample.bytes, bytes);
     }
   }
   const uint8_t one = 7;
@@ -275,7 +272,7 @@ TEST(DepthPicture, TakesNothingFromTheHeapAfterTheFirst) {
   if (!kCountsAllocations) GTEST_SKIP() << "a sanitizer has the heap";
   Samples samples(640, 480, 2);
   samples.fill([](int x, int y) { return x % 7 ? 500 + x + y : 0; });
-  const touch::DepthView view = samples.view();
+  const ImageView view = samples.view();
   touch::DepthPicture picture;
   picture.read(view, {}, kFrame_s);
   const long before = allocations;

@@ -15,9 +15,11 @@ namespace {
 
 // Each result is a handful of roundings of 2^-53 on numbers below 10.
 constexpr double kRounding = 1e-14;
+constexpr double kMax_N = 3.0;
+constexpr double kAlpha_s_px = 0.01;
 
 TEST(LinearController, FollowsEquations11To13) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, kAlpha_s_px});
   // Vmax(T) is 100 until 400 comes, and stays 400.
   EXPECT_NEAR(controller.force_N(100), 3.0, kRounding);
   EXPECT_NEAR(controller.force_N(25), 3.0 / 100 * 25, kRounding);
@@ -26,31 +28,31 @@ TEST(LinearController, FollowsEquations11To13) {
 }
 
 TEST(LinearController, AStillPictureHasNoForce) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, kAlpha_s_px});
   EXPECT_EQ(controller.force_N(0), 0);
 }
 
 TEST(LinearController, ResetForgetsTheLargestSpeed) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, kAlpha_s_px});
   controller.force_N(1000);
   controller.reset();
   EXPECT_NEAR(controller.force_N(10), 3.0, kRounding);
 }
 
 TEST(LinearController, ANewLimitKeepsTheLargestSpeed) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, kAlpha_s_px});
   controller.force_N(200);
   controller.configure({ControlLaw::kLinear, 1.0, 0.01});
   EXPECT_NEAR(controller.force_N(100), 0.5, kRounding);
 }
 
 TEST(LinearController, TheSmallestSpeedOfAllDoesNotOverflow) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, kAlpha_s_px});
   EXPECT_EQ(controller.force_N(std::numeric_limits<double>::denorm_min()), 3.0);
 }
 
 TEST(NonlinearController, FollowsEquation15) {
-  NonlinearController controller(3.0, 0.01);
+  GainController controller({ControlLaw::kNonlinear, 3.0, 0.01});
   EXPECT_EQ(controller.force_N(0), 0);
   // atan 1 = π/4: half of the maximum at V = 1 / α.
   EXPECT_NEAR(controller.force_N(100), 1.5, kRounding);
@@ -62,37 +64,25 @@ TEST(NonlinearController, FollowsEquation15) {
   }
 }
 
-TEST(MakeController, MakesTheKindAskedFor) {
-  EXPECT_TRUE(
-      dynamic_cast<LinearController*>(make_controller({ControlLaw::kLinear, 3, 0.01}).get()));
-  const auto nonlinear = make_controller({ControlLaw::kNonlinear, 2, 0.02});
-  EXPECT_NEAR(nonlinear->force_N(50), 1.0, kRounding);
-  EXPECT_TRUE(dynamic_cast<AdaptiveController*>(make_controller({ControlLaw::kAdaptive}).get()));
-}
-
-TEST(MakeController, RefusesWhatIsNotAForceOrAFactor) {
+TEST(GainController, RefusesWhatIsNotAForceOrAFactor) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, nan, infinity}) {
-    EXPECT_THROW(make_controller({ControlLaw::kLinear, bad, 0.01}), std::invalid_argument);
-    EXPECT_THROW(make_controller({ControlLaw::kNonlinear, 3, bad}), std::invalid_argument);
-    EXPECT_THROW(make_controller({ControlLaw::kAdaptive, 3, bad}), std::invalid_argument);
+    EXPECT_THROW(GainController({ControlLaw::kLinear, bad, 0.01}), std::invalid_argument);
+    EXPECT_THROW(GainController({ControlLaw::kNonlinear, 3, bad}), std::invalid_argument);
+    EXPECT_THROW(GainController({ControlLaw::kAdaptive, 3, bad}), std::invalid_argument);
   }
 }
 
-using Adaptive = AdaptiveController;
-
-constexpr double kMax_N = 3.0;
-constexpr double kAlpha_s_px = 0.01;
 constexpr double kFrame_s = 0.04;
 /// A few more operations.
 constexpr double kAdaptiveRounding = 1e-13;
 /// Plays a film with the given speed in each frame, and returns the last force.
-double play(Adaptive& controller, double speed_px_s, double duration_s,
+double play(GainController& controller, double speed_px_s, double duration_s,
             double interval_s = kFrame_s) {
   double force_N = 0;
   for (int n = 0; n < std::lround(duration_s / interval_s); ++n) {
-    force_N = controller.force_N({speed_px_s, interval_s});
+    force_N = controller.force_N(speed_px_s, interval_s);
   }
   return force_N;
 }
@@ -103,11 +93,11 @@ double force_N(double excess_px_s, double scale_px_s) {
 
 TEST(AdaptiveController, StartsLikeTheNonlinearOneBeyondTheDeadZone) {
   for (const double speed : {3.0, 50.0, 102.1, 1e4}) {
-    Adaptive controller(kMax_N, kAlpha_s_px);
+    GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
     EXPECT_NEAR(controller.force_N(speed), force_N(speed - DeadZone::kLeast_px_s, 100),
                 kAdaptiveRounding);
     controller.reset();
-    EXPECT_NEAR(controller.force_N({speed, 0, 1.5}), force_N(speed - 1.5, 100), kAdaptiveRounding);
+    EXPECT_NEAR(controller.force_N(speed, 0, 1.5), force_N(speed - 1.5, 100), kAdaptiveRounding);
   }
 }
 
@@ -115,7 +105,7 @@ TEST(AdaptiveController, ASteadySpeedConvergesToHalfOfTheMaximum) {
   // The controller adapts to a slow film as it does to a fast one. The dead zone takes its
   // part: (V − V₀) / V.
   for (const double speed : {20.0, 60.0, 300.0, 800.0}) {
-    Adaptive controller(kMax_N, kAlpha_s_px);
+    GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
     const double force = play(controller, speed, 90);
     // From a scale 8 times too large, ln 8 = 2.1: 1.1 T until the bound ends, and what is left
     // then falls by exp(−(90 / 6 − 1.1)) = 1e-6.
@@ -127,53 +117,54 @@ TEST(AdaptiveController, ASteadySpeedConvergesToHalfOfTheMaximum) {
 TEST(AdaptiveController, AttackAndReleaseTakeTheirTime) {
   // A step of half a neper is within the bound: after T the rest is 1/e of it.
   const double step = std::exp(0.5);
-  Adaptive controller(kMax_N, kAlpha_s_px);
-  play(controller, 100 * step, Adaptive::kAttack_s);
+  GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
+  play(controller, 100 * step, GainController::kAttack_s);
   EXPECT_NEAR(std::log(controller.scale_px_s() / 100), 0.5 * (1 - std::exp(-1)), kAdaptiveRounding);
   controller.reset();
-  play(controller, 100 / step, Adaptive::kRelease_s);
+  play(controller, 100 / step, GainController::kRelease_s);
   EXPECT_NEAR(std::log(controller.scale_px_s() / 100), -0.5 * (1 - std::exp(-1)),
               kAdaptiveRounding);
   // A step of 2 nepers: one neper takes T, of the other 1/e is left after T more.
   controller.reset();
-  play(controller, 100 * std::exp(2), 2 * Adaptive::kAttack_s);
+  play(controller, 100 * std::exp(2), 2 * GainController::kAttack_s);
   EXPECT_NEAR(std::log(controller.scale_px_s() / 100), 2 - std::exp(-1), kAdaptiveRounding);
 }
 
 TEST(AdaptiveController, OneOutlierDoesNotWeakenTheFilm) {
   for (const double outlier_px_s : {1e3, 1e6, 1e300}) {
-    Adaptive controller(kMax_N, kAlpha_s_px);
+    GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
     const double before_N = play(controller, 50, 60);
     const double scale_px_s = controller.scale_px_s();
-    EXPECT_LE(controller.force_N({outlier_px_s, kFrame_s}), kMax_N);
+    EXPECT_LE(controller.force_N(outlier_px_s, kFrame_s), kMax_N);
     // exp(Δt / T), however large it is; and dF / d ln S is Fmax / π at most.
     EXPECT_LT(std::log(controller.scale_px_s() / scale_px_s),
-              kFrame_s / Adaptive::kAttack_s + kAdaptiveRounding);
-    const double after_N = controller.force_N({50, kFrame_s});
-    EXPECT_NEAR(after_N, before_N, kMax_N / M_PI * kFrame_s / Adaptive::kAttack_s) << outlier_px_s;
+              kFrame_s / GainController::kAttack_s + kAdaptiveRounding);
+    const double after_N = controller.force_N(50, kFrame_s);
+    EXPECT_NEAR(after_N, before_N, kMax_N / M_PI * kFrame_s / GainController::kAttack_s)
+        << outlier_px_s;
     EXPECT_LT(after_N, before_N);
   }
   // What eq. 12 makes of the smallest of them.
-  LinearController linear(kMax_N);
+  GainController linear({ControlLaw::kLinear, kMax_N, kAlpha_s_px});
   linear.force_N(50);
   linear.force_N(1e3);
   EXPECT_NEAR(linear.force_N(50), 0.05 * kMax_N, kAdaptiveRounding);
 }
 
 TEST(AdaptiveController, RestGivesExactlyNoForceAndIsNotLearnt) {
-  Adaptive controller(kMax_N, kAlpha_s_px);
+  GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
   play(controller, 50, 3);
   const double scale_px_s = controller.scale_px_s();
   EXPECT_EQ(play(controller, 0, 100), 0);
   EXPECT_EQ(play(controller, DeadZone::kLeast_px_s, 100), 0);
-  EXPECT_EQ(controller.force_N({30, kFrame_s, 30.0}), 0);  // its own dead zone
+  EXPECT_EQ(controller.force_N(30, kFrame_s, 30.0), 0);  // its own dead zone
   EXPECT_EQ(controller.scale_px_s(), scale_px_s);
 }
 
 TEST(AdaptiveController, TheForceOfAMotionDoesNotDependOnTheFrameRate) {
   // Where the speed is constant between the frames of both, only rounding differs.
-  Adaptive coarse(kMax_N, kAlpha_s_px);
-  Adaptive fine(kMax_N, kAlpha_s_px);
+  GainController coarse({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
+  GainController fine({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
   for (const double v : {30.0, 700.0, 4.0, 90.0}) {
     EXPECT_NEAR(play(coarse, v, 2, 1.0 / 24), play(fine, v, 2, 1.0 / 60), kAdaptiveRounding) << v;
   }
@@ -182,19 +173,19 @@ TEST(AdaptiveController, TheForceOfAMotionDoesNotDependOnTheFrameRate) {
 TEST(AdaptiveController, TheScaleStaysWithinADecadeOfAlpha) {
   std::mt19937 random(7);
   std::lognormal_distribution<double> speed(4, 4);
-  Adaptive controller(kMax_N, kAlpha_s_px);
+  GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
   for (int n = 0; n < 2000; ++n) {
     const double v = speed(random);
     SCOPED_TRACE(testing::Message() << "seed 7, draw " << n << ", speed " << v);
-    const double force = controller.force_N({v, 10.0});
+    const double force = controller.force_N(v, 10.0);
     EXPECT_TRUE(force >= 0 && force <= kMax_N) << force;
-    EXPECT_GE(controller.scale_px_s(), 100 / Adaptive::kRange * (1 - kAdaptiveRounding));
-    EXPECT_LE(controller.scale_px_s(), 100 * Adaptive::kRange * (1 + kAdaptiveRounding));
+    EXPECT_GE(controller.scale_px_s(), 100 / GainController::kRange * (1 - kAdaptiveRounding));
+    EXPECT_LE(controller.scale_px_s(), 100 * GainController::kRange * (1 + kAdaptiveRounding));
   }
 }
 
 TEST(AdaptiveController, NewLimitsKeepTheScaleAndResetForgetsIt) {
-  Adaptive controller(kMax_N, kAlpha_s_px);
+  GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
   play(controller, 300, 60);
   const double scale_px_s = controller.scale_px_s();
   controller.configure({ControlLaw::kAdaptive, 1.0, kAlpha_s_px});

@@ -71,7 +71,7 @@ TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
     EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
 
     // Exactly eq. 15 of the velocity reported.
-    NonlinearController controller(3.0, 0.0025);
+    GainController controller({ControlLaw::kNonlinear, 3.0, 0.0025});
     const Wrench expected = render_motion(controller, analysis.motion, {}, size.height);
     EXPECT_EQ(analysis.wrench.stacked(), expected.stacked());
 
@@ -130,7 +130,7 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
   AnalyzerSettings settings = paper_settings();
   settings.controller.law = ControlLaw::kAdaptive;
   MotionAnalyzer analyzer(settings);
-  const auto controller = make_controller(settings.controller);
+  GainController controller(settings.controller);
   int64_t time_ns = 0;
   // The wrenches of a scene are those of a controller that is told of the same motion.
   const auto expect_same = [&](uint32_t seed) {
@@ -138,14 +138,14 @@ TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesN
     expect_restarted(analyzer.analyze(scene.frame(0), time_ns += kFrame_ns));
     for (int n = 1; n < 6; ++n) {
       const Frame frame = analyzer.analyze(scene.frame(n), time_ns += kFrame_ns);
-      const Wrench expected = render_motion(*controller, frame.motion, {}, 360, kFrame_s);
+      const Wrench expected = render_motion(controller, frame.motion, {}, 360, kFrame_s);
       EXPECT_EQ(frame.wrench.stacked(), expected.stacked()) << "seed " << seed << ", " << n;
     }
   };
   expect_same(8);
   expect_same(77);  // a cut
   analyzer.reset();
-  controller->reset();
+  controller.reset();
   expect_same(8);
 }
 
@@ -202,7 +202,7 @@ TEST(MotionAnalyzer, NewLimitsKeepWhatTheControllerHasLearnt) {
   settings.controller.law = ControlLaw::kNonlinear;
   analyzer.configure(settings);
   const Frame nonlinear = analyzer.analyze(scene.frame(3), 4 * kFrame_ns);
-  NonlinearController controller(1.0, 0.0025);
+  GainController controller({ControlLaw::kNonlinear, 1.0, 0.0025});
   EXPECT_EQ(nonlinear.wrench.stacked(),
             render_motion(controller, nonlinear.motion, {}, 360).stacked());
 }

@@ -24,14 +24,14 @@ ImageMotion moving(double x_px_s, double y_px_s, double growth_1_s, double roll_
 }
 
 TEST(MotionRendering, VelocityIsScaledToTheReferenceFrameGrowthAndRollNeedNone) {
-  NonlinearController controller(3.0, 0.01);
+  GainController controller({ControlLaw::kNonlinear, 3.0, 0.01});
   const Wrench small = render_motion(controller, moving(30, 0, 0.1, 0.2), {}, 240);
   const Wrench large = render_motion(controller, moving(120, 0, 0.1, 0.2), {}, 960);
   EXPECT_LT((small.stacked() - large.stacked()).norm(), kRounding);
 }
 
 TEST(MotionRendering, TheControllerSeesOneSpeedAndTheRatiosAreKept) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, 0.01});
   const Wrench wrench = render_motion(controller, moving(30, 40, 0.5, 0.25), {}, 480);
   // u = (30, 40, 120, 60); the largest so far is this one: full force.
   const double norm = std::sqrt(30.0 * 30 + 40 * 40 + 120 * 120 + 60 * 60);
@@ -43,7 +43,7 @@ TEST(MotionRendering, TheControllerSeesOneSpeedAndTheRatiosAreKept) {
 }
 
 TEST(MotionRendering, AGainOfZeroTurnsAnAxisOff) {
-  NonlinearController controller(3.0, 0.01);
+  GainController controller({ControlLaw::kNonlinear, 3.0, 0.01});
   const ImageMotion motion = moving(60, -80, 0.5, 0.25);
   // 100 px/s: half of the force.
   const Wrench plane = render_motion(controller, motion, {0, 0}, 480);
@@ -56,7 +56,7 @@ TEST(MotionRendering, AGainOfZeroTurnsAnAxisOff) {
 }
 
 TEST(MotionRendering, NoMotionIsNoForce) {
-  LinearController controller(3.0);
+  GainController controller({ControlLaw::kLinear, 3.0, 0.01});
   EXPECT_EQ(render_motion(controller, ImageMotion(), {}, 480).stacked(),
             (Eigen::Matrix<double, 6, 1>::Zero()));
 }

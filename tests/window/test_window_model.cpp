@@ -224,9 +224,9 @@ TEST(GainCurve, IsThatOfTheController) {
   EXPECT_NEAR(linear[2], 1.5, kRounding);
   // The same as one that was given the frame, once.
   settings.law = ControlLaw::kAdaptive;
-  const auto adaptive = make_controller(settings);
-  adaptive->force_N({400, 0.04});
-  EXPECT_NEAR(timeline.gain_curve(settings, 200, 3)[1], adaptive->force_N(100), kRounding);
+  GainController adaptive(settings);
+  adaptive.force_N(400, 0.04);
+  EXPECT_NEAR(timeline.gain_curve(settings, 200, 3)[1], adaptive.force_N(100), kRounding);
   settings.max_force_N = -1;
   EXPECT_TRUE(timeline.gain_curve(settings, 200, 3).empty());
 }

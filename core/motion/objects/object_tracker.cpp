@@ -38,10 +38,10 @@ void ObjectTracker::reset() {
 }
 
 /// The object to which most blocks of the region belonged; null when most belonged to none.
-ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
-  Life* best = nullptr;
+ObjectLife* ObjectTracker::owner_of(int16_t region) {
+  ObjectLife* best = nullptr;
   int most = 0;
-  for (Life& life : lives_) {
+  for (ObjectLife& life : lives_) {
     int votes = 0;
     for (size_t i = 0; i < owners_before_.size(); ++i) {
       votes += finder_.labels()[i] == region && owners_before_[i] == life.key;
@@ -56,10 +56,10 @@ ObjectTracker::Life* ObjectTracker::owner_of(int16_t region) {
 
 /// The object out of sight that is expected nearest to the region with a similar motion; null when
 /// there is none.
-ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
-  Life* best = nullptr;
+ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
+  ObjectLife* best = nullptr;
   double nearest_px = 0;
-  for (Life& life : lives_) {
+  for (ObjectLife& life : lives_) {
     if (life.is_seen() || !life.is_born() || !life.moves_like(region, frame.interval_s)) continue;
     const Eigen::Vector2d sides_px = life.expected.sides_px + region.high_px - region.low_px;
     const Eigen::Vector2d apart_px = (life.expected.position_px - region.position_px).cwiseAbs();
@@ -75,21 +75,21 @@ ObjectTracker::Life* ObjectTracker::expected_at(const Region& region, const Fiel
 uint32_t ObjectTracker::create(const Region& region) {
   if (lives_.size() >= kMostObjects) return 0;
   lives_.emplace_back();
-  Life& life = lives_.back();
+  ObjectLife& life = lives_.back();
   life.key = next_key_++;
   life.region = region;
   return life.key;
 }
 
 /// Whether most of an object's usual blocks are where they were, none of which clearly moves.
-bool ObjectTracker::remains_there(const Life& life, const Remains& remains) {
+bool ObjectTracker::remains_there(const ObjectLife& life, const Remains& remains) {
   return remains.blocks >= kRemainingFraction * life.expected.blocks;
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
 /// enough for what is left of a known object, and for a new one if it lasts. Where most of a known
 /// object stands still beside it, it comes to rest: the block is its rim.
-bool ObjectTracker::is_enough(const Region& region, const Life* life,
+bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
                               const BlockField& field) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
@@ -101,8 +101,8 @@ bool ObjectTracker::is_enough(const Region& region, const Life* life,
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_keys_.assign(regions.size(), 0);
-  for (Life& life : lives_) {
-    if (life.is_seen()) life.turn(State::kHidden);
+  for (ObjectLife& life : lives_) {
+    if (life.is_seen()) life.turn(ObjectLife::State::kHidden);
   }
   order_.resize(regions.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
@@ -110,7 +110,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
             [&](size_t a, size_t b) { return regions[a].blocks > regions[b].blocks; });
   for (const size_t k : order_) {
     const Region& region = regions[k];
-    Life* life = owner_of(static_cast<int16_t>(k));
+    ObjectLife* life = owner_of(static_cast<int16_t>(k));
     if (life && life->is_seen()) {
       if (life->moves_like(region, frame.interval_s)) {
         region_keys_[k] = life->key;
@@ -119,7 +119,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       life = nullptr;
     }
     if (!life || !life->is_born()) {
-      Life* back = region.blocks < kLeastBlocks ? nullptr : expected_at(region, frame);
+      ObjectLife* back = region.blocks < kLeastBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
       if (back || (life && !life->moves_like(region, frame.interval_s))) life = back;
     }
@@ -128,14 +128,14 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       region_keys_[k] = create(region);
       continue;
     }
-    life->turn(State::kSeen);
+    life->turn(ObjectLife::State::kSeen);
     life->region = region;
     region_keys_[k] = life->key;
   }
 }
 
 /// Computes position and velocity in the frame from those of the region in the field's picture.
-void ObjectTracker::position(Life& life, const FieldInFrame& frame) const {
+void ObjectTracker::position(ObjectLife& life, const FieldInFrame& frame) const {
   MovingObject& object = life.object;
   const Region& region = life.region;
   object.position_px = frame.scale * region.position_px + frame.offset_px;
@@ -148,7 +148,7 @@ void ObjectTracker::position(Life& life, const FieldInFrame& frame) const {
       object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
 }
 
-ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
+ObjectMotion ObjectTracker::measure(ObjectLife& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   const ObjectMotion found = meter_.measure(life.key, life.region, evidence_in(frame));
   life.region.relative_px = found.relative_px;
@@ -159,7 +159,7 @@ ObjectMotion ObjectTracker::measure(Life& life, const FieldInFrame& frame) {
 }
 
 /// How it turns and grows, unless it is not felt: what is not born yet, and layers of the scene.
-void ObjectTracker::turn(Life& life, const ObjectMotion& found, const FieldInFrame& frame) {
+void ObjectTracker::turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame) {
   if (!life.is_born() || life.is_layer) return life.turn_unseen(frame.interval_s);
   const Turn as_before{life.roll.expected(frame.interval_s),
                        life.growth.expected(frame.interval_s)};
@@ -173,7 +173,7 @@ void ObjectTracker::turn(Life& life, const ObjectMotion& found, const FieldInFra
 /// How far blocks outside an object are from the background in the direction in which it moves, as
 /// a standard deviation: in a scene with depth, half of the picture may move against any single
 /// model of the background. A region that does not stand out from that is not an object.
-double ObjectTracker::noise_around(const Life& life) {
+double ObjectTracker::noise_around(const ObjectLife& life) {
   // Where few blocks showed how the camera moves, those with texture may all be an object's rim.
   if (background_->is_of_few) return background_->sigma_px;
   around_px_.clear();
@@ -191,12 +191,12 @@ double ObjectTracker::noise_around(const Life& life) {
 
 /// Whether something else is in the place of most of an object: what is visible is a rim, and most
 /// of its blocks are not found in the picture before. Their motions are those of errors.
-bool ObjectTracker::has_vanished(const Life& life, const FieldInFrame& frame) const {
+bool ObjectTracker::has_vanished(const ObjectLife& life, const FieldInFrame& frame) const {
   return life.is_rim(life.region) &&
          frame.field.are_lost([&](size_t block) { return owners_[block] == life.key; });
 }
 
-void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
+void ObjectTracker::observe(ObjectLife& life, const FieldInFrame& frame) {
   const ObjectMotion found = measure(life, frame);
   const Eigen::Vector2d velocity_px_s = has_vanished(life, frame)
                                             ? life.expected.velocity_px_s
@@ -211,7 +211,7 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
   const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
   life.expect(frame.interval_s);
-  life.blocks_seen += std::min(life.region.blocks, Life::kBornAfterBlocks - 1);
+  life.blocks_seen += std::min(life.region.blocks, ObjectLife::kBornAfterBlocks - 1);
   life.object.has_left = false;
   if (is_new) {
     life.low_px = life.region.low_px;
@@ -232,7 +232,8 @@ void ObjectTracker::observe(Life& life, const FieldInFrame& frame) {
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-ObjectTracker::Remains ObjectTracker::remains_of(const Life& life, const BlockField& field) const {
+ObjectTracker::Remains ObjectTracker::remains_of(const ObjectLife& life,
+                                                 const BlockField& field) const {
   Remains remains;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
@@ -243,7 +244,7 @@ ObjectTracker::Remains ObjectTracker::remains_of(const Life& life, const BlockFi
 }
 
 /// The object rests where it is.
-void ObjectTracker::stay(Life& life, const FieldInFrame& frame) {
+void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
     if (is_its) owners_[i] = life.key;
@@ -255,16 +256,16 @@ void ObjectTracker::stay(Life& life, const FieldInFrame& frame) {
 /// Nothing is known to move by itself at the object's position. If most of its usual blocks were
 /// there before, it has come to rest there. If only a rim was visible, it is out of sight and
 /// continues with its last motion.
-void ObjectTracker::miss(Life& life, const FieldInFrame& frame) {
+void ObjectTracker::miss(ObjectLife& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
   const Remains remains = remains_of(life, frame.field);
   object.points = background_->is_known ? remains.found : 0;
   if (object.points > 0 && remains_there(life, remains)) {
-    life.turn(State::kRests);
+    life.turn(ObjectLife::State::kRests);
     stay(life, frame);
   } else {
-    life.turn(State::kHidden);
+    life.turn(ObjectLife::State::kHidden);
     object.points = 0;
   }
   life.since_s += frame.interval_s;
@@ -288,40 +289,41 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   for (size_t i = 0; i < n; ++i) {
     owners_before_[i] = owners_[field.origin_of(i)];
     const uint32_t owner = owners_before_[i];
-    expected_[i] = owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const Life& life) {
-                     return life.key == owner && life.is_born();
-                   });
+    expected_[i] =
+        owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const ObjectLife& life) {
+          return life.key == owner && life.is_born();
+        });
   }
   background_ = &background;
   relative_ = &moving_.find(field, background, expected_);
   camera_moves_ = background.model.kind != ModelKind::kStill;
 
   if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
-    for (Life& life : lives_) life.is_proven = false;
+    for (ObjectLife& life : lives_) life.is_proven = false;
   }
   claim(frame);
   for (size_t i = 0; i < n; ++i) {
     const int16_t label = finder_.labels()[i];
     owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
   }
-  for (Life& life : lives_) {
+  for (ObjectLife& life : lives_) {
     if (life.is_seen()) {
       observe(life, frame);
     } else {
       miss(life, frame);
     }
   }
-  const auto is_over = [](const Life& life) {
+  const auto is_over = [](const ObjectLife& life) {
     return (!life.is_born() && !life.is_seen()) || life.since_s > kForgotten_s;
   };
   lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
 
   objects_.clear();
-  for (Life& life : lives_) {
+  for (ObjectLife& life : lives_) {
     if (!life.is_born() || life.is_layer) continue;
     if (life.object.id == 0) life.object.id = next_id_++;
     objects_.push_back(life.object);
-    if (life.state != State::kHidden) continue;
+    if (life.state != ObjectLife::State::kHidden) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
   }

@@ -182,9 +182,6 @@ class ObjectTracker {
   static constexpr size_t kMostObjects = 16;
 
  private:
-  using Life = ObjectLife;
-  using State = ObjectLife::State;
-
   /// Blocks on which an object was before, and which now do not clearly move by themselves.
   struct Remains {
     int blocks = 0;
@@ -192,23 +189,23 @@ class ObjectTracker {
   };
 
   void claim(const FieldInFrame& frame);
-  Life* owner_of(int16_t region);
-  Life* expected_at(const Region& region, const FieldInFrame& frame);
-  static bool remains_there(const Life& life, const Remains& remains);
-  bool is_enough(const Region& region, const Life* life, const BlockField& field) const;
+  ObjectLife* owner_of(int16_t region);
+  ObjectLife* expected_at(const Region& region, const FieldInFrame& frame);
+  static bool remains_there(const ObjectLife& life, const Remains& remains);
+  bool is_enough(const Region& region, const ObjectLife* life, const BlockField& field) const;
   uint32_t create(const Region& region);
-  bool has_vanished(const Life& life, const FieldInFrame& frame) const;
-  void observe(Life& life, const FieldInFrame& frame);
-  Remains remains_of(const Life& life, const BlockField& field) const;
-  void stay(Life& life, const FieldInFrame& frame);
-  void miss(Life& life, const FieldInFrame& frame);
+  bool has_vanished(const ObjectLife& life, const FieldInFrame& frame) const;
+  void observe(ObjectLife& life, const FieldInFrame& frame);
+  Remains remains_of(const ObjectLife& life, const BlockField& field) const;
+  void stay(ObjectLife& life, const FieldInFrame& frame);
+  void miss(ObjectLife& life, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
-  ObjectMotion measure(Life& life, const FieldInFrame& frame);
-  void turn(Life& life, const ObjectMotion& found, const FieldInFrame& frame);
-  void position(Life& life, const FieldInFrame& frame) const;
-  double noise_around(const Life& life);
+  ObjectMotion measure(ObjectLife& life, const FieldInFrame& frame);
+  void turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame);
+  void position(ObjectLife& life, const FieldInFrame& frame) const;
+  double noise_around(const ObjectLife& life);
 
   MovingBlocks moving_;
   RegionFinder finder_;
@@ -225,7 +222,7 @@ class ObjectTracker {
   std::vector<size_t> order_;               ///< regions, largest first
   std::vector<Eigen::Vector2f> around_px_;  ///< motion of blocks around an object
   Parallax parallax_;
-  std::vector<Life> lives_;
+  std::vector<ObjectLife> lives_;
   std::vector<MovingObject> objects_;
   uint32_t next_key_ = 1;
   uint32_t next_id_ = 1;

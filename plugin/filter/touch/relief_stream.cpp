@@ -160,7 +160,7 @@ bool ReliefStream::build(const ImageView& luma, int64_t shown_ns, const TouchPro
     const bool follows = depth_ns_ != INT64_MIN && shown_ns > depth_ns_;
     if (!follows) depth_.reset();
     const double dt_s = follows ? 1e-9 * static_cast<double>(shown_ns - depth_ns_) : 0;
-    if (!depth_.read(touch::depth_half(luma, *layout), {true}, dt_s) ||
+    if (!depth_.read(touch::depth_half(luma, *layout), {true, -1, -1, false}, dt_s) ||
         !builder_.from_levels(turned(depth_.levels()), settings, frame.relief)) {
       return false;
     }

@@ -3,7 +3,6 @@
 #include "plugin/window/program/model/timeline.h"
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -90,13 +89,13 @@ std::vector<double> Timeline::gain_curve(const ControllerSettings& settings, dou
                                          int points) const {
   std::vector<double> curve;
   try {
-    const std::unique_ptr<GainController> controller = make_controller(settings);
-    controller->force_N(largest_speed_px_s_);
+    GainController controller(settings);
+    controller.force_N(largest_speed_px_s_);
     for (const Moment& moment : plotted()) {
-      if (moment.interval_s > 0) controller->force_N({moment.speed_px_s, moment.interval_s});
+      if (moment.interval_s > 0) controller.force_N(moment.speed_px_s, moment.interval_s);
     }
     for (int i = 0; i < points; ++i) {
-      curve.push_back(controller->force_N(highest_px_s * i / std::max(points - 1, 1)));
+      curve.push_back(controller.force_N(highest_px_s * i / std::max(points - 1, 1)));
     }
   } catch (const std::invalid_argument&) {
     curve.clear();
