@@ -15,16 +15,6 @@ double fraction(double at_m, double half_m) {
   return std::min(std::max(0.5 + at_m / (2 * half_m), 0.0), 1.0);
 }
 
-}  // namespace
-
-GripPointer::GripPointer(const StringGeometry& geometry) : half_size_m_(half_picture_m(geometry)) {}
-
-Eigen::Vector2d GripPointer::position(const Eigen::Vector3d& position_m) const {
-  return {fraction(position_m.x(), half_size_m_.x()), fraction(-position_m.y(), half_size_m_.y())};
-}
-
-namespace {
-
 // In a picture 480 lines high.
 constexpr double kFinger_px = 11, kLeastProxy_px = 3, kMostProxy_px = 9;
 
@@ -34,24 +24,27 @@ double at_height_px(double at_480, double height_px) {
 
 }  // namespace
 
-Eigen::Vector2d TouchMap::position(const Eigen::Vector3d& position_m) const {
-  return turn.stored_position(pointer.position(position_m));
+GripPointer::GripPointer(const StringGeometry& geometry, const Orientation& turn)
+    : half_size_m_(half_picture_m(geometry)), turn_(turn) {}
+
+Eigen::Vector2d GripPointer::position(const Eigen::Vector3d& position_m) const {
+  return turn_.stored_position(
+      {fraction(position_m.x(), half_size_m_.x()), fraction(-position_m.y(), half_size_m_.y())});
 }
 
-Eigen::Vector2d TouchMap::position_m(const Eigen::Vector2d& position) const {
-  const Eigen::Vector2d in_picture = turn.displayed_position(position.cwiseMax(0.0).cwiseMin(1.0));
-  return {(2 * in_picture.x() - 1) * pointer.half_size_m().x(),
-          (1 - 2 * in_picture.y()) * pointer.half_size_m().y()};
+Eigen::Vector2d GripPointer::position_m(const Eigen::Vector2d& position) const {
+  const Eigen::Vector2d in_picture = turn_.displayed_position(position.cwiseMax(0.0).cwiseMin(1.0));
+  return {(2 * in_picture.x() - 1) * half_size_m_.x(), (1 - 2 * in_picture.y()) * half_size_m_.y()};
 }
 
 std::optional<TouchMark> touch_mark(const TouchScene& scene, const TickRecord& tick) {
   const bool runs = tick.device == DeviceState::kRunning || tick.device == DeviceState::kIdle;
   if (!scene.on || !runs) return std::nullopt;
   TouchMark mark;
-  mark.finger = scene.map.position(tick.pose.position_m);
+  mark.finger = scene.pointer.position(tick.pose.position_m);
   mark.touching = tick.contact.touching;
   if (mark.touching) {
-    mark.proxy = scene.map.position(tick.contact.proxy_m);
+    mark.proxy = scene.pointer.position(tick.contact.proxy_m);
     mark.force_N = tick.contact.force_N;
   }
   return mark;

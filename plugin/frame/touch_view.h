@@ -18,42 +18,35 @@ namespace spidar {
 /// plane, its middle at the workspace's centre, and its edges half of the way to the frame, that
 /// is, to the box that holds the exits of the strings: there the grip can still be held
 /// (docs/strings.md). Right is right, up is up, depth does not matter; turning the grip does not
-/// move the pointer.
+/// move the pointer. `turn` turns the picture before it is shown; positions are those of the
+/// picture before: (0, 0) is its top left corner, (1, 1) its bottom right one.
 class GripPointer {
  public:
   /// Nothing is known of a device: everything is the middle.
   GripPointer() = default;
-  explicit GripPointer(const StringGeometry& geometry);
+  explicit GripPointer(const StringGeometry& geometry, const Orientation& turn = {});
   /// See half_size_m().
-  explicit GripPointer(const Eigen::Vector2d& half_size_m) : half_size_m_(half_size_m) {}
+  GripPointer(const Eigen::Vector2d& half_size_m, const Orientation& turn)
+      : half_size_m_(half_size_m), turn_(turn) {}
 
-  /// (0, 0) is the top left corner of the picture, (1, 1) its bottom right one; a grip further out
-  /// points at the edge.
-  Eigen::Vector2d position(const Eigen::Vector3d& position_m) const;
-
-  /// Of the box that maps to the picture, in x and y.
-  const Eigen::Vector2d& half_size_m() const { return half_size_m_; }
-
- private:
-  Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
-};
-
-/// Maps between the device frame and the picture before it is turned.
-struct TouchMap {
-  GripPointer pointer;
-  Orientation turn = {};
-
-  /// Position in the picture, the analysed part of the frame: (0, 0) is its top left corner and (1,
-  /// 1) its bottom right one. Positions outside the picture are clamped to its edge.
+  /// A grip further out points at the edge.
   Eigen::Vector2d position(const Eigen::Vector3d& position_m) const;
   /// The inverse: x and y in the device frame.
   Eigen::Vector2d position_m(const Eigen::Vector2d& position) const;
+
+  /// Of the box that maps to the picture, in x and y.
+  const Eigen::Vector2d& half_size_m() const { return half_size_m_; }
+  const Orientation& turn() const { return turn_; }
+
+ private:
+  Eigen::Vector2d half_size_m_ = Eigen::Vector2d::Zero();
+  Orientation turn_;
 };
 
 /// The touchable surface of one frame.
 struct TouchScene {
   bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
-  TouchMap map;
+  GripPointer pointer;
   double stiffness_N_m = 0;    ///< rendered stiffness
   double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
   /// touch::HeightField::shading() of the picture as it is shown; empty: nobody looks at it.

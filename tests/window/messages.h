@@ -38,7 +38,7 @@ inline window::FrameShown some_frame() {
   report.click = 2;
   report.track = std::make_shared<const std::string>("/film.haptic.flac");
   report.touch.on = true;
-  report.touch.map = {GripPointer(Eigen::Vector2d(0.03, 0.02)), Orientation(1)};
+  report.touch.pointer = {Eigen::Vector2d(0.03, 0.02), Orientation(1)};
   report.touch.stiffness_N_m = 300;
   report.touch.shading.assign(touch::HeightField::kCells, 'a');
   return frame;

@@ -76,7 +76,7 @@ TEST(Messages, HaveWhatIsDrawn) {
   EXPECT_EQ(frame.report.frame.objects.at(0).points, 12);
   EXPECT_EQ(frame.report.turn.to_displayed(Eigen::Vector2d(1, 0)),
             Orientation(3, true).to_displayed(Eigen::Vector2d(1, 0)));
-  EXPECT_EQ(frame.report.touch.map.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
+  EXPECT_EQ(frame.report.touch.pointer.half_size_m(), Eigen::Vector2d(0.03, 0.02));
   EXPECT_EQ(frame.report.touch.shading, some_frame().report.touch.shading);
   EXPECT_EQ(frame.report.speed_px_s, 321);
   EXPECT_EQ(*frame.report.track, "/film.haptic.flac");

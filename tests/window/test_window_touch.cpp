@@ -20,18 +20,18 @@ constexpr double kRounding = 1e-12;
 const window::Rect kPicture{100, 50, 400, 200};
 
 /// 59 mm × 64 mm.
-TouchMap gcc_map() {
-  return {GripPointer(load_profile("spidar-gcc").geometry)};
+GripPointer gcc_pointer() {
+  return GripPointer(load_profile("spidar-gcc").geometry);
 }
 
-TEST(TouchMap, PlaceAndPositionAreEachOthersReverse) {
-  const TouchMap map = gcc_map();
-  EXPECT_LT((map.position({0, 0, 0.01}) - Eigen::Vector2d(0.5, 0.5)).norm(), kRounding);
+TEST(GripPointer, PlaceAndPositionAreEachOthersReverse) {
+  const GripPointer pointer = gcc_pointer();
+  EXPECT_LT((pointer.position({0, 0, 0.01}) - Eigen::Vector2d(0.5, 0.5)).norm(), kRounding);
   const Eigen::Vector3d at_m(0.0295 / 2, 0.032 / 2, 0.003);  // to the right and up
-  const Eigen::Vector2d position = map.position(at_m);
+  const Eigen::Vector2d position = pointer.position(at_m);
   EXPECT_LT((position - Eigen::Vector2d(0.75, 0.25)).norm(), kRounding);
-  EXPECT_LT((map.position_m(position) - at_m.head<2>()).norm(), kRounding);
-  EXPECT_LT((map.position_m({2, -1}) - Eigen::Vector2d(0.0295, 0.032)).norm(), kRounding)
+  EXPECT_LT((pointer.position_m(position) - at_m.head<2>()).norm(), kRounding);
+  EXPECT_LT((pointer.position_m({2, -1}) - Eigen::Vector2d(0.0295, 0.032)).norm(), kRounding)
       << "not beyond the picture";
 }
 
@@ -42,7 +42,7 @@ TEST(TouchMark, IsWhereTheGripAndTheProxyAre) {
   tick.pose.position_m = {0.0295 / 2, 0, -0.002};
   EXPECT_FALSE(touch_mark(scene, tick)) << "touch=off";
   scene.on = true;
-  scene.map = gcc_map();
+  scene.pointer = gcc_pointer();
   ASSERT_TRUE(touch_mark(scene, tick));
   EXPECT_FALSE(touch_mark(scene, tick)->touching);
   EXPECT_LT((touch_mark(scene, tick)->finger - Eigen::Vector2d(0.75, 0.5)).norm(), kRounding);
@@ -60,62 +60,63 @@ TEST(TouchMark, IsWhereTheGripAndTheProxyAre) {
 
 TEST(MouseHand, HoldsTheGripWhereItIsPressedUntilItIsReleased) {
   window::MouseHand hand;
-  const TouchMap map = gcc_map();
+  const GripPointer pointer = gcc_pointer();
   window::Mouse mouse;
   mouse.at_px = {400, 100};  // three quarters from the left, a quarter from the top
-  EXPECT_FALSE(hand.update(mouse, kPicture, map)) << "nothing is pressed";
+  EXPECT_FALSE(hand.update(mouse, kPicture, pointer)) << "nothing is pressed";
   EXPECT_TRUE(hand.is_over());
   mouse.down = true;
-  auto to_m = hand.update(mouse, kPicture, map);
+  auto to_m = hand.update(mouse, kPicture, pointer);
   ASSERT_TRUE(to_m);
   EXPECT_LT((*to_m - Eigen::Vector3d(0.0295 / 2, 0.032 / 2, 0)).norm(), kRounding);
   mouse.at_px = {1000, 150};  // dragged out of the picture: its edge
-  to_m = hand.update(mouse, kPicture, map);
+  to_m = hand.update(mouse, kPicture, pointer);
   ASSERT_TRUE(to_m);
   EXPECT_LT((*to_m - Eigen::Vector3d(0.0295, 0, 0)).norm(), kRounding);
   mouse.at_px.setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(hand.update(mouse, kPicture, map), to_m) << "the mouse has left the window";
+  EXPECT_EQ(hand.update(mouse, kPicture, pointer), to_m) << "the mouse has left the window";
   mouse.down = false;
-  EXPECT_FALSE(hand.update(mouse, kPicture, map));
+  EXPECT_FALSE(hand.update(mouse, kPicture, pointer));
 }
 
 TEST(MouseHand, BeginsInThePictureOnlyAndNotOnAWidget) {
   window::MouseHand hand;
-  const TouchMap map = gcc_map();
+  const GripPointer pointer = gcc_pointer();
   window::Mouse mouse;
   mouse.down = true;
   mouse.at_px = {99, 100};
-  EXPECT_FALSE(hand.update(mouse, kPicture, map));
+  EXPECT_FALSE(hand.update(mouse, kPicture, pointer));
   mouse.at_px = {300, 100};
-  EXPECT_FALSE(hand.update(mouse, kPicture, map)) << "pressed outside and dragged in";
+  EXPECT_FALSE(hand.update(mouse, kPicture, pointer)) << "pressed outside and dragged in";
   mouse.down = false;
-  hand.update(mouse, kPicture, map);
+  hand.update(mouse, kPicture, pointer);
   mouse.down = mouse.taken = true;
-  EXPECT_FALSE(hand.update(mouse, kPicture, map));
+  EXPECT_FALSE(hand.update(mouse, kPicture, pointer));
   mouse.wheel = 4;
-  hand.update(mouse, kPicture, map);
+  hand.update(mouse, kPicture, pointer);
   EXPECT_EQ(hand.z_m(), 0) << "the wheel is the widget's, too";
 }
 
 TEST(MouseHand, WheelAndShiftMoveItDeeperAndNearer) {
   window::MouseHand hand;
-  const TouchMap map = gcc_map();
+  const GripPointer pointer = gcc_pointer();
   window::Mouse mouse;
   mouse.at_px = {300, 150};
   mouse.down = true;
   mouse.wheel = 3;  // away from the user
-  auto to_m = hand.update(mouse, kPicture, map);
+  auto to_m = hand.update(mouse, kPicture, pointer);
   ASSERT_TRUE(to_m);
   EXPECT_NEAR(to_m->z(), -3 * window::MouseHand::kNotch_m, kRounding);
   mouse.wheel = 0;
   mouse.shift = true;
   mouse.at_px = {310, 130};  // a tenth of the picture up, of 64 mm
-  to_m = hand.update(mouse, kPicture, map);
+  to_m = hand.update(mouse, kPicture, pointer);
   ASSERT_TRUE(to_m);
   EXPECT_NEAR(to_m->z(), -3 * window::MouseHand::kNotch_m - 0.0064, kRounding);
   EXPECT_LT(to_m->head<2>().norm(), kRounding) << "where it was";
   mouse.wheel = -1000;
-  EXPECT_NEAR(hand.update(mouse, kPicture, map)->z(), window::MouseHand::kFurthest_m, kRounding);
+  EXPECT_NEAR(hand.update(mouse, kPicture, pointer)->z(), window::MouseHand::kFurthest_m,
+              kRounding);
   hand.let_go();
   EXPECT_NEAR(hand.z_m(), window::MouseHand::kFurthest_m, kRounding) << "the depth stays";
 }

@@ -38,7 +38,7 @@ window::ElementState touching_state() {
 DrawnFrame touched_facts(const StringGeometry& geometry) {
   DrawnFrame report;
   report.touch.on = true;
-  report.touch.map = {GripPointer(geometry)};
+  report.touch.pointer = GripPointer(geometry);
   return report;
 }
 

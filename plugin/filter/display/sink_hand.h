@@ -26,7 +26,7 @@ class SinkHand {
     if (!touched) return let_go();
     const std::lock_guard<std::mutex> lock(mutex_);
     touched_ = true;
-    map_ = report.touch.map;
+    pointer_ = report.touch.pointer;
     const double w = width, h = height;
     const VisiblePart& part = report.visible;
     picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
@@ -40,7 +40,7 @@ class SinkHand {
     mouse_.wheel = mouse.wheel;
     if (mouse.act == SinkMouse::Act::kPress) mouse_.down = true;
     if (mouse.act == SinkMouse::Act::kRelease) mouse_.down = false;
-    return output_.lead_hand(hand_.update(mouse_, picture_, map_));
+    return output_.lead_hand(hand_.update(mouse_, picture_, pointer_));
   }
   void let_go() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -54,7 +54,7 @@ class SinkHand {
   HapticOutput& output_;
   std::mutex mutex_;
   bool touched_ = false;
-  TouchMap map_;
+  GripPointer pointer_;
   window::Rect picture_;  ///< what is touched, as fractions of the frame
   window::Mouse mouse_;   ///< its position is a fraction of the frame, too
   window::MouseHand hand_;

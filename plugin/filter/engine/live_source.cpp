@@ -33,7 +33,7 @@ void touch_frame(const PassingFrame& passing, const ImageView& luma, int64_t sho
               passing.settings.display.debug_window ? &report.touch.shading : nullptr);
   if (!on || !session) return;
   report.touch.on = true;
-  report.touch.map = {GripPointer(output.profile().geometry), report.turn};
+  report.touch.pointer = GripPointer(output.profile().geometry, report.turn);
   report.touch.stiffness_N_m = contact_settings(touch, output.profile()).stiffness_N_m;
   report.touch.motion_fraction = touch.motion_fraction;
 }

@@ -136,8 +136,8 @@ void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
     hand_.let_go();
     return link_.lead_hand(std::nullopt);
   }
-  const TouchMap map{GripPointer(state_.device->geometry), report_.turn};
-  link_.lead_hand(hand_.update(mouse, picture, map));
+  const GripPointer pointer(state_.device->geometry, report_.turn);
+  link_.lead_hand(hand_.update(mouse, picture, pointer));
 }
 
 /// The wheel shows more or less of the last seconds.

@@ -187,13 +187,13 @@ void transfer(Wire& wire, ControllerSettings& controller) {
 
 template <typename Wire>
 void transfer(Wire& wire, TouchScene& touch) {
-  Eigen::Vector2d half_size_m = touch.map.pointer.half_size_m();
-  wire(touch.on, half_size_m, touch.map.turn, touch.stiffness_N_m, touch.motion_fraction,
-       touch.shading);
+  Eigen::Vector2d half_size_m = touch.pointer.half_size_m();
+  Orientation turn = touch.pointer.turn();
+  wire(touch.on, half_size_m, turn, touch.stiffness_N_m, touch.motion_fraction, touch.shading);
   if (!touch.shading.empty() && touch.shading.size() != touch::HeightField::kCells) {
     return wire.fail();
   }
-  if constexpr (Wire::kReads) touch.map.pointer = GripPointer(half_size_m);
+  if constexpr (Wire::kReads) touch.pointer = {half_size_m, turn};
 }
 
 /// What is shown of it.

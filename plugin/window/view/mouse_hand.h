@@ -36,7 +36,7 @@ class MouseHand {
   /// Returns the target of the hand in the device frame, or nothing while the hand is released.
   /// `picture` is the part of the window that shows the visible part of the frame.
   std::optional<Eigen::Vector3d> update(const Mouse& mouse, const Rect& picture,
-                                        const TouchMap& map) {
+                                        const GripPointer& pointer) {
     over_ = picture.has(mouse.at_px) && !mouse.taken;
     const bool begins = mouse.down && !was_down_ && over_;
     was_down_ = mouse.down;
@@ -50,13 +50,13 @@ class MouseHand {
       } else {
         // The same mouse travel moves the hand as far in depth as it would in the picture.
         const double up = (last_px_.y() - mouse.at_px.y()) / picture.height;
-        deeper_m += up * 2 * map.pointer.half_size_m().y();
+        deeper_m += up * 2 * pointer.half_size_m().y();
       }
       last_px_ = mouse.at_px;
     }
     z_m_ = std::clamp(z_m_ - deeper_m, -kFurthest_m, kFurthest_m);
     if (!holds_) return std::nullopt;
-    const Eigen::Vector2d at_m = map.position_m(position_);
+    const Eigen::Vector2d at_m = pointer.position_m(position_);
     return Eigen::Vector3d(at_m.x(), at_m.y(), z_m_);
   }
   void let_go() { *this = MouseHand(z_m_); }
