@@ -86,10 +86,6 @@ void describe_session(const HapticSession& session, GstStructure* structure) {
                     not_negative(link.round_trip_p99_ns), nullptr);
 }
 
-int64_t monotonic_now(void*) {
-  return HapticSession::monotonic_now_ns();
-}
-
 /// `simulated`: the device "sim", otherwise null. If a test makes the ticks, only these move its
 /// grip, so that the speed of the test does not matter.
 std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, bool threaded,
@@ -133,9 +129,8 @@ HapticOutput::HapticOutput(GstElement* element, std::function<void()> refreshed)
 
 HapticOutput::~HapticOutput() = default;
 
-void HapticOutput::set_manual(PlaybackSync::Now now, void* user) {
-  now_ = now;
-  now_user_ = user;
+void HapticOutput::set_manual(std::function<int64_t()> now) {
+  now_ = std::move(now);
 }
 
 std::string HapticOutput::open(const std::string& device, const std::string& profile_name,
@@ -175,7 +170,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
   settings.trace_path = haptic_trace;
-  settings.threaded = now_ == nullptr;
+  settings.threaded = !now_;
   SimulatedDevice* simulated = nullptr;
   const auto make_session = [&] {
     return std::make_unique<HapticSession>(grip_for(device, profile, settings.threaded, simulated),
@@ -197,7 +192,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
         loop.set_playback_clock(clock);
         refreshed_();
       },
-      now_ ? now_ : monotonic_now, now_user_, settings.threaded);
+      now_ ? now_ : HapticSession::monotonic_now_ns, settings.threaded);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const Grip& grip = session->grip();

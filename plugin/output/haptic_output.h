@@ -31,7 +31,7 @@ class HapticOutput {
 
   /// Tests only, before open(): `now` stands for CLOCK_MONOTONIC, the loop waits to be ticked, and
   /// each tick is a millisecond for the device "sim".
-  void set_manual(PlaybackSync::Now now, void* user);
+  void set_manual(std::function<int64_t()> now);
 
   /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the one that
   /// the device has without. Throws ProfileError, DeviceError, std::runtime_error, and NoProfile
@@ -72,8 +72,7 @@ class HapticOutput {
 
   GstElement* const element_;
   const std::function<void()> refreshed_;
-  PlaybackSync::Now now_ = nullptr;
-  void* now_user_ = nullptr;
+  std::function<int64_t()> now_;                  ///< of set_manual(); null: CLOCK_MONOTONIC
   mutable std::mutex mutex_;                      ///< state changes against any thread
   std::unique_ptr<CardReservation> reservation_;  ///< of the session's card
   std::unique_ptr<HapticSession> session_;

@@ -94,11 +94,11 @@ GstClockTimeDiff PresentationDelay::value_ns() const {
 }
 
 void PlaybackFollower::begin(std::function<void(const PlaybackClock&)> publish,
-                             PlaybackSync::Now now, void* now_user, bool threaded) {
+                             std::function<int64_t()> now, bool threaded) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (threaded) thread_ = start_thread("spidar-clock", [this] { run(); });
   publish_ = std::move(publish);
-  sync_ = PlaybackSync(now, now_user);
+  sync_ = PlaybackSync(std::move(now));
   refresh_locked();
 }
 

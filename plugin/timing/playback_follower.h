@@ -61,8 +61,8 @@ class PlaybackFollower {
 
   /// A device begins to follow playback, which is not playing yet. `now` as in PlaybackSync.
   /// Without a thread the owner calls refresh().
-  void begin(std::function<void(const PlaybackClock&)> publish, PlaybackSync::Now now,
-             void* now_user, bool threaded);
+  void begin(std::function<void(const PlaybackClock&)> publish, std::function<int64_t()> now,
+             bool threaded);
   /// Publishes nothing any more.
   void end();
 
@@ -86,7 +86,7 @@ class PlaybackFollower {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void(const PlaybackClock&)> publish_;  ///< null: there is no device
-  PlaybackSync sync_{nullptr, nullptr};
+  PlaybackSync sync_{nullptr};
   PresentationDelay delay_;
   bool sink_outdated_ = false;
   GstClockTimeDiff offset_ns_ = 0;

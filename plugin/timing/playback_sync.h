@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
+#include <utility>
 
 #include <gst/gst.h>
 
@@ -25,10 +27,8 @@ namespace spidar {
 /// Not thread-safe: the owner holds one lock around it.
 class PlaybackSync {
  public:
-  using Now = int64_t (*)(void* user);
-
   /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's idea of it.
-  PlaybackSync(Now now, void* user) : now_(now), now_user_(user) {}
+  explicit PlaybackSync(std::function<int64_t()> now) : now_(std::move(now)) {}
 
   /// Between PAUSED→PLAYING and PLAYING→PAUSED.
   void set_playing(bool playing) {
@@ -43,7 +43,7 @@ class PlaybackSync {
   void expect_base_time(GstElement* element) {
     constexpr int64_t kPatience_ns = 3'000'000'000;
     outdated_base_time_ = gst_element_get_base_time(element);
-    outdated_until_ns_ = now_(now_user_) + kPatience_ns;
+    outdated_until_ns_ = now_() + kPatience_ns;
   }
 
   /// By how much the force comes later than the running time of its frame; signed.
@@ -62,12 +62,12 @@ class PlaybackSync {
     const Ref<GstClock> clock(playing_ ? gst_element_get_clock(element) : nullptr);
     // Not playing: there must be no force.
     if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) return result;
-    const int64_t before_ns = now_(now_user_);
+    const int64_t before_ns = now_();
     if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) return result;
     outdated_base_time_ = GST_CLOCK_TIME_NONE;
     follow(clock.get());
     const GstClockTime time = gst_clock_get_time(clock.get());
-    const int64_t after_ns = now_(now_user_);
+    const int64_t after_ns = now_();
 
     // If this thread was interrupted during a reading, the time of the reading is uncertain.
     constexpr int64_t kMaxReading_ns = 200 * 1000;
@@ -167,8 +167,7 @@ class PlaybackSync {
     watched_clock_ns_ = clock_ns;
   }
 
-  Now now_;
-  void* now_user_;
+  std::function<int64_t()> now_;
   bool playing_ = false;
   GstClockTime outdated_base_time_ = GST_CLOCK_TIME_NONE;
   int64_t outdated_until_ns_ = 0;

@@ -23,17 +23,13 @@ constexpr int kFrame_ms = 40;
 constexpr int kFrames = 30;  // more than the second that is evaluated
 constexpr int kOpened_ms = 300;
 
-inline int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 /// Grey levels of a frame: by column, row and number of the frame.
 using GreyLevels = std::function<int(int, int, int)>;
 
 class NoForceReasonTest : public testing::Test {
  protected:
   void open(const std::string& properties) {
-    h = std::make_unique<ElementHarness>(properties, read_time, &time_ns);
+    h = std::make_unique<ElementHarness>(properties, [this] { return time_ns; });
     h->set_caps(make_caps("GRAY8", kWidth, kHeight));
   }
 

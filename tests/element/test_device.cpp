@@ -20,15 +20,11 @@ namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 /// An element on the simulated device, its loop ticked by hand.
 class DeviceTest : public testing::Test {
  protected:
   void open(const std::string& properties) {
-    h = std::make_unique<ElementHarness>(properties, read_time, &time_ns);
+    h = std::make_unique<ElementHarness>(properties, [this] { return time_ns; });
     h->set_caps(make_caps("GRAY8", 320, 240));
   }
 

@@ -13,14 +13,10 @@
 namespace spidar::test::device_view_test {
 namespace {
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 /// Between two pictures of a screen lie some sixteen ticks.
 TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   int64_t time_ns = 1'000'000'000;
-  ElementHarness h("device=sim motion=mean", read_time, &time_ns);
+  ElementHarness h("device=sim motion=mean", [&] { return time_ns; });
   h.set_caps(make_caps("GRAY8", 320, 240));
   HapticOutput& output = h.state().output;
   HapticLoop& loop = output.session()->loop();

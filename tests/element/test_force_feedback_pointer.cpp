@@ -18,10 +18,6 @@ namespace {
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr int kWidth = 320, kHeight = 240;
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 class StickTest : public testing::Test {
  protected:
   StickTest() : scene(kWidth, kHeight) {
@@ -35,7 +31,8 @@ class StickTest : public testing::Test {
 
   void open(const std::string& properties) {
     h.reset();
-    h = std::make_unique<ElementHarness>(properties + " motion=objects", read_time, &time_ns);
+    h = std::make_unique<ElementHarness>(properties + " motion=objects",
+                                         [this] { return time_ns; });
     h->set_caps(make_caps("GRAY8", kWidth, kHeight));
     for (int ms = 0; ms < 300; ++ms) tick();  // strings are taut
   }

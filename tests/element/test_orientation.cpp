@@ -99,15 +99,11 @@ TEST(Orientation, PlacesAreTurnedThereAndBack) {
   }
 }
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 /// The force on a grip that is pressed into the middle of a frame that becomes brighter to the
 /// right and downwards, and is shown in this orientation.
 Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
   int64_t time_ns = 1'000'000'000;
-  ElementHarness h("device=sim touch=luma touch-friction=0", read_time, &time_ns);
+  ElementHarness h("device=sim touch=luma touch-friction=0", [&] { return time_ns; });
   h.set_caps(make_caps("GRAY8", width, height));
   const auto tick = [&](int count) {
     for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);

@@ -95,16 +95,12 @@ TEST(OverlayElement, DrawsWithinTheVisiblePart) {
   }
 }
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
   for (const bool touching : {false, true}) {
     int64_t time_ns = 1'000'000'000;
     ElementHarness h(
         touching ? "device=sim overlay=points touch=luma" : "device=sim overlay=points touch=off",
-        read_time, &time_ns);
+        [&] { return time_ns; });
     h.set_caps(make_caps("GRAY8", 320, 240));
     for (int tick = 0; tick < 300; ++tick) h.tick(time_ns += kTick_ns);  // until the device runs
     GstBuffer* frame = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);

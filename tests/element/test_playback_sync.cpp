@@ -21,7 +21,7 @@ struct Sync : testing::Test {
   Sync()
       : clock((init_gstreamer(), gst_test_clock_new())),
         element(GST_ELEMENT(gst_object_ref_sink(gst_bin_new(nullptr)))),
-        sync([](void* t) { return *static_cast<int64_t*>(t); }, &monotonic_ns) {
+        sync([this] { return monotonic_ns; }) {
     gst_element_set_clock(element, clock);
     gst_element_set_base_time(element, 5 * GST_SECOND);
   }

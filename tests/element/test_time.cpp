@@ -304,10 +304,6 @@ TEST_F(Time, FallingTimestampsRestart) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
   // The undefined-behaviour sanitizer has the last word here. What is at most 73 years is felt.
   constexpr GstClockTime k73Years = GstClockTime{1} << 61;
@@ -315,7 +311,7 @@ TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
        {k73Years, GstClockTime{1} << 62, GstClockTime{G_MAXINT64}, GST_CLOCK_TIME_NONE - 1}) {
     SCOPED_TRACE(border);
     int64_t now_ns = 1'000'000'000;
-    ElementHarness h("device=sim", read_time, &now_ns);
+    ElementHarness h("device=sim", [&] { return now_ns; });
     h.set_caps(make_caps("GRAY8", 64, 48));
     const GstClockTime base = border - 2 * kFrame;
     const auto send_segment = [&h](double rate, GstClockTime segment_base, GstClockTime start) {

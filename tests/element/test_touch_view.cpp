@@ -17,13 +17,9 @@
 namespace spidar::test::touch_view_test {
 namespace {
 
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   int64_t time_ns = 1'000'000'000;
-  ElementHarness h("device=sim touch=luma touch-stiffness=400", read_time, &time_ns);
+  ElementHarness h("device=sim touch=luma touch-stiffness=400", [&] { return time_ns; });
   h.set_caps(make_caps("GRAY8", 320, 240));
   const auto tick = [&](int count) {
     for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);

@@ -29,7 +29,7 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
   inbox_ = std::make_unique<MessageInbox>(pipeline_);
   state_ = &gst_spidar_motion_state(GST_SPIDAR_MOTION(element_));
-  state_->output.set_manual(monotonic_ns, this);
+  state_->output.set_manual([this] { return monotonic_ns(); });
   GstPad* pad = gst_element_get_static_pad(sink_, "sink");
   const auto take = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
     GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
@@ -57,9 +57,8 @@ SteppedPipeline::~SteppedPipeline() {
   gst_object_unref(clock_);
 }
 
-int64_t SteppedPipeline::monotonic_ns(void* self) {
-  const auto* pipeline = static_cast<SteppedPipeline*>(self);
-  return static_cast<int64_t>(pipeline->now()) + pipeline->monotonic_less_clock_ns_;
+int64_t SteppedPipeline::monotonic_ns() const {
+  return static_cast<int64_t>(now()) + monotonic_less_clock_ns_;
 }
 
 void SteppedPipeline::wait_for_state() {
@@ -113,7 +112,7 @@ void SteppedPipeline::step_frames(guint64 count) {
 
 void SteppedPipeline::replace_clock(GstClockTime start) {
   set_state(GST_STATE_PAUSED);
-  const int64_t monotonic = monotonic_ns(this);
+  const int64_t monotonic = monotonic_ns();
   gst_object_unref(clock_);
   clock_ = GST_TEST_CLOCK(gst_test_clock_new_with_start_time(start));
   monotonic_less_clock_ns_ = monotonic - static_cast<int64_t>(start);
@@ -141,7 +140,7 @@ HapticLoop& SteppedPipeline::loop() {
 
 TickRecord SteppedPipeline::tick() {
   ticked_ = now();
-  return watch_.tick(loop(), monotonic_ns(this));
+  return watch_.tick(loop(), monotonic_ns());
 }
 
 GstClockTime SteppedPipeline::await(guint waiters) {

@@ -92,7 +92,7 @@ class SteppedPipeline {
   void take(GstMessage* message);
 
   /// Time for the haptic loop; continues when the pipeline's clock is replaced.
-  static int64_t monotonic_ns(void* self);
+  int64_t monotonic_ns() const;
 
   GstTestClock* clock_;
   int64_t monotonic_less_clock_ns_ = 0;

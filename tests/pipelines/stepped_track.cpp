@@ -14,8 +14,8 @@ namespace {
 // Any time will do that is not zero: a base time of zero would hide a forgotten one.
 constexpr GstClockTime kTrackStart = 1000 * GST_SECOND;
 
-int64_t now_of(void* clock) {
-  return static_cast<int64_t>(gst_clock_get_time(static_cast<GstClock*>(clock)));
+int64_t now_of(GstTestClock* clock) {
+  return static_cast<int64_t>(gst_clock_get_time(GST_CLOCK(clock)));
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ SteppedTrack::SteppedTrack(const std::string& properties, const std::string& cap
   begin_segment(1, 0, GST_CLOCK_TIME_NONE);
   bus_ = gst_element_get_bus(pipeline_);
   output_ = &gst_spidar_sink_output(GST_SPIDAR_SINK(sink_));
-  output_->set_manual(now_of, clock_);
+  output_->set_manual([this] { return now_of(clock_); });
 }
 
 SteppedTrack::~SteppedTrack() {

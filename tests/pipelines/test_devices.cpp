@@ -19,10 +19,7 @@ class OtherElement {
  public:
   OtherElement(SteppedPipeline& pipeline, const char* name) : pipeline_(pipeline) {
     element_ = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), name);
-    const auto now = [](void* user) {
-      return static_cast<int64_t>(static_cast<SteppedPipeline*>(user)->now());
-    };
-    state().output.set_manual(now, &pipeline);
+    state().output.set_manual([&pipeline] { return static_cast<int64_t>(pipeline.now()); });
   }
   ~OtherElement() { gst_object_unref(element_); }
   OtherElement(const OtherElement&) = delete;

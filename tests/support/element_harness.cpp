@@ -47,18 +47,15 @@ MotionMessage parse_motion_message(GstMessage* message) {
   return m;
 }
 
-ElementHarness::ElementHarness(const std::string& properties)
-    : ElementHarness(properties, nullptr, nullptr) {}
-
 // What is felt of a frame is then a plain function of that frame.
 static const std::string kPaper = "spidarmotion motion=mean filter-min-cutoff=0 ";
 
-ElementHarness::ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user) {
+ElementHarness::ElementHarness(const std::string& properties, std::function<int64_t()> now) {
   init_gstreamer();
   GError* error = nullptr;
   GstElement* element = gst_parse_launch((kPaper + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
-  gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).output.set_manual(now, user);
+  gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).output.set_manual(std::move(now));
   bus_ = gst_bus_new();
   gst_element_set_bus(element, bus_);
   harness_ = gst_harness_new_with_element(element, "sink", "src");

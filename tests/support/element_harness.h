@@ -3,6 +3,7 @@
 /// A spidarmotion in a GstHarness, and its output.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,10 @@ MotionMessage parse_motion_message(GstMessage* message);
 /// the paper: motion=mean without a filter.
 class ElementHarness {
  public:
-  /// `properties` as in a launch line, e.g. "device=none alpha=0.02".
-  explicit ElementHarness(const std::string& properties = "device=none");
-  /// `now` replaces CLOCK_MONOTONIC, and the haptic loop is ticked by the test.
-  ElementHarness(const std::string& properties, PlaybackSync::Now now, void* user);
+  /// `properties` as in a launch line, e.g. "device=none alpha=0.02". `now` replaces
+  /// CLOCK_MONOTONIC, and the haptic loop is ticked by the test.
+  explicit ElementHarness(const std::string& properties = "device=none",
+                          std::function<int64_t()> now = nullptr);
   ~ElementHarness();
 
   void set_caps(GstCaps* caps);  // takes them

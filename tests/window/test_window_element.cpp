@@ -22,10 +22,6 @@ namespace spidar::test::window_element_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
-int64_t read_time(void* time) {
-  return *static_cast<int64_t*>(time);
-}
-
 class WindowElement : public WindowTest {
  protected:
   void TearDown() override {
@@ -33,7 +29,7 @@ class WindowElement : public WindowTest {
   }
 
   void open(const std::string& properties) {
-    h = std::make_unique<ElementHarness>(properties, read_time, &time_ns);
+    h = std::make_unique<ElementHarness>(properties, [this] { return time_ns; });
     h->set_caps(make_caps("I420", 320, 240));
   }
 
