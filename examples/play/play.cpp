@@ -282,7 +282,7 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kMistake;
-  } catch (const spidar::PropertyError& error) {
+  } catch (const spidar::tools::UsageError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return kMistake;
   } catch (const std::exception& error) {

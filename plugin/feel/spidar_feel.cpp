@@ -58,12 +58,12 @@ void check_device(GObject* element) {
       load_profile(profile);
     }
   } catch (const std::exception& error) {
-    throw PropertyError(error.what());
+    throw tools::UsageError(error.what());
   }
 }
 
 /// `properties` are of the form NAME=VALUE, or preset=NAME; `element` is a spidarmotion in the
-/// state NULL. Opens no device, so one that is not plugged in is no error. Throws PropertyError,
+/// state NULL. Opens no device, so one that is not plugged in is no error. Throws UsageError,
 /// which says what is wrong and what would be right, for an unknown property, a value that the
 /// property does not take, a name that no device has, and a profile that cannot be read or does not
 /// suit the device.
@@ -227,7 +227,7 @@ void check(const std::vector<std::string>& properties) {
   if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
   try {
     spidar::check_properties(element.get(), properties);
-  } catch (const spidar::PropertyError& error) {
+  } catch (const spidar::tools::UsageError& error) {
     fail(kUsage, error.what());
   }
 }

@@ -75,26 +75,27 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
   property_ = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name.c_str());
   const bool is_property = property_ && (property_->flags & G_PARAM_WRITABLE);
   if (!is_property && equals == std::string::npos) {
-    throw PropertyError(text + ": is not PROPERTY=VALUE, such as max-force=2");
+    throw tools::UsageError(text + ": is not PROPERTY=VALUE, such as max-force=2");
   }
   if (!is_property) {
-    throw PropertyError("spidarmotion has no property \"" + name + "\" that can be set" +
-                        meant(name, names_of_properties(element)) +
-                        "; gst-inspect-1.0 spidarmotion lists them");
+    throw tools::UsageError("spidarmotion has no property \"" + name + "\" that can be set" +
+                            meant(name, names_of_properties(element)) +
+                            "; gst-inspect-1.0 spidarmotion lists them");
   }
   if (equals == std::string::npos) {
-    throw PropertyError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
-                        values_of(property_) + unit(property_));
+    throw tools::UsageError(name + ": has no value; type " + name + "=VALUE, where VALUE is " +
+                            values_of(property_) + unit(property_));
   }
   const std::string value = text.substr(equals + 1);
-  if (value.find('\n') != std::string::npos) throw PropertyError(name + ": a value is one line");
+  if (value.find('\n') != std::string::npos)
+    throw tools::UsageError(name + ": a value is one line");
   g_value_init(&value_, property_->value_type);
   const bool understood = gst_value_deserialize_with_pspec(&value_, value.c_str(), property_);
   // Clamps values that are out of range.
   if (understood && !g_param_value_validate(property_, &value_)) return;
   g_value_unset(&value_);
-  throw PropertyError(name + ": \"" + value + "\" is not " + values_of(property_) +
-                      unit(property_));
+  throw tools::UsageError(name + ": \"" + value + "\" is not " + values_of(property_) +
+                          unit(property_));
 }
 
 std::string TypedProperty::canonical_value() const {
@@ -120,10 +121,10 @@ void load_preset(GstElement* element, const std::string& name) {
   const std::string list = known ? known : "";
   g_free(known);
   g_strfreev(names);
-  throw PropertyError("there is no preset \"" + name + "\"; " +
-                      (list.empty() ? "none is found: GST_PRESET_PATH names the folder of "
-                                      "GstSpidarMotion.prs"
-                                    : "known are " + list));
+  throw tools::UsageError("there is no preset \"" + name + "\"; " +
+                          (list.empty() ? "none is found: GST_PRESET_PATH names the folder of "
+                                          "GstSpidarMotion.prs"
+                                        : "known are " + list));
 }
 
 }  // namespace spidar

@@ -4,23 +4,19 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <gst/gst.h>
 
-namespace spidar {
+#include "spidar/tools/command_line.h"
 
-class PropertyError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace spidar {
 
 /// A property and the value for it. Sets nothing.
 class TypedProperty {
  public:
-  /// `element` is a spidarmotion. Throws PropertyError, which says what is wrong and what would be
-  /// right, for an unknown property and a value that it does not take.
+  /// `element` is a spidarmotion. Throws tools::UsageError, which says what is wrong and what would
+  /// be right, for an unknown property and a value that it does not take.
   TypedProperty(GObject* element, const std::string& text);
   ~TypedProperty() { g_value_unset(&value_); }
   TypedProperty(const TypedProperty&) = delete;
@@ -41,7 +37,7 @@ class TypedProperty {
 /// The name in `preset=NAME`; nothing if `text` is not that.
 std::optional<std::string> preset_of(const std::string& text);
 
-/// Loads a preset of `element`. Throws PropertyError, which names those that there are.
+/// Loads a preset of `element`. Throws tools::UsageError, which names those that there are.
 void load_preset(GstElement* element, const std::string& name);
 
 }  // namespace spidar
