@@ -23,13 +23,10 @@
 #include "plugin/gobject/ref.h"
 
 #define GST_TYPE_SPIDAR_FEEL_TRACER (gst_spidar_feel_tracer_get_type())
-GType gst_spidar_feel_tracer_get_type();
-
-struct GstSpidarFeelTracer {
+G_DECLARE_FINAL_TYPE(GstSpidarFeelTracer, gst_spidar_feel_tracer, GST, SPIDAR_FEEL_TRACER,
+                     GstTracer)
+struct _GstSpidarFeelTracer {
   GstTracer parent;
-};
-struct GstSpidarFeelTracerClass {
-  GstTracerClass parent;
 };
 
 G_DEFINE_TYPE(GstSpidarFeelTracer, gst_spidar_feel_tracer, GST_TYPE_TRACER)

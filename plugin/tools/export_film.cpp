@@ -94,8 +94,8 @@ class ExportedFilm {
 
   /// A page that plays the film from where it is.
   void write_page(PartFile& page) {
-    const FilmPage::Html html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
-    page.write(html.text);
+    const std::string html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
+    page.write(html);
     publish(page);
     tell(page.target(), html,
          unplayed_.empty()
@@ -116,10 +116,10 @@ class ExportedFilm {
     }
     const std::string path = converted ? converted->path() : film_;
     if (converted) expect_embeddable(film_, path);
-    const FilmPage::Html html = this->html("", path, later_s(path), "");
+    const std::string html = this->html("", path, later_s(path), "");
     constexpr const char* kTrack = "<script type=\"application/json\" id=\"track\">";
-    const size_t at = html.text.find(kTrack);
-    page.write(html.text.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
+    const size_t at = html.find(kTrack);
+    page.write(html.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
     constexpr size_t kAtOnce = 3 << 20;  // a multiple of 3, so that no padding comes in between
     read_file(path, kAtOnce, [&page](const std::string& bytes) {
       gchar* const text =
@@ -127,7 +127,7 @@ class ExportedFilm {
       page.write(text);
       g_free(text);
     });
-    page.write("</script>\n" + html.text.substr(at));
+    page.write("</script>\n" + html.substr(at));
     publish(page);
     tell(page.target(), html, "; with the film in it" + missing);
   }
@@ -145,9 +145,9 @@ class ExportedFilm {
     } else {
       missing = convert(film);
     }
-    const FilmPage::Html html =
+    const std::string html =
         this->html(relative_url(copy, page.target()), film.path(), later_s(film.path()), "");
-    page.write(html.text);
+    page.write(html);
     publish(film);
     publish(page);
     tell(page.target(), html, missing);
@@ -187,10 +187,11 @@ class ExportedFilm {
   }
 
   /// `file` is that which the page plays, and `unplayed` why some browser does not.
-  FilmPage::Html html(const std::string& url, const std::string& file, double more_s,
-                      const std::string& unplayed) const {
+  std::string html(const std::string& url, const std::string& file, double more_s,
+                   const std::string& unplayed) {
     return page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
-                      1e-9 * static_cast<double>(condition_.later_ns) + more_s, unplayed);
+                      1e-9 * static_cast<double>(condition_.later_ns) + more_s, unplayed,
+                      tolerance_N_);
   }
 
   /// Returns what is missing, for the end of the line.
@@ -210,10 +211,10 @@ class ExportedFilm {
     return 1e-9 * static_cast<double>(read_film(copy).begin_ns - read_film(film_).begin_ns);
   }
 
-  void tell(const std::string& to, const FilmPage::Html& html, const std::string& more) {
+  void tell(const std::string& to, const std::string& html, const std::string& more) {
     report_ = nullptr;  // its line is erased
     std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s\n", film_.c_str(), to.c_str(),
-                html.text.size() / 1000, html.tolerance_N, more.c_str(), in_the_middle_.c_str(),
+                html.size() / 1000, tolerance_N_, more.c_str(), in_the_middle_.c_str(),
                 said_.c_str());
   }
 
@@ -224,6 +225,7 @@ class ExportedFilm {
   int parts_of_work_ = 1, parts_done_ = 0;
   std::string said_;  ///< of what was recorded
   FilmPage page_;
+  double tolerance_N_ = 0;  ///< of the force that the page shows
   TrackCondition condition_;
   std::string unplayed_;       ///< why browsers do not play it
   std::string in_the_middle_;  ///< why it is not known where the felt object is

@@ -134,24 +134,25 @@ class FilmSearch {
 
 }  // namespace
 
-FilmList list_films(const std::vector<std::string>& names) {
-  FilmList list;
+std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out) {
+  left_out.clear();
+  std::vector<ListedFilm> films;
   for (const std::string& name : names) {
     if (!fs::is_directory(name)) {
-      list.films.push_back({name, {}, 0});
+      films.push_back({name, {}, 0});
       continue;
     }
     const FilmSearch search(name);
     for (const std::string& part : search.left_out()) {
-      list.left_out += (list.left_out.empty() ? "" : "; ") + part;
+      left_out += (left_out.empty() ? "" : "; ") + part;
     }
     if (search.found().empty()) {
       throw std::runtime_error(name + ": this folder has no film (names that end in .mkv, .mp4 …)" +
-                               (list.left_out.empty() ? "" : "; left out: " + list.left_out));
+                               (left_out.empty() ? "" : "; left out: " + left_out));
     }
-    list.films.insert(list.films.end(), search.found().begin(), search.found().end());
+    films.insert(films.end(), search.found().begin(), search.found().end());
   }
-  return list;
+  return films;
 }
 
 }  // namespace spidar::tools

@@ -17,17 +17,12 @@ struct ListedFilm {
   uintmax_t bytes = 0;  ///< in the file; 0 if the film itself was given
 };
 
-struct FilmList {
-  std::vector<ListedFilm> films;
-  std::string left_out;  ///< what the folders have besides films, in one line; empty: nothing
-};
-
 /// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
 /// end as those of films do (".mkv" in small or capital letters), without hidden ones and hidden
 /// folders: the largest first, so that a long film does not come last and alone. Links to folders
-/// are not followed.
+/// are not followed. `left_out` is what the folders have besides films, in one line; may be empty.
 /// Throws std::runtime_error if a folder has no film or cannot be read; one below it that cannot is
 /// left out.
-FilmList list_films(const std::vector<std::string>& names);
+std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out);
 
 }  // namespace spidar::tools

@@ -143,9 +143,8 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
   }
 }
 
-FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
-                              const std::string& type, double later_s,
-                              const std::string& unplayed) const {
+std::string FilmPage::html(const std::string& url, const std::string& name, const std::string& type,
+                           double later_s, const std::string& unplayed, double& tolerance_N) const {
   constexpr double kCoarser = 1.25;
   // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
   double edges_off = 2 * 0.005;
@@ -158,7 +157,7 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
       {"type", type},       {"unplayed", unplayed},
       {"later_s", later_s}, {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
       {"most_N", most_N}};
-  Html html;
+  std::string html;
   // As exact as a hand can feel, or as there is room for in a long film.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
     track["force"] = Json::array();
@@ -172,10 +171,10 @@ FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
       if (edges_off < kMostOff) track["box"].push_back(curve_text(edge, edges_off, 1));
     }
     edges_off *= kCoarser;
-    html.text = page;
-    html.text.replace(at, place.size(), script_json(track));
-    html.tolerance_N = lines_N + most_N / kSteps / 2;
-    if (html.text.size() < kMost_bytes || lines_N > 2 * most_N) return html;
+    html = page;
+    html.replace(at, place.size(), script_json(track));
+    tolerance_N = lines_N + most_N / kSteps / 2;
+    if (html.size() < kMost_bytes || lines_N > 2 * most_N) return html;
   }
 }
 

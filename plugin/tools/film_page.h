@@ -42,15 +42,12 @@ class FilmPage {
   /// arrow begins in the middle of the picture.
   void set_boxes(const std::vector<FeltBox>& boxes);
 
-  struct Html {
-    std::string text;
-    double tolerance_N;  ///< the force that is shown differs by so much at most, along each axis
-  };
   /// `url` is of the film, relative to the page, and `name` for people; `type` is its MIME type.
   /// The film shows its pictures `later_s` seconds later than the track says. `unplayed` is why
-  /// some browser does not play it, as why_no_browser() says.
-  Html html(const std::string& url, const std::string& name, const std::string& type,
-            double later_s, const std::string& unplayed) const;
+  /// some browser does not play it, as why_no_browser() says. The force that is shown differs by
+  /// `tolerance_N` at most, along each axis.
+  std::string html(const std::string& url, const std::string& name, const std::string& type,
+                   double later_s, const std::string& unplayed, double& tolerance_N) const;
 
  private:
   /// Forces are shown at the rate of a screen.

@@ -16,15 +16,13 @@
 namespace spidar::tools {
 namespace {
 
-using File = std::unique_ptr<FILE, int (*)(FILE*)>;
-
 [[noreturn]] void fail(int error, const std::string& hint = "") {
   throw std::runtime_error(std::string("gnuplot: ") + std::strerror(error) + hint);
 }
 
 /// A file without a name that is empty, or contains `text`.
-File nameless_file(const std::string& text = "") {
-  File file(std::tmpfile(), std::fclose);
+std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = "") {
+  std::unique_ptr<FILE, int (*)(FILE*)> file(std::tmpfile(), std::fclose);
   if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
       std::fflush(file.get()) != 0) {
     fail(errno);
@@ -88,9 +86,9 @@ bool is_whole_png(int descriptor) {
 }  // namespace
 
 void draw_with_gnuplot(const std::string& script, const PartFile& picture) {
-  const File commands = nameless_file(script);
+  const auto commands = nameless_file(script);
   // Its warnings, of fonts for example, do not matter if it succeeds.
-  const File warnings = nameless_file();
+  const auto warnings = nameless_file();
   if (run(fileno(commands.get()), picture.descriptor(), fileno(warnings.get())) != 0) {
     throw std::runtime_error("gnuplot could not draw the picture" + last_line(warnings.get()));
   }

@@ -64,7 +64,7 @@ std::string why_refused(const TypedProperty& property, const std::vector<std::st
 }
 
 /// With the properties of a preset, as it sets them after those before it, in place of its name.
-/// What they are checked for, parse_record_properties() does. Throws PropertyError for an unknown
+/// What they are checked for, parse_record_properties() does. Throws UsageError for an unknown
 /// preset.
 std::vector<std::string> without_presets(GstElement* element,
                                          const std::vector<std::string>& of_analysis,
@@ -197,9 +197,7 @@ fs::path RecordOptions::file_of(const ListedFilm& film) const {
 void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
   for (const std::string& film : names) expect_no_property(film, "record FILM");
-  FilmList list = list_films(names);
-  options.films = std::move(list.films);
-  options.left_out = std::move(list.left_out);
+  options.films = list_films(names, options.left_out);
   options.properties = parse_record_properties(properties, options.films.size());
 }
 

@@ -45,7 +45,7 @@ struct RecordOptions {
   RecordProperties properties;
   std::string manifest;  ///< a file; empty: none
   std::vector<ListedFilm> films;
-  std::string left_out;  ///< FilmList::left_out
+  std::string left_out;  ///< of list_films()
 
   /// The file of a film's track.
   std::filesystem::path file_of(const ListedFilm& film) const;

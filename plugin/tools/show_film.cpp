@@ -24,17 +24,18 @@ constexpr const char* kDrawnFilm =
     "videoflip video-direction=auto ! spidarmotion name=motion device=none overlay=curve ! ";
 
 /// Returns what is to be reported of it. Throws std::runtime_error, without the name of the film.
-std::string show(const ShowOptions& options, const PartFile& part) {
-  RecordReport report({options.film});
+std::string show(const std::string& film, const RecordProperties& properties,
+                 const PartFile& part) {
+  RecordReport report({film});
   FilmProgress progress([&report](int percent) { report.progress(0, percent); });
   FilmWatch watch;
   KeptSound sound;
   QuietEnd quiet;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
-  const FilePipeline file(kDrawnFilm + film_encoder(part), options.film, nullptr, kSlowShare);
+  const FilePipeline file(kDrawnFilm + film_encoder(part), film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
-  set_properties(motion, options.properties);
-  const FilmEnd end = film_end(options.film);
+  set_properties(motion, properties);
+  const FilmEnd end = film_end(film);
   watch.begin(file.pipeline(), end == FilmEnd::kAppended);
   sound.begin(file.pipeline());
   quiet.begin(file.pipeline());
@@ -52,8 +53,8 @@ std::string show(const ShowOptions& options, const PartFile& part) {
 
 }  // namespace
 
-int show_film(const ShowOptions& options) {
-  const std::string &film = options.film, &to = options.to;
+int show_film(const std::string& film, const std::string& to, bool force,
+              const RecordProperties& properties) {
   if (!ends_with(to, ".mp4") && !ends_with(to, ".mkv")) {
     throw UsageError(to + ": is to end in .mp4 or .mkv");
   }
@@ -61,10 +62,10 @@ int show_film(const ShowOptions& options) {
   if (std::filesystem::equivalent(film, to, none)) {
     throw UsageError(to + ": is to be another file than " + film);
   }
-  PartFile part(to, {options.force, "spidartrack show"});
+  PartFile part(to, {force, "spidartrack show"});
   std::string said;
   try {
-    said = show(options, part);
+    said = show(film, properties, part);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(film + ": " + error.what());
   }

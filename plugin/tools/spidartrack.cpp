@@ -241,17 +241,17 @@ five seconds.
 
 Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes:
   spidartrack show FILM.mp4 SHOWN.mp4 -- motion=camera)");
-    app->add_option("FILM", show_.film, "a film")->required()->type_name("");
-    app->add_option("TO", show_.to, "the film to write; its name ends in .mp4 or .mkv")
+    app->add_option("FILM", film_, "a film")->required()->type_name("");
+    app->add_option("TO", to_, "the film to write; its name ends in .mp4 or .mkv")
         ->required()
         ->type_name("");
-    add_force(app, "TO", show_.force);
+    add_force(app, "TO", force_);
     app->add_option("PROPERTY", misplaced_)->group("");
   }
   int show() {
     refuse_misplaced("show FILM TO");
-    show_.properties = with_rules(parse_record_properties(properties_, 1), show_.film);
-    return show_film(show_);
+    return show_film(film_, to_, force_,
+                     with_rules(parse_record_properties(properties_, 1), film_));
   }
 
   /// Properties without dashes, or what nothing is known of.
@@ -301,12 +301,11 @@ FILM is then analysed with them:
   RecordOptions record_;
   std::vector<std::string> films_, properties_, misplaced_;
   std::string track_folder_;
-  // Of info, check and plot.
-  std::string track_, png_;
+  // Of info, check, plot and show.
+  std::string track_, png_, film_, to_;
   bool json_ = false, force_ = false;
   double max_force_N_ = kDefaultForce_N, max_torque_Nm_ = kDefaultTorque_Nm;  ///< of spidarsink
   ConvertOptions convert_;
-  ShowOptions show_;
   ExportOptions export_;
   int status_ = kDone;
 };

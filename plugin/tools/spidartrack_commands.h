@@ -25,12 +25,6 @@ struct ConvertOptions {
   SaveOptions save;
 };
 
-struct ShowOptions {
-  std::string film, to;
-  bool force = false;
-  RecordProperties properties;
-};
-
 struct ExportOptions {
   std::string film, to;
   std::string track;                           ///< empty: that of the film, else it is recorded
@@ -51,7 +45,8 @@ int check_track(const std::string& track, double max_force_N, double max_torque_
 int convert_track(const ConvertOptions& options);
 /// `force`: see PartFile::Replaces::any.
 int plot_track(const std::string& track, const std::string& png, bool force);
-int show_film(const ShowOptions& options);
+int show_film(const std::string& film, const std::string& to, bool force,
+              const RecordProperties& properties);
 int export_film(const ExportOptions& options);
 
 }  // namespace spidar::tools

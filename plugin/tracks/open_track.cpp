@@ -129,7 +129,7 @@ class TrackOfFile : public OpenTrack {
     FilePipeline::Progress progress;
     for (;;) {
       const ReadAhead::Found found = blocks_->take(
-          block, ReadAhead::Time::clock::now() + std::chrono::nanoseconds(FilePipeline::kLook));
+          block, std::chrono::steady_clock::now() + std::chrono::nanoseconds(FilePipeline::kLook));
       if (found == ReadAhead::Found::kBlock) return true;
       const std::string error = blocks_->error();
       if (!error.empty()) throw std::runtime_error(error);

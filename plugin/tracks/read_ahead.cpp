@@ -65,7 +65,7 @@ void ReadAhead::seek(int64_t time_ns) {
   changed_.notify_all();
 }
 
-ReadAhead::Found ReadAhead::take(TrackBlock& block, Time limit) {
+ReadAhead::Found ReadAhead::take(TrackBlock& block, std::chrono::steady_clock::time_point limit) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_until(lock, limit,
                       [this] { return !blocks_.empty() || ended_ || interrupted_ || stopped_; });

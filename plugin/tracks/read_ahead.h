@@ -47,7 +47,6 @@ class ReadAhead {
 
   // --- what plays
 
-  using Time = std::chrono::steady_clock::time_point;
   enum class Found {
     kBlock,
     kEnd,  ///< there is no more, see error()
@@ -59,7 +58,7 @@ class ReadAhead {
   /// The next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
   /// Moves the oldest block into `block`; waits for it until `limit`, or interrupt().
-  Found take(TrackBlock& block, Time limit);
+  Found take(TrackBlock& block, std::chrono::steady_clock::time_point limit);
 
   // --- any thread
 

@@ -80,62 +80,51 @@ ScriptFile without_end(const std::string& path) {
   return {whole.substr(0, whole.size() - end.size()), end.substr(1)};
 }
 
-class SetReader {
- public:
-  explicit SetReader(const ScriptChoice& choice) : choice_(choice) {}
-
-  /// Adds what is in a file.
-  void read(const ScriptFile& file) {
-    if (!is_felt(file) && !choice_.channel) {
-      set_.unfelt.push_back(file.path);
-      return;
-    }
-    const size_t channel =
-        choice_.channel.value_or(file.axis.empty() ? kMainChannel : *channel_of_axis(file.axis));
-    Funscript script;
-    try {
-      script = parse_funscript(read_regular_file(file.path, kMost_bytes), channel);
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(file.path + ": " + error.what());
-    }
-    for (const std::string& other : script.others) {
-      set_.unfelt.push_back(other + " of " + file.path);
-    }
-    for (ScriptAxis& axis : script.axes) {
-      if (choice_.channel && !axis.name.empty()) {
-        set_.unfelt.push_back(axis.name + " of " + file.path);
-      } else {
-        add(file.path, std::move(axis));
-      }
-    }
+void add_axis(const std::string& path, ScriptAxis axis, const ScriptChoice& choice,
+              ScriptSet& set) {
+  if (choice.channel) axis.channel = *choice.channel;
+  if (choice.gain) axis.gain = *choice.gain;
+  const std::string what = path + (axis.name.empty() ? "" : " (" + axis.name + ")");
+  const auto same = std::find_if(set.axes.begin(), set.axes.end(), [&](const ScriptAxis& other) {
+    return other.channel == axis.channel;
+  });
+  if (axis.points.empty()) {
+    set.about.push_back(what + ": has no actions; " + channel_name(axis.channel) + " is at rest");
+  } else if (same != set.axes.end()) {
+    set.unfelt.push_back(what + ", another one for " + channel_name(axis.channel));
+  } else {
+    set.about.push_back(what + ": " + channel_name(axis.channel) + ", gain " + rounded(axis.gain) +
+                        " taken back: 100 % is " + rounded(full_scale(axis.channel) / axis.gain) +
+                        channel_unit(axis.channel));
+    set.axes.push_back(std::move(axis));
   }
-  ScriptSet& set() { return set_; }
+}
 
- private:
-  void add(const std::string& path, ScriptAxis axis) {
-    if (choice_.channel) axis.channel = *choice_.channel;
-    if (choice_.gain) axis.gain = *choice_.gain;
-    const std::string what = path + (axis.name.empty() ? "" : " (" + axis.name + ")");
-    const auto same =
-        std::find_if(set_.axes.begin(), set_.axes.end(),
-                     [&](const ScriptAxis& other) { return other.channel == axis.channel; });
-    if (axis.points.empty()) {
-      set_.about.push_back(what + ": has no actions; " + channel_name(axis.channel) +
-                           " is at rest");
-    } else if (same != set_.axes.end()) {
-      set_.unfelt.push_back(what + ", another one for " + channel_name(axis.channel));
+/// Adds what is in a file.
+void add_file(const ScriptFile& file, const ScriptChoice& choice, ScriptSet& set) {
+  if (!is_felt(file) && !choice.channel) {
+    set.unfelt.push_back(file.path);
+    return;
+  }
+  const size_t channel =
+      choice.channel.value_or(file.axis.empty() ? kMainChannel : *channel_of_axis(file.axis));
+  Funscript script;
+  try {
+    script = parse_funscript(read_regular_file(file.path, kMost_bytes), channel);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.path + ": " + error.what());
+  }
+  for (const std::string& other : script.others) {
+    set.unfelt.push_back(other + " of " + file.path);
+  }
+  for (ScriptAxis& axis : script.axes) {
+    if (choice.channel && !axis.name.empty()) {
+      set.unfelt.push_back(axis.name + " of " + file.path);
     } else {
-      set_.about.push_back(what + ": " + channel_name(axis.channel) + ", gain " +
-                           rounded(axis.gain) + " taken back: 100 % is " +
-                           rounded(full_scale(axis.channel) / axis.gain) +
-                           channel_unit(axis.channel));
-      set_.axes.push_back(std::move(axis));
+      add_axis(file.path, std::move(axis), choice, set);
     }
   }
-
-  const ScriptChoice choice_;
-  ScriptSet set_;
-};
+}
 
 }  // namespace
 
@@ -174,10 +163,10 @@ ScriptSet read_scripts(const std::string& path, const ScriptChoice& choice) {
     files = list_set(file.path);
   }
   if (files.empty()) files.push_back({path, file.axis});
-  SetReader reader(choice);
-  for (const ScriptFile& one : files) reader.read(one);
-  if (reader.set().axes.empty()) throw std::runtime_error(path + ": it has no actions");
-  return std::move(reader.set());
+  ScriptSet set;
+  for (const ScriptFile& one : files) add_file(one, choice, set);
+  if (set.axes.empty()) throw std::runtime_error(path + ": it has no actions");
+  return set;
 }
 
 }  // namespace spidar::tracks

@@ -27,7 +27,6 @@ struct FrameWrench {
   bool known = false;     ///< it was analysed
   bool compared = false;  ///< with a frame before: its wrench holds until the next one is due
   bool repeats = false;   ///< shows the picture of the frame before
-  bool discont = false;   ///< begins anew
   /// Of running time between the two pictures that its motion was measured between; 0: none.
   int64_t interval_ns = 0;
   Wrench wrench;

@@ -188,7 +188,7 @@ TEST(ReadAhead, WhatCannotBeReadFurtherIsSaidWhenAllHasBeenTaken) {
   EXPECT_TRUE(blocks.put(block, {}));
   blocks.end("it is damaged");
   EXPECT_FALSE(blocks.has_failed());
-  const auto now = ReadAhead::Time::clock::now();
+  const auto now = std::chrono::steady_clock::now();
   EXPECT_EQ(blocks.take(block, now), ReadAhead::Found::kBlock);
   EXPECT_EQ(blocks.take(block, now), ReadAhead::Found::kEnd);
   EXPECT_TRUE(blocks.has_failed());
@@ -199,10 +199,11 @@ TEST(ReadAhead, ABlockThatIsNotThereIsLateAndOneThatIsInterruptedIsNot) {
   ReadAhead blocks;
   TrackBlock block;
   blocks.interrupt();
-  EXPECT_EQ(blocks.take(block, ReadAhead::Time::clock::now() + kLongest), ReadAhead::Found::kLate);
+  EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now() + kLongest),
+            ReadAhead::Found::kLate);
   EXPECT_FALSE(blocks.was_late());
   blocks.resume();
-  EXPECT_EQ(blocks.take(block, ReadAhead::Time::clock::now()), ReadAhead::Found::kLate);
+  EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now()), ReadAhead::Found::kLate);
   EXPECT_TRUE(blocks.was_late());
 }
 

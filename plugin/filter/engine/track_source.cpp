@@ -75,7 +75,7 @@ void TrackReplay::jump(int64_t time_ns) {
 
 /// False when there is no other block now.
 bool TrackReplay::append() {
-  const auto now = ReadAhead::Time::clock::now();
+  const auto now = std::chrono::steady_clock::now();
   TrackBlock block;
   const ReadAhead::Found found = track_->take(block, late_ ? now : now + kLongestWait);
   late_ = found == ReadAhead::Found::kLate;

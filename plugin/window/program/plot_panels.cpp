@@ -94,7 +94,7 @@ void shade_unfelt(const Brush& brush, const Plot& plot, const std::vector<double
 }  // namespace
 
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline) {
-  const Timeline::Part moments = timeline.plotted();
+  const std::vector<Moment> moments = timeline.plotted();
   std::string note;
   if (!moments.empty()) {
     const Wrench& felt = moments.back().felt;
@@ -128,7 +128,7 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
 }
 
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline) {
-  const Timeline::Part moments = timeline.plotted();
+  const std::vector<Moment> moments = timeline.plotted();
   const Rect content = draw_panel(
       brush, panel, "Speed", moments.empty() ? "" : number("%.0f px/s", moments.back().speed_px_s));
   const PlotAxis y =
@@ -169,7 +169,7 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
     plot.legend({{is_first ? "1" : "2", kSpeedColor}, {is_first ? "2" : "1", kMutedColor}});
   }
   draw_curve(controller, kSpeedColor);
-  const Timeline::Part moments = timeline.plotted();
+  const std::vector<Moment> moments = timeline.plotted();
   if (moments.empty()) return;
   // The controller's force, a part of which may have become torque.
   plot.dot(moments.back().speed_px_s, size_N(moments.back().wanted), kFeltColor);

@@ -79,7 +79,7 @@ double Timeline::remembered_s() const {
   return kMemory_s;
 }
 
-Timeline::Part Timeline::plotted() const {
+std::vector<Moment> Timeline::plotted() const {
   const auto is_before = [](const Moment& moment, double time_s) { return moment.time_s < time_s; };
   return {std::lower_bound(moments_.begin(), moments_.end(), newest_s() - plotted_s_, is_before),
           moments_.end()};

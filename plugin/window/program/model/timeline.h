@@ -61,15 +61,8 @@ class Timeline {
   double plotted_s() const { return plotted_s_; }
   /// They show `factor` times as long.
   void zoom(double factor);
-  /// The last plotted_s(); a part of moments().
-  struct Part {
-    std::deque<Moment>::const_iterator first, last;
-    auto begin() const { return first; }
-    auto end() const { return last; }
-    bool empty() const { return first == last; }
-    const Moment& back() const { return *(last - 1); }
-  };
-  Part plotted() const;
+  /// Of the last plotted_s(), oldest first.
+  std::vector<Moment> plotted() const;
   /// The lowest and highest forces in each of `count` equal parts of the time from one to another,
   /// whatever the rate at which the window draws.
   std::vector<ForceColumn> columns(double from_s, double to_s, size_t count) const;
