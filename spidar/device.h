@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "core/grip/string_geometry.h"
 #include "spidar/device_error.h"
@@ -112,19 +113,16 @@ struct DeviceReading {
   int64_t read_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: in the tick, as far as is known
 };
 
-/// A device as a grip has it: `Output` goes out, `Reading` comes in. One thread at a time.
-template <typename Output, typename Reading>
-class DeviceOf {
+/// What a board, a device and a grip have in common. One thread at a time, except where stated.
+class Openable {
  public:
-  virtual ~DeviceOf() = default;
+  /// `name` is for messages: "sim", "usb:1-2", …
+  explicit Openable(std::string name) : name_(std::move(name)) {}
+  virtual ~Openable() = default;
 
-  /// Claims the device and reads it once; motors stay at zero. Throws DeviceError. After close() or
-  /// when it is_lost() it may be called again.
+  /// Claims the device and reads it once, with nothing that pulls. Throws DeviceError. After
+  /// close() or when it is_lost() it may be called again.
   virtual void open() = 0;
-
-  /// One cycle. Called at 1 kHz: no allocation, no lock, no exception. `reading` is only written
-  /// with kNone.
-  virtual LinkFault exchange(const Output& output, Reading& reading) noexcept = 0;
 
   /// Motors to zero, then releases the device. Safe to call twice, and when it is lost.
   virtual void close() noexcept = 0;
@@ -136,8 +134,22 @@ class DeviceOf {
   /// Statistics of the link to the device; all zero without one. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 
-  /// For messages: "sim", "usb:3", …
-  virtual const std::string& name() const noexcept = 0;
+  /// Any thread.
+  const std::string& name() const noexcept { return name_; }
+
+ protected:
+  const std::string name_;
+};
+
+/// A device as a grip has it: `Output` goes out, `Reading` comes in.
+template <typename Output, typename Reading>
+class DeviceOf : public Openable {
+ public:
+  using Openable::Openable;
+
+  /// One cycle. Called at 1 kHz: no allocation, no lock, no exception. `reading` is only written
+  /// with kNone.
+  virtual LinkFault exchange(const Output& output, Reading& reading) noexcept = 0;
 };
 
 /// With strings: volts out, counts in.

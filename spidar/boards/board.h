@@ -35,17 +35,12 @@ struct Settings {
   bool threaded = true;
 };
 
-/// `Output` is what it puts out, `Reading` what it reads. To be used by one thread at a time.
+/// `Output` is what it puts out, `Reading` what it reads. Its open() also identifies and resets it;
+/// when that throws, the caller calls close(), which leaves the motors at their last value.
 template <typename Output, typename Reading>
-class BoardOf {
+class BoardOf : public Openable {
  public:
-  /// `name` is for messages: "usb:1-2", …
-  explicit BoardOf(std::string name) : name_(std::move(name)) {}
-  virtual ~BoardOf() = default;
-
-  /// Claims, identifies and resets the board and reads it once with the motors at zero. Throws
-  /// DeviceError; the caller then calls close().
-  virtual void open() = 0;
+  using Openable::Openable;
 
   /// One exchange; gives up at the deadline (CLOCK_MONOTONIC). `reading` is written only if the
   /// result is kNone.
@@ -69,20 +64,9 @@ class BoardOf {
   /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
   virtual int rotary() const noexcept { return -1; }
 
-  /// Releases the board; its motors keep their last value.
-  virtual void close() noexcept = 0;
-
   /// Packets that set the motors to zero when this process can no longer do it, one set for each
   /// connection. To be called after open().
   virtual std::vector<LastWill> last_wills() const = 0;
-
-  /// Describes for people what open() found.
-  virtual std::string description() const = 0;
-
-  const std::string& name() const noexcept { return name_; }
-
- protected:
-  const std::string name_;
 };
 
 /// Motors and encoders: puts out volts, reads counts.

@@ -20,16 +20,16 @@ Cyverse::Cyverse(std::string name, const Profile& profile, std::unique_ptr<Trans
 void Cyverse::open() {
   transport_->open();
   transport_->recover();
-  Readout readout;
+  CyverseReading now;
   const LinkFault fault = open_exchange(
       [&](int64_t deadline_ns) {
         const LinkFault not_reset = reset(deadline_ns);
-        return not_reset != LinkFault::kNone ? not_reset : exchange({}, readout, deadline_ns);
+        return not_reset != LinkFault::kNone ? not_reset : exchange({}, now, deadline_ns);
       },
       *transport_);
   if (fault != LinkFault::kNone) throw no_answer(name_, fault);
-  counts_.open(readout.counter, kMaxStrings);
-  rotary_ = readout.rotary;
+  counts_.open(now.counter, kMaxStrings);
+  rotary_ = now.rotary();
 }
 
 LinkFault Cyverse::cycle(const MotorVolts& volts, DeviceReading& reading,
@@ -38,12 +38,12 @@ LinkFault Cyverse::cycle(const MotorVolts& volts, DeviceReading& reading,
   for (size_t i = 0; i < digits.size(); ++i) {
     digits[i] = static_cast<uint16_t>(dac_.digit(volts.volt[i]));
   }
-  Readout readout;
-  const LinkFault fault = exchange(digits, readout, deadline_ns);
+  CyverseReading now;
+  const LinkFault fault = exchange(digits, now, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
-  if (!counts_.update(readout.counter, monotonic_now_ns())) return LinkFault::kCounterJump;
+  if (!counts_.update(now.counter, monotonic_now_ns())) return LinkFault::kCounterJump;
   reading.count = counts_.counts();
-  reading.inputs = readout.inputs;
+  reading.inputs = now.inputs;
   return LinkFault::kNone;
 }
 
@@ -61,22 +61,21 @@ LinkFault Sh4::reset(int64_t) noexcept {
   return LinkFault::kNone;
 }
 
-LinkFault Sh4::exchange(const CyverseDigits& digits, Readout& readout,
+LinkFault Sh4::exchange(const CyverseDigits& digits, CyverseReading& reading,
                         int64_t deadline_ns) noexcept {
   sent_[sent_at_] = digits;
   sent_at_ = (sent_at_ + 1) % kEchoes;
   sh4::encode_update(digits, out_);
   const Transfer transfer = transport_->exchange({out_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
-  sh4::Reading reading;
-  if (!sh4::decode_reading({in_.data(), transfer.received}, reading)) return LinkFault::kShort;
-  if (std::find(sent_.begin(), sent_.end(), reading.dac_echo) == sent_.end()) {
+  sh4::Reading whole;
+  if (!sh4::decode_reading({in_.data(), transfer.received}, whole)) return LinkFault::kShort;
+  if (std::find(sent_.begin(), sent_.end(), whole.dac_echo) == sent_.end()) {
     return LinkFault::kWrongEcho;
   }
   // Negated, because this board counts in the opposite direction to the Simple board (published).
-  for (size_t i = 0; i < sh4::kChannels; ++i) readout.counter[i] = 0u - reading.counter[i];
-  readout.inputs = reading.inputs;
-  readout.rotary = reading.rotary();
+  for (uint32_t& counter : whole.counter) counter = 0u - counter;
+  reading = whole;
   return LinkFault::kNone;
 }
 
@@ -107,21 +106,13 @@ LinkFault Simple::reset(int64_t deadline_ns) noexcept {
   return transport_->exchange({direction}, {}, deadline_ns).fault;
 }
 
-LinkFault Simple::exchange(const CyverseDigits& digits, Readout& readout,
+LinkFault Simple::exchange(const CyverseDigits& digits, CyverseReading& reading,
                            int64_t deadline_ns) noexcept {
   usb_simple::encode_set_dac(digits, set_dac_);
   const Transfer transfer = transport_->exchange({set_dac_, latch_}, in_, deadline_ns);
   if (transfer.fault != LinkFault::kNone) return transfer.fault;
-  usb_simple::Reading reading;
-  if (!usb_simple::decode_reading({in_.data(), transfer.received}, reading)) {
-    return LinkFault::kShort;
-  }
-  for (size_t i = 0; i < usb_simple::kChannels; ++i) {
-    readout.counter[i] = static_cast<uint32_t>(reading.counter[i]);
-  }
-  readout.inputs = reading.inputs;
-  readout.rotary = reading.rotary();
-  return LinkFault::kNone;
+  const bool is_whole = usb_simple::decode_reading({in_.data(), transfer.received}, reading);
+  return is_whole ? LinkFault::kNone : LinkFault::kShort;
 }
 
 std::string Simple::description() const {

@@ -41,15 +41,9 @@ class Cyverse : public OnTransport<Board> {
   int rotary() const noexcept final { return rotary_; }
 
  protected:
-  struct Readout {
-    std::array<uint32_t, kMaxStrings> counter{};
-    uint16_t inputs = 0;
-    int rotary = -1;
-  };
-
   /// Called before the first exchange after opening.
   virtual LinkFault reset(int64_t deadline_ns) noexcept = 0;
-  virtual LinkFault exchange(const CyverseDigits& digits, Readout& readout,
+  virtual LinkFault exchange(const CyverseDigits& digits, CyverseReading& reading,
                              int64_t deadline_ns) noexcept = 0;
   /// The packet that sets all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
@@ -72,7 +66,7 @@ class Sh4 final : public Cyverse {
   static constexpr size_t kEchoes = 4;
 
   LinkFault reset(int64_t deadline_ns) noexcept override;
-  LinkFault exchange(const CyverseDigits& digits, Readout& readout,
+  LinkFault exchange(const CyverseDigits& digits, CyverseReading& reading,
                      int64_t deadline_ns) noexcept override;
   std::vector<uint8_t> zero_packet() const override;
 
@@ -91,7 +85,7 @@ class Simple final : public Cyverse {
 
  private:
   LinkFault reset(int64_t deadline_ns) noexcept override;
-  LinkFault exchange(const CyverseDigits& digits, Readout& readout,
+  LinkFault exchange(const CyverseDigits& digits, CyverseReading& reading,
                      int64_t deadline_ns) noexcept override;
   std::vector<uint8_t> zero_packet() const override;
 

@@ -21,7 +21,7 @@ namespace spidar::boards {
 class ForceGrip final : public Grip {
  public:
   explicit ForceGrip(std::unique_ptr<ForceLink> link)
-      : link_(std::move(link)), traits_(traits_of(link_->board().abilities())) {}
+      : Grip(*link), link_(std::move(link)), traits_(traits_of(link_->board().abilities())) {}
 
   void open() override {
     link_->open();
@@ -51,13 +51,9 @@ class ForceGrip final : public Grip {
     return fault;
   }
   const GripReading& reading() const noexcept override { return reading_; }
-  void close() noexcept override { link_->close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
-  std::string description() const override { return link_->description(); }
   GripAbilities abilities() const noexcept override { return link_->board().abilities(); }
   std::string warning() const override { return link_->board().warning(); }
-  LinkHealth health() const noexcept override { return link_->health(); }
-  const std::string& name() const noexcept override { return link_->name(); }
 
  private:
   /// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not

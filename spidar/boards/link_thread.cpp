@@ -42,7 +42,8 @@ template <typename BoardType, typename Output, typename Reading>
 LinkThread<BoardType, Output, Reading>::LinkThread(std::vector<std::unique_ptr<BoardType>> boards,
                                                    std::function<BoardType&()> open,
                                                    const Settings& settings)
-    : boards_(std::move(boards)),
+    : DeviceOf<Output, Reading>(boards.front()->name()),
+      boards_(std::move(boards)),
       open_board_(std::move(open)),
       board_(boards_.front().get()),
       settings_(settings) {

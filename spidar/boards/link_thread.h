@@ -57,7 +57,6 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   /// answer.
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
-  const std::string& name() const noexcept override { return board_->name(); }
   LinkHealth health() const noexcept override;
   /// The one that was opened last; before that, the first.
   const BoardType& board() const noexcept { return *board_; }

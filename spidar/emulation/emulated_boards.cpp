@@ -33,7 +33,7 @@ void Sh4::receive(ByteView bytes) noexcept {
   sh4::Reading reading;
   reading.dac_echo = digits;
   for (size_t i = 0; i < sh4::kChannels; ++i) {
-    reading.counter[i] = static_cast<uint16_t>(0u - static_cast<uint32_t>(counts[i]));
+    reading.counter[i] = 0u - static_cast<uint32_t>(counts[i]);
   }
   reading.inputs = motors_->inputs();
   sh4::encode_reading(reading, packet_);
@@ -53,9 +53,11 @@ void Simple::receive(ByteView bytes) noexcept {
       break;
     case usb_simple::Command::kLatchCounters: {
       const std::array<int32_t, kMaxStrings> counts = motors_->counts();
-      usb_simple::Reading reading;
-      for (size_t i = 0; i < usb_simple::kChannels; ++i) reading.counter[i] = counts[i];
-      reading.inputs = static_cast<uint8_t>(motors_->inputs() & 0xFF);
+      CyverseReading reading;
+      for (size_t i = 0; i < usb_simple::kChannels; ++i) {
+        reading.counter[i] = static_cast<uint32_t>(counts[i]);
+      }
+      reading.inputs = motors_->inputs();
       usb_simple::encode_reading(reading, packet_);
       due_ = true;
       break;

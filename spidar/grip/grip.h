@@ -102,15 +102,11 @@ struct GripReading : GripReport {
 };
 
 /// What a hand holds, with the device behind it. It protects the device and what is between device
-/// and hand; what protects the hand is above it, in HapticLoop (docs/safety.md). One thread at a
-/// time, except where stated.
-class Grip {
+/// and hand; what protects the hand is above it, in HapticLoop (docs/safety.md).
+class Grip : public Openable {
  public:
-  virtual ~Grip() = default;
-
-  /// Opens the device with nothing that pulls. Throws DeviceError. After close() or when it
-  /// is_lost() it may be called again.
-  virtual void open() = 0;
+  /// `device` outlives the grip, or belongs to it.
+  explicit Grip(Openable& device) : Openable(device.name()), device_(device) {}
 
   /// Time passes, also while the device is lost.
   virtual void advance(double) noexcept {}
@@ -126,23 +122,20 @@ class Grip {
   /// What the last call has read.
   virtual const GripReading& reading() const noexcept = 0;
 
-  /// Sets the device to rest, then releases it. Safe to call twice, and when it is lost.
-  virtual void close() noexcept = 0;
+  void close() noexcept final { device_.close(); }
+  std::string description() const final { return device_.description(); }
+  LinkHealth health() const noexcept final { return device_.health(); }
 
   virtual const GripTraits& traits() const noexcept = 0;
 
-  /// A description for people of what open() found; empty while closed, and for devices whose name
-  /// says everything.
-  virtual std::string description() const = 0;
   /// Until open(), those of most devices of its kind. Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
   /// What a person should know of a device that works, but not as it should; empty if it does. Any
   /// thread.
   virtual std::string warning() const { return {}; }
-  /// Statistics of the link to the device. Any thread.
-  virtual LinkHealth health() const noexcept = 0;
-  /// For messages: "sim", "usb:3", …
-  virtual const std::string& name() const noexcept = 0;
+
+ private:
+  Openable& device_;
 };
 
 }  // namespace spidar

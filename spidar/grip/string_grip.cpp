@@ -111,7 +111,8 @@ GripAbilities abilities_of(const Profile& profile) {
 }  // namespace
 
 StringGrip::StringGrip(const Profile& profile, StringDevice& device)
-    : profile_(profile),
+    : Grip(device),
+      profile_(profile),
       device_(device),
       traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
       abilities_(abilities_of(profile)),

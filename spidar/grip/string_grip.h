@@ -102,12 +102,8 @@ class StringGrip final : public Grip {
   void check_age(int64_t now_ns) noexcept override;
   LinkFault exchange(const GripCommand& command) noexcept override;
   const GripReading& reading() const noexcept override { return reading_; }
-  void close() noexcept override { device_.close(); }
   const GripTraits& traits() const noexcept override { return traits_; }
-  std::string description() const override { return device_.description(); }
   GripAbilities abilities() const noexcept override { return abilities_; }
-  LinkHealth health() const noexcept override { return device_.health(); }
-  const std::string& name() const noexcept override { return device_.name(); }
 
  private:
   bool pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept;

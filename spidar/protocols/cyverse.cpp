@@ -43,7 +43,7 @@ void encode_reading(const Reading& reading, Packet& packet) noexcept {
   const MutableBytes bytes(packet);
   for (size_t i = 0; i < kChannels; ++i) {
     bytes.put_u16(kEchoAt + 2 * i, reading.dac_echo[i]);
-    bytes.put_u16(kCounterAt + 2 * i, reading.counter[i]);
+    bytes.put_u16(kCounterAt + 2 * i, static_cast<uint16_t>(reading.counter[i]));
     bytes.put_u16(kAdcAt + 2 * i, reading.adc[i]);
   }
   bytes.put_u16(kInputsAt, reading.inputs);
@@ -73,11 +73,6 @@ constexpr uint8_t kSetDac = 0x52;
 constexpr uint8_t kLatch = 0x51;
 constexpr size_t kDigitsAt = 1;
 constexpr size_t kInputsAt = 3 * kChannels;
-
-int32_t sign_extended(uint32_t counter24) noexcept {
-  constexpr uint32_t kSign = 1u << 23;
-  return static_cast<int32_t>(counter24 ^ kSign) - static_cast<int32_t>(kSign);
-}
 
 }  // namespace
 
@@ -121,18 +116,16 @@ bool decode_command(ByteView packet, HostPacket& command) noexcept {
   }
 }
 
-void encode_reading(const Reading& reading, Packet& packet) noexcept {
+void encode_reading(const CyverseReading& reading, Packet& packet) noexcept {
   packet.fill(0);
   const MutableBytes bytes(packet);
-  for (size_t i = 0; i < kChannels; ++i) {
-    bytes.put_u24(3 * i, static_cast<uint32_t>(reading.counter[i]) & 0xFFFFFF);
-  }
-  bytes.put_u8(kInputsAt, reading.inputs);
+  for (size_t i = 0; i < kChannels; ++i) bytes.put_u24(3 * i, reading.counter[i]);
+  bytes.put_u8(kInputsAt, static_cast<uint8_t>(reading.inputs));
 }
 
-bool decode_reading(ByteView packet, Reading& reading) noexcept {
+bool decode_reading(ByteView packet, CyverseReading& reading) noexcept {
   if (packet.size != kPacketSize) return false;
-  for (size_t i = 0; i < kChannels; ++i) reading.counter[i] = sign_extended(packet.u24(3 * i));
+  for (size_t i = 0; i < kChannels; ++i) reading.counter[i] = packet.u24(3 * i);
   reading.inputs = packet.u8(kInputsAt);
   return true;
 }

@@ -19,6 +19,14 @@ namespace spidar {
 /// For the D/A converters of either board.
 using CyverseDigits = std::array<uint16_t, 8>;
 
+/// What both boards report.
+struct CyverseReading {
+  std::array<uint32_t, 8> counter{};  ///< only the bits that the board has
+  uint16_t inputs = 0;  ///< bits 4–7: rotary switch; of the Simple board, eight bits
+
+  int rotary() const noexcept { return inputs >> 4 & 0xF; }
+};
+
 }  // namespace spidar
 
 namespace spidar::sh4 {
@@ -35,15 +43,12 @@ constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 using Packet = std::array<uint8_t, kPacketSize>;
 
 /// A reply of the board.
-struct Reading {
+/// The counters have 16 bits, counting in the opposite direction to the Simple board: its host
+/// negates them.
+struct Reading : CyverseReading {
   CyverseDigits dac_echo{};
-  /// 16 bits, counting in the opposite direction to the Simple board: its host negates them.
-  std::array<uint16_t, kChannels> counter{};
   std::array<uint16_t, kChannels> adc{};  ///< digits of 24 V / 4096
-  uint16_t inputs = 0;                    ///< bits 4–7: rotary switch
   uint32_t info = 0;                      ///< meaning not published
-
-  int rotary() const noexcept { return inputs >> 4 & 0xF; }
 };
 
 /// The only command: sets the D/A digits, which are clamped to kMaxDigit, and asks for all
@@ -78,13 +83,6 @@ enum class Command {
 };
 
 /// The board's reply to kLatchCounters.
-struct Reading {
-  std::array<int32_t, kChannels> counter{};  ///< 24 bits, sign extended
-  uint8_t inputs = 0;                        ///< bits 4–7: rotary switch
-
-  int rotary() const noexcept { return inputs >> 4 & 0xF; }
-};
-
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
 /// Digits are clamped to kMaxDigit.
 void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept;
@@ -101,8 +99,9 @@ struct HostPacket {
 bool decode_command(ByteView packet, HostPacket& command) noexcept;
 
 /// Counters are reduced to 24 bits.
-void encode_reading(const Reading& reading, Packet& packet) noexcept;
+/// The counters have 24 bits.
+void encode_reading(const CyverseReading& reading, Packet& packet) noexcept;
 /// Returns false when it does not have kPacketSize bytes.
-bool decode_reading(ByteView packet, Reading& reading) noexcept;
+bool decode_reading(ByteView packet, CyverseReading& reading) noexcept;
 
 }  // namespace spidar::usb_simple

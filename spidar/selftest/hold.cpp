@@ -32,9 +32,9 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
   errors_in_a_row_ = fault == LinkFault::kNone ? 0 : errors_in_a_row_ + 1;
-  if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(name(), fault, late_ns));
+  if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(held_.name(), fault, late_ns));
   if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors) {
-    throw DeviceError(loss_text(name(), health().last_fault, late_ns));
+    throw DeviceError(loss_text(held_.name(), held_.health().last_fault, late_ns));
   }
 }
 
@@ -42,17 +42,13 @@ template class Hold<StringVector, DeviceReading>;
 template class Hold<Eigen::Vector3d, GripReading>;
 
 StringHold::StringHold(StringDevice& device, const Profile& profile, Pace pace)
-    : Hold(std::move(pace)), device_(device), profile_(profile) {
+    : Hold(device, std::move(pace)), device_(device), profile_(profile) {
   open();
 }
 
 void StringHold::open() {
   reset();
   device_.open();
-}
-
-StringHold::~StringHold() {
-  device_.close();
 }
 
 LinkFault StringHold::put_out(const StringVector& tension_N) noexcept {
@@ -79,7 +75,7 @@ void StringHold::reverse_motor(int string) {
   profile_.drives[static_cast<size_t>(string)].motor_sign *= -1;
 }
 
-ForceHold::ForceHold(Grip& grip, Pace pace) : Hold(std::move(pace)), grip_(grip) {
+ForceHold::ForceHold(Grip& grip, Pace pace) : Hold(grip, std::move(pace)), grip_(grip) {
   command_.dt_s = kTick_s;
   open();
 }
@@ -97,10 +93,6 @@ void ForceHold::release() {
   } catch (const StoodStill&) {
     // It is at zero.
   }
-}
-
-ForceHold::~ForceHold() {
-  grip_.close();
 }
 
 LinkFault ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {

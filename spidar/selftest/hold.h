@@ -85,13 +85,14 @@ class Hold {
   }
 
  protected:
-  explicit Hold(Pace pace) : pace_(std::move(pace)) {}
-  ~Hold() = default;
+  Hold(Openable& device, Pace pace) : pace_(std::move(pace)), held_(device) {}
+  /// Closes the device, which takes the value to zero.
+  ~Hold() { held_.close(); }
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
 
   virtual LinkFault put_out(const Value& value) noexcept = 0;
   virtual const Reading& reading() const noexcept = 0;
-  virtual LinkHealth health() const noexcept = 0;
-  virtual const std::string& name() const noexcept = 0;
 
   /// Returns false when there is no new reading.
   bool exchange() {
@@ -114,6 +115,7 @@ class Hold {
   /// Throws DeviceError.
   void watch(LinkFault fault);
 
+  Openable& held_;
   int errors_in_a_row_ = 0;
   int64_t last_ns_ = 0;  ///< when the latest exchange ended
 };
@@ -123,10 +125,6 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
  public:
   /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(StringDevice& device, const Profile& profile, Pace pace);
-  /// Closes the device, which takes the tensions to zero.
-  ~StringHold();
-  StringHold(const StringHold&) = delete;
-  StringHold& operator=(const StringHold&) = delete;
 
   /// Again, after it was lost.
   void open();
@@ -140,8 +138,6 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
  private:
   LinkFault put_out(const StringVector& tension_N) noexcept override;
   const DeviceReading& reading() const noexcept override { return reading_; }
-  LinkHealth health() const noexcept override { return device_.health(); }
-  const std::string& name() const noexcept override { return device_.name(); }
 
   StringDevice& device_;
   Profile profile_;
@@ -153,10 +149,6 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.
   ForceHold(Grip& grip, Pace pace);
-  /// Closes the grip.
-  ~ForceHold();
-  ForceHold(const ForceHold&) = delete;
-  ForceHold& operator=(const ForceHold&) = delete;
 
   /// Again, after it was lost: with forces switched off.
   void open();
@@ -172,8 +164,6 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  private:
   LinkFault put_out(const Eigen::Vector3d& force_N) noexcept override;
   const GripReading& reading() const noexcept override { return grip_.reading(); }
-  LinkHealth health() const noexcept override { return grip_.health(); }
-  const std::string& name() const noexcept override { return grip_.name(); }
 
   Grip& grip_;
   GripCommand command_;

@@ -115,21 +115,19 @@ struct LagCandidate {
 };
 
 /// T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T² − a₀
-/// T³, by Newton's method from a₃ / a₂, which it is without a hand.
-struct FirstOrderPart {
-  double part_s = 0;
-  Eigen::Vector4d by_coefficient;  ///< its derivatives
-
-  explicit FirstOrderPart(const Eigen::Vector4d& a) : part_s(a[3] / a[2]) {
-    for (int i = 0; i < 20; ++i) {
-      const double t = part_s;
-      by_coefficient << -t * t * t, t * t, -t, 1;
-      const double by_part = -a[2] + 2 * a[1] * t - 3 * a[0] * t * t;
-      part_s -= a.dot(by_coefficient) / by_part;
-      by_coefficient /= -by_part;
-    }
+/// T³, by Newton's method from a₃ / a₂, which it is without a hand. `by_coefficient`: its
+/// derivatives.
+double first_order_part_s(const Eigen::Vector4d& a, Eigen::Vector4d& by_coefficient) {
+  double part_s = a[3] / a[2];
+  for (int i = 0; i < 20; ++i) {
+    const double t = part_s;
+    by_coefficient << -t * t * t, t * t, -t, 1;
+    const double by_part = -a[2] + 2 * a[1] * t - 3 * a[0] * t * t;
+    part_s -= a.dot(by_coefficient) / by_part;
+    by_coefficient /= -by_part;
   }
-};
+  return part_s;
+}
 
 /// 1 / standard deviation of the real and of the imaginary part.
 double weight_of(const ResponseLine& line, int periods) {
@@ -170,9 +168,9 @@ LagCandidate best_with_delay(const std::vector<ResponseLine>& lines, int periods
       found.cost += std::norm(weight_of(lines[i], periods) * (lines[i].response - model[i]));
     }
   }
-  const FirstOrderPart part(a);
-  found.lag_s = delay_s + part.part_s;
-  found.error_s = std::sqrt(part.by_coefficient.dot(normal.ldlt().solve(part.by_coefficient)));
+  Eigen::Vector4d by_coefficient;
+  found.lag_s = delay_s + first_order_part_s(a, by_coefficient);
+  found.error_s = std::sqrt(by_coefficient.dot(normal.ldlt().solve(by_coefficient)));
   if (!(a[2] > 0) || !std::isfinite(found.lag_s + found.error_s + found.cost)) return {};
   return found;
 }

@@ -108,7 +108,6 @@ struct SimulatedDevice::Impl {
     publish();
   }
 
-  const std::string name = "sim";
   const Profile profile;
   const Time time;
   const std::function<int64_t()> clock;
@@ -143,7 +142,7 @@ GripModel grip_model_of(const Profile& profile) {
 
 SimulatedDevice::SimulatedDevice(const Profile& profile, Time time, const GripModel& model,
                                  std::function<int64_t()> clock)
-    : impl_(std::make_unique<Impl>(profile, time, model, std::move(clock))) {}
+    : StringDevice("sim"), impl_(std::make_unique<Impl>(profile, time, model, std::move(clock))) {}
 
 SimulatedDevice::~SimulatedDevice() = default;
 
@@ -180,10 +179,6 @@ LinkFault SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& read
 
 void SimulatedDevice::close() noexcept {
   impl_->release();
-}
-
-const std::string& SimulatedDevice::name() const noexcept {
-  return impl_->name;
 }
 
 void SimulatedDevice::set_hand(const Pose& pose) noexcept {

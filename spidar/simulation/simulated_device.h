@@ -63,8 +63,6 @@ class SimulatedDevice final : public StringDevice {
   /// Then the power is off and the tensions are zero.
   void close() noexcept override;
 
-  const std::string& name() const noexcept override;
-
   /// Sets the pose of the hand, whose springs pull the grip there. A pose that is not finite is
   /// ignored. Any thread.
   void set_hand(const Pose& pose) noexcept;

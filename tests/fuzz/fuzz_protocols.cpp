@@ -44,9 +44,9 @@ void fuzz_sh4(ByteView bytes) {
 
 void fuzz_simple(ByteView bytes) {
   usb_simple::Packet packet;
-  usb_simple::Reading reading;
+  CyverseReading reading;
   if (usb_simple::decode_reading(bytes, reading)) {
-    usb_simple::Reading again;
+    CyverseReading again;
     usb_simple::encode_reading(reading, packet);
     require(usb_simple::decode_reading(packet, again) && again.counter == reading.counter &&
                 again.inputs == reading.inputs,

@@ -132,9 +132,9 @@ TEST(UsbSimple, ReadingHasTwentyFourBitCountersAndInputs) {
       padded({0x00, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x00, 0x00, 0x80, 0x01,
               0x02, 0x03, 0,    0,    0,    0,    0,    0,    0xFE, 0xFF, 0xFF, 0xA3},
              32);
-  usb_simple::Reading reading;
+  CyverseReading reading;
   ASSERT_TRUE(usb_simple::decode_reading(view(bytes), reading));
-  const std::array<int32_t, 8> expected{0, -1, 8388607, -8388608, 0x030201, 0, 0, -2};
+  const std::array<uint32_t, 8> expected{0, 0xFFFFFF, 0x7FFFFF, 0x800000, 0x030201, 0, 0, 0xFFFFFE};
   EXPECT_EQ(reading.counter, expected);
   EXPECT_EQ(reading.inputs, 0xA3);
   EXPECT_EQ(reading.rotary(), 10);

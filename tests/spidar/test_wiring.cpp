@@ -67,7 +67,9 @@ TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
 class PausedDevice final : public StringDevice {
  public:
   PausedDevice(const Profile& profile, std::vector<int> pauses)
-      : real_(profile, SimulatedDevice::Time::kFixedStep), pauses_(std::move(pauses)) {}
+      : StringDevice("sim"),
+        real_(profile, SimulatedDevice::Time::kFixedStep),
+        pauses_(std::move(pauses)) {}
   void open() override {
     real_.open();
     lost_ = false;
@@ -84,8 +86,6 @@ class PausedDevice final : public StringDevice {
     if (lost_) health.last_fault = LinkFault::kStoodStill;
     return health;
   }
-  const std::string& name() const noexcept override { return real_.name(); }
-
   int opened = 0;
 
  private:

@@ -30,7 +30,7 @@ bool without_pauses() {
 class UnrulyHand final : public StringDevice {
  public:
   UnrulyHand(const Profile& profile, const std::string& faults, unsigned seed, double mean_s)
-      : random_(seed), pause_s_(1 / mean_s) {
+      : StringDevice("sim"), random_(seed), pause_s_(1 / mean_s) {
     auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
     sim_ = sim.get();
     device_ = std::make_unique<MiswiredDevice>(std::move(sim), faults);
@@ -53,7 +53,6 @@ class UnrulyHand final : public StringDevice {
     return device_->exchange(volts, reading);
   }
   void close() noexcept override { device_->close(); }
-  const std::string& name() const noexcept override { return device_->name(); }
 
  private:
   int pause_ms() { return 1 + static_cast<int>(1e3 * pause_s_(random_)); }

@@ -34,7 +34,7 @@ struct FakeDeviceLog {
 class FakeDevice final : public StringDevice {
  public:
   explicit FakeDevice(std::shared_ptr<FakeDeviceLog> log = std::make_shared<FakeDeviceLog>())
-      : log_(std::move(log)) {
+      : StringDevice("fake"), log_(std::move(log)) {
     log_->volts.reserve(FakeDeviceLog::kMemory);
   }
 
@@ -59,13 +59,10 @@ class FakeDevice final : public StringDevice {
     ++log_->closed;
   }
 
-  const std::string& name() const noexcept override { return name_; }
-
   FakeDeviceLog& log() noexcept { return *log_; }
 
  private:
   std::shared_ptr<FakeDeviceLog> log_;
-  std::string name_ = "fake";
 };
 
 }  // namespace spidar::test

@@ -15,7 +15,8 @@ namespace spidar::test {
 
 class FaultyDevice final : public StringDevice {
  public:
-  FaultyDevice(SimulatedDevice& inner, const Profile& profile) : inner_(inner), profile_(profile) {}
+  FaultyDevice(SimulatedDevice& inner, const Profile& profile)
+      : StringDevice(inner.name()), inner_(inner), profile_(profile) {}
 
   /// The string breaks: it pulls no longer, and its motor winds up what is left of it.
   void cut(int string) { cut_ |= 1u << string; }
@@ -57,7 +58,6 @@ class FaultyDevice final : public StringDevice {
   }
   /// Sends zero; when the link does not work, the guardian does as soon as it works again.
   void close() noexcept override { closing_ = true; }
-  const std::string& name() const noexcept override { return inner_.name(); }
 
  private:
   MotorVolts acting() const {

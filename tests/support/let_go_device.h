@@ -24,7 +24,8 @@ class LetGoDevice final : public StringDevice {
   using Hand = std::function<Pose(double)>;
 
   LetGoDevice(const Profile& profile, const GripModel& held, const GripModel& released)
-      : profile_(profile),
+      : StringDevice("let go"),
+        profile_(profile),
         held_(profile.geometry, profile.max_tension_N(), held),
         released_(profile.geometry, profile.max_tension_N(), released) {}
 
@@ -73,12 +74,10 @@ class LetGoDevice final : public StringDevice {
     return LinkFault::kNone;
   }
   void close() noexcept override { tension_N_.setZero(); }
-  const std::string& name() const noexcept override { return name_; }
 
  private:
   const Profile profile_;
   const GripDynamics held_, released_;
-  const std::string name_ = "let go";
   static constexpr int64_t kStep_ns = 1'000'000;
 
   bool is_held_ = true;

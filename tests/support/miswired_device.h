@@ -20,7 +20,7 @@ namespace spidar::test {
 class MiswiredDevice final : public StringDevice {
  public:
   MiswiredDevice(std::unique_ptr<StringDevice> device, const std::string& faults)
-      : device_(std::move(device)) {
+      : StringDevice(device->name()), device_(std::move(device)) {
     for (size_t i = 0; i < channel_.size(); ++i) channel_[i] = {i, i, 1, 1};
     std::istringstream in(faults);
     for (std::string fault; std::getline(in, fault, ';');) apply(fault);
@@ -40,7 +40,6 @@ class MiswiredDevice final : public StringDevice {
     return status;
   }
   void close() noexcept override { device_->close(); }
-  const std::string& name() const noexcept override { return device_->name(); }
 
  private:
   /// What is connected to a channel of the board.

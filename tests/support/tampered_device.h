@@ -16,7 +16,7 @@ namespace spidar::test {
 class TamperedDevice final : public StringDevice {
  public:
   /// `inner` must outlive it.
-  explicit TamperedDevice(StringDevice& inner) : inner_(inner) {}
+  explicit TamperedDevice(StringDevice& inner) : StringDevice(inner.name()), inner_(inner) {}
 
   /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
@@ -50,7 +50,6 @@ class TamperedDevice final : public StringDevice {
     volts_ = {};
     inner_.close();
   }
-  const std::string& name() const noexcept override { return inner_.name(); }
 
  private:
   StringDevice& inner_;

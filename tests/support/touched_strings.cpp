@@ -32,7 +32,7 @@ GripModel model_of(const Hand& hand, const StringTouch& touch) {
 /// The simulated device; records its encoder readings.
 class ReadDevice final : public StringDevice {
  public:
-  explicit ReadDevice(SimulatedDevice& device) : device_(device) {}
+  explicit ReadDevice(SimulatedDevice& device) : StringDevice(device.name()), device_(device) {}
   void open() override { device_.open(); }
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     const LinkFault status = device_.exchange(volts, reading);
@@ -40,7 +40,6 @@ class ReadDevice final : public StringDevice {
     return status;
   }
   void close() noexcept override { device_.close(); }
-  const std::string& name() const noexcept override { return device_.name(); }
   const DeviceReading& last() const { return last_; }
 
  private:
@@ -52,7 +51,7 @@ class ReadDevice final : public StringDevice {
 class ShadowDevice final : public StringDevice {
  public:
   ShadowDevice(const Profile& profile, const ReadDevice& of, double lag_s)
-      : profile_(profile), of_(of), kept_(std::exp(-kTick_s / lag_s)) {}
+      : StringDevice("shadow"), profile_(profile), of_(of), kept_(std::exp(-kTick_s / lag_s)) {}
   void open() override {}
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     tension_N_ = target_N_ + kept_ * (tension_N_ - target_N_);
@@ -68,11 +67,9 @@ class ShadowDevice final : public StringDevice {
     return LinkFault::kNone;
   }
   void close() noexcept override {}
-  const std::string& name() const noexcept override { return name_; }
   const StringVector& tension_N() const { return tension_N_; }
 
  private:
-  const std::string name_ = "shadow";
   const Profile& profile_;
   const ReadDevice& of_;
   const double kept_;
