@@ -13,26 +13,22 @@
 namespace spidar {
 namespace {
 
-/// A character at the beginning of a text.
-struct Character {
-  uint32_t code = 0;
-  size_t length = 0;  ///< bytes; 0: it is not UTF-8 (RFC 3629)
-};
-
-Character first_of(std::string_view text) noexcept {
+/// The length of the first character of a text, bytes; 0: it is not UTF-8 (RFC 3629).
+size_t first_of(std::string_view text, uint32_t& code) noexcept {
   const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
+  code = byte(0);
+  if (code < 0x80) return 1;
   const size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC0 || byte(0) >= 0xF8 || text.size() < length) return {};
-  uint32_t code = byte(0) & (0x7Fu >> length);
+  if (byte(0) < 0xC0 || byte(0) >= 0xF8 || text.size() < length) return 0;
+  code = byte(0) & (0x7Fu >> length);
   for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return {};
+    if ((byte(i) & 0xC0) != 0x80) return 0;
     code = code << 6 | (byte(i) & 0x3Fu);
   }
   constexpr std::array<uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code < 0xE000;
-  if (code < kLeast[length] || code > 0x10FFFF || surrogate) return {};
-  return {code, length};
+  if (code < kLeast[length] || code > 0x10FFFF || surrogate) return 0;
+  return length;
 }
 
 bool is_harmless(uint32_t code) noexcept {
@@ -60,14 +56,14 @@ std::string formatted(const char* pattern, ...) {
 std::string printable(std::string_view text) {
   std::string printed;
   while (!text.empty()) {
-    const Character character = first_of(text);
-    const size_t length = character.length > 0 ? character.length : 1;
-    if (character.length > 0 && is_harmless(character.code)) {
+    uint32_t code = 0;
+    const size_t length = first_of(text, code);
+    if (length > 0 && is_harmless(code)) {
       printed += text.substr(0, length);
     } else {
       printed += '?';
     }
-    text.remove_prefix(length);
+    text.remove_prefix(std::max<size_t>(length, 1));
   }
   return printed;
 }

@@ -50,24 +50,17 @@ struct Thirds {
   }
 };
 
-/// Columns of two of three rows, added in pairs.
-struct Columns {
-  std::array<v_uint16x8, 3> low;
-  std::array<v_uint16x8, 3> high;
-
-  Columns(const Thirds& outer, const Thirds& middle) {
-    for (size_t k = 0; k < 3; ++k) {
-      low[k] = outer.low[k] + outer.low[k] + middle.low[k];
-      high[k] = outer.high[k] + outer.high[k] + middle.high[k];
-    }
+/// Adds the columns of two of three rows in pairs.
+void store_pairs(const Thirds& outer, const Thirds& middle, uint8_t* to) {
+  std::array<v_uint16x8, 3> low, high;
+  for (size_t k = 0; k < 3; ++k) {
+    low[k] = outer.low[k] + outer.low[k] + middle.low[k];
+    high[k] = outer.high[k] + outer.high[k] + middle.high[k];
   }
-
-  void store(uint8_t* to) const {
-    const v_uint8x16 left = ninth(low[0] + low[0] + low[1], high[0] + high[0] + high[1]);
-    const v_uint8x16 right = ninth(low[2] + low[2] + low[1], high[2] + high[2] + high[1]);
-    cv::v_store_interleave(to, left, right);
-  }
-};
+  const v_uint8x16 left = ninth(low[0] + low[0] + low[1], high[0] + high[0] + high[1]);
+  const v_uint8x16 right = ninth(low[2] + low[2] + low[1], high[2] + high[2] + high[1]);
+  cv::v_store_interleave(to, left, right);
+}
 
 /// The two rows of the reduced picture that three rows of the image give. The last vectors end
 /// beyond the picture, in what repeat_border() overwrites.
@@ -76,8 +69,8 @@ void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_
   for (int x = 0; x < width; x += 32) {
     const int from = x / 2 * 3;
     const Thirds middle(rows[1] + from);
-    Columns(Thirds(rows[0] + from), middle).store(upper + x);
-    if (lower) Columns(Thirds(rows[2] + from), middle).store(lower + x);
+    store_pairs(Thirds(rows[0] + from), middle, upper + x);
+    if (lower) store_pairs(Thirds(rows[2] + from), middle, lower + x);
   }
 }
 

@@ -17,20 +17,15 @@ double elapsed_s(int64_t earlier_ns, int64_t later_ns) {
   return 1e-9 * static_cast<double>(elapsed_ns(earlier_ns, later_ns));
 }
 
-/// Slopes of the straight lines before and after a frame, and how long each of them is.
-struct Chord {
-  Eigen::Vector3d slope;
-  double duration_s;
-};
-
-/// Steffen's slope at the point where the lines meet, zero where that is not a number.
-Eigen::Vector3d slope_between(const Chord& before, const Chord& after) {
+/// Steffen's slope at the point where two straight lines meet, of which the slopes and the
+/// durations are given; zero where that is not a number.
+Eigen::Vector3d slope_between(const Eigen::Vector3d& before, const Eigen::Vector3d& after,
+                              double before_s, double after_s) {
   Eigen::Vector3d slope;
   for (int i = 0; i < 3; ++i) {
-    const double a = before.slope[i];
-    const double b = after.slope[i];
-    const double parabola =
-        (a * after.duration_s + b * before.duration_s) / (before.duration_s + after.duration_s);
+    const double a = before[i];
+    const double b = after[i];
+    const double parabola = (a * after_s + b * before_s) / (before_s + after_s);
     const double steepest = 2 * std::min({std::fabs(a), std::fabs(b), 0.5 * std::fabs(parabola)});
     const bool same_way = a * b > 0 && std::isfinite(steepest);
     slope[i] = same_way ? std::copysign(steepest, a) : 0;
@@ -43,8 +38,8 @@ Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double b
                      double after_s) {
   const Wrench before = (1 / before_s) * (b - a);
   const Wrench after = (1 / after_s) * (c - b);
-  return {slope_between(Chord{before.force_N, before_s}, Chord{after.force_N, after_s}),
-          slope_between(Chord{before.torque_Nm, before_s}, Chord{after.torque_Nm, after_s})};
+  return {slope_between(before.force_N, after.force_N, before_s, after_s),
+          slope_between(before.torque_Nm, after.torque_Nm, before_s, after_s)};
 }
 
 /// Whether the hold of the last frame has ended.

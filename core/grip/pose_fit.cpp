@@ -80,19 +80,19 @@ Twist weakest_direction(const NormalEquations& equations) {
 
 PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
                                  int also) const noexcept {
-  const StringVector w = weights(model_.count, left_out, also);
-  const int used = model_.count - (left_out >= 0) - (also >= 0);
+  const StringVector w = weights(count_, left_out, also);
+  const int used = count_ - (left_out >= 0) - (also >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;
   while (fit.iterations < kMaxTrackingSteps && !fit.converged) {
     ++fit.iterations;
-    model_.linearise(fit.pose, lengths_m, w, equations);
+    linearise(fit.pose, lengths_m, w, equations);
     Twist step;
     if (!solve(equations, 0, equations.g, step)) break;
-    fit.pose = model_.moved(fit.pose, step);
+    fit.pose = moved(fit.pose, step);
     // The cost of the linear model after the step, which is the true cost where the step is short.
     const double cost_m2 = std::max(0.0, equations.cost_m2 - equations.g.dot(step));
-    fit.residual_m = model_.rms_m(cost_m2, used);
+    fit.residual_m = std::sqrt(cost_m2 / used);
     fit.converged = step.squaredNorm() <= kLastStep_m * kLastStep_m;
   }
   return fit;
@@ -100,11 +100,11 @@ PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& star
 
 PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
                                         int left_out) const noexcept {
-  const StringVector w = weights(model_.count, left_out);
-  const int used = model_.count - (left_out >= 0);
+  const StringVector w = weights(count_, left_out);
+  const int used = count_ - (left_out >= 0);
   PoseFit fit{start, 0, 0, false};
   NormalEquations equations;
-  model_.linearise(fit.pose, lengths_m, w, equations);
+  linearise(fit.pose, lengths_m, w, equations);
   double damping = 0;
   while (fit.iterations < kMaxSearchSteps && !fit.converged) {
     ++fit.iterations;
@@ -115,9 +115,9 @@ PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pos
     }
     const double length_m = step.norm();
     if (length_m > kLongestStep_m) step *= kLongestStep_m / length_m;
-    const Pose pose = model_.moved(fit.pose, step);
+    const Pose pose = moved(fit.pose, step);
     NormalEquations there;
-    model_.linearise(pose, lengths_m, w, there);
+    linearise(pose, lengths_m, w, there);
     // A step that damping has shortened says nothing about how near the minimum is.
     fit.converged =
         (length_m <= kLastSearchStep_m && damping <= kLittleDamping) || there.cost_m2 <= kNoCost_m2;
@@ -129,7 +129,7 @@ PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pos
       damping = std::max(kLittleDamping, 10 * damping);
     }
   }
-  fit.residual_m = model_.rms_m(equations.cost_m2, used);
+  fit.residual_m = std::sqrt(equations.cost_m2 / used);
   return fit;
 }
 
@@ -147,15 +147,15 @@ PoseFit PoseFitter::search(const StringVector& lengths_m, const Pose& start) con
 PoseFit PoseFitter::beside(const StringVector& lengths_m, const PoseFit& fit,
                            int left_out) const noexcept {
   NormalEquations equations;
-  model_.linearise(fit.pose, lengths_m, weights(model_.count, left_out), equations);
+  linearise(fit.pose, lengths_m, weights(count_, left_out), equations);
   const Twist direction = weakest_direction(equations);
   PoseFit best;
   int iterations = 0;
   for (const double side : {kBesideStep, -kBesideStep}) {
-    const Pose start = model_.moved(fit.pose, side * model_.radius_m * direction);
+    const Pose start = moved(fit.pose, side * radius_m_ * direction);
     const PoseFit other = levenberg_marquardt(lengths_m, start, left_out);
     iterations += other.iterations;
-    const bool distinct = model_.twist(fit.pose, other.pose).norm() > kSamePose_m;
+    const bool distinct = twist(fit.pose, other.pose).norm() > kSamePose_m;
     if (other.converged && distinct && (!best.converged || other.residual_m < best.residual_m)) {
       best = other;
     }

@@ -129,7 +129,7 @@ double PoseSolver::residual_m(const StringVector& lengths_m, const Pose& pose,
 // makes its string the likelier one.
 double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& expected,
                                     const PoseFit& fit, int left_out) const noexcept {
-  const double distance_m = fitter_.model().twist(expected, fit.pose).norm();
+  const double distance_m = fitter_.twist(expected, fit.pose).norm();
   const double implausibility_m = distance_m + kResidualWeight * fit.residual_m;
   const double missed_m = counts_.missed_m(lengths_m, geometry_.count, left_out);
   const bool frozen = missed_m > kMissed * max_residual_m_ &&
@@ -204,7 +204,7 @@ PoseResult PoseSolver::rejected(PoseStatus status, const PoseResult& found) cons
 }
 
 PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
-  motion_ = tracking_ ? fitter_.model().twist(last_, result.pose) : Twist(Twist::Zero());
+  motion_ = tracking_ ? fitter_.twist(last_, result.pose) : Twist(Twist::Zero());
   last_ = result.pose;
   tracking_ = true;
   faulty_string_ = result.faulty_string;
@@ -249,7 +249,7 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   // When the six do not converge, a pose that was tracked stands; one that was searched for is
   // taken for wrong.
   if (!fit.converged) return !tracked;
-  const double apart_m = fitter_.model().twist(fit.pose, result.pose).norm();
+  const double apart_m = fitter_.twist(fit.pose, result.pose).norm();
   const auto elsewhere = [&](int i) {
     return i != result.faulty_string &&
            misfit_m(lengths_m, fit.pose, i) > kElsewhere * max_residual_m_;
@@ -263,7 +263,7 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
   PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
   if (!fit.converged) {
-    fit.converged = fitter_.model().twist(expected, fit.pose).norm() <= kImplausible_m;
+    fit.converged = fitter_.twist(expected, fit.pose).norm() <= kImplausible_m;
   }
   // The residual of the linear model, which six strings always fit, says nothing where steps are
   // long or the equations nearly singular.
@@ -279,7 +279,7 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;
-  const double distance_m = fitter_.model().twist(expected, found.pose).norm();
+  const double distance_m = fitter_.twist(expected, found.pose).norm();
   if (solved && distance_m <= kImplausible_m) return found;
   PoseResult seven = track_without_one(lengths_m, expected);
   const int out = seven.faulty_string;
@@ -288,8 +288,8 @@ PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const P
     seven.faulty_string = -1;
   }
   const double limit_m = solved ? kMuchNearer * distance_m : kInfinity;
-  const bool nearer = seven.status == PoseStatus::kSolved &&
-                      fitter_.model().twist(expected, seven.pose).norm() <= limit_m;
+  const bool nearer =
+      seven.status == PoseStatus::kSolved && fitter_.twist(expected, seven.pose).norm() <= limit_m;
   PoseResult result = nearer ? seven : found;
   result.iterations = found.iterations + seven.iterations;
   return result;
@@ -298,7 +298,7 @@ PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const P
 PoseResult PoseSolver::track(const StringVector& lengths_m) noexcept {
   if (!are_lengths(lengths_m)) return rejected(PoseStatus::kBadInput);
   counts_.update(lengths_m, geometry_.count);
-  const Pose expected = tracking_ ? fitter_.model().moved(last_, motion_) : last_;
+  const Pose expected = tracking_ ? fitter_.moved(last_, motion_) : last_;
   PoseResult result = follow(lengths_m, expected);
   if (tracking_) result = unless_implausible(lengths_m, expected, result);
   if (result.status == PoseStatus::kSolved && hides_dead_encoder(lengths_m, result, true)) {
@@ -334,7 +334,7 @@ PoseResult PoseSolver::solve(const StringVector& lengths_m) noexcept {
   const Pose start = last_;
   const PoseResult tracked = track(lengths_m);
   if (tracked.status == PoseStatus::kBadInput) return tracked;
-  const bool near = fitter_.model().twist(start, tracked.pose).norm() <= kImplausible_m;
+  const bool near = fitter_.twist(start, tracked.pose).norm() <= kImplausible_m;
   if (tracked.status == PoseStatus::kSolved && (near || !guess)) return tracked;
   if (guess) last_ = start;  // what was found may be one of two
   PoseResult located = locate(lengths_m);

@@ -66,9 +66,6 @@ struct PointSearch {
 /// counts. For the other points all levels are searched.
 constexpr PointSearch kSearches[] = {{1, true, 0.12}, {kMaxLevel, false, 0.4}};
 
-/// The pyramid levels of a picture and their derivatives.
-using Pyramid = std::vector<cv::Mat>;
-
 /// A point that is followed, in the reduced picture.
 struct Feature {
   uint32_t id = 0;
@@ -105,8 +102,8 @@ struct Flow {
   std::vector<uint8_t> found;
   std::vector<float> difference;  ///< mean absolute difference of the windows, grey levels
 
-  Flow(const Pyramid& before, const Pyramid& now, const std::vector<cv::Point2f>& from,
-       std::vector<cv::Point2f> guess, int level)
+  Flow(const std::vector<cv::Mat>& before, const std::vector<cv::Mat>& now,
+       const std::vector<cv::Point2f>& from, std::vector<cv::Point2f> guess, int level)
       : to(std::move(guess)) {
     static const cv::TermCriteria kStop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
     cv::calcOpticalFlowPyrLK(before, now, from, to, found, difference,
@@ -117,8 +114,9 @@ struct Flow {
 
 /// Searches those of `features` that are not `found` yet, forwards, and back in the same way. Moves
 /// them and marks them.
-void follow_missing(const Pyramid& before, const Pyramid& now, const PointSearch& search,
-                    std::vector<Feature>& features, std::vector<bool>& found) {
+void follow_missing(const std::vector<cv::Mat>& before, const std::vector<cv::Mat>& now,
+                    const PointSearch& search, std::vector<Feature>& features,
+                    std::vector<bool>& found) {
   std::vector<size_t> missing;
   std::vector<cv::Point2f> from;
   std::vector<cv::Point2f> start;
@@ -157,8 +155,8 @@ struct OpenCvTracker::Impl {
   TrackerSettings settings;
   bool settings_changed = false;
   ReducedFrame reduced;
-  Pyramid before;
-  Pyramid now;
+  std::vector<cv::Mat> before;  // levels of the pyramid, and their derivatives
+  std::vector<cv::Mat> now;
   std::vector<Feature> features;
   uint32_t next_id = 0;
   size_t selected = 0;  // points after the last selection

@@ -14,23 +14,12 @@ namespace {
 
 constexpr int kTaps = 4;
 
-/// The four basis functions that are not zero at `t` (0 … 1) of an interval, and their derivatives.
-struct Basis {
-  std::array<double, kTaps> value;
-  std::array<double, kTaps> derivative;
-
-  explicit Basis(double t) noexcept {
-    const double s = 1 - t;
-    value = {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6,
-             (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
-    derivative = {-s * s / 2, (-4 * t + 3 * t * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
-  }
-};
-
-/// A position along an axis: the four surrounding samples and the distance from the second one.
+/// A position along an axis: the four surrounding samples, the basis functions that are not zero
+/// between the middle two, and their derivatives.
 struct Position {
   std::array<int, kTaps> sample;
-  double t;
+  std::array<double, kTaps> value;
+  std::array<double, kTaps> derivative;
 
   /// `u` is in samples, with 0 at the first of `count`. Samples outside repeat the border sample.
   Position(double u, int count) noexcept {
@@ -39,7 +28,10 @@ struct Position {
     if (!(u > -2)) u = -2;
     if (!(u < count + 1)) u = count + 1;
     const double below = std::floor(u);
-    t = u - below;
+    const double t = u - below, s = 1 - t;
+    value = {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6,
+             (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
+    derivative = {-s * s / 2, (-4 * t + 3 * t * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
     for (int k = 0; k < kTaps; ++k) {
       sample[static_cast<size_t>(k)] = std::clamp(static_cast<int>(below) - 1 + k, 0, count - 1);
     }
@@ -60,19 +52,17 @@ HeightField::HeightField(double width_m, double height_m)
       z_m_(kCells, 0.0F) {}
 
 SurfacePoint HeightField::at(double x_m, double y_m) const noexcept {
-  const Position column(x_m / cell_x_m_ + 0.5 * kColumns - 0.5, kColumns);
-  const Position line(0.5 * kRows - 0.5 - y_m / cell_y_m_, kRows);
-  const Basis across(column.t);
-  const Basis down(line.t);
+  const Position across(x_m / cell_x_m_ + 0.5 * kColumns - 0.5, kColumns);
+  const Position down(0.5 * kRows - 0.5 - y_m / cell_y_m_, kRows);
   double z_m = 0;
   double along_row_m = 0;     // for each sample
   double along_column_m = 0;  // for each sample, downwards
   for (size_t j = 0; j < kTaps; ++j) {
-    const float* const samples = row(line.sample[j]);
+    const float* const samples = row(down.sample[j]);
     double height_m = 0;
     double step_m = 0;
     for (size_t i = 0; i < kTaps; ++i) {
-      const double sample_m = static_cast<double>(samples[column.sample[i]]);
+      const double sample_m = static_cast<double>(samples[across.sample[i]]);
       height_m += across.value[i] * sample_m;
       step_m += across.derivative[i] * sample_m;
     }

@@ -66,12 +66,17 @@ void fill_line(float* line, int count, int step) noexcept {
   }
 }
 
-/// One row of one of the two passes: raises row `y` to the envelope of the neighbour row `from` and
-/// of the preceding cells in the direction `step`.
-struct Envelope {
-  float across_m, down_m, diagonal_m;
-
-  void sweep(HeightField& field, int y, int from, int step) const noexcept {
+void limit_slope(HeightField& field) noexcept {
+  // Distances over eight neighbours turn a circle into an octagon. With square cells its flanks are
+  // steeper than along an axis by 1 / cos(22.5°). The slope is reduced by that factor, so along an
+  // axis it is slightly flatter than allowed.
+  const double slope = ReliefBuilder::kMaxSlope * std::cos(M_PI / 8);
+  const double x_m = slope * field.cell_x_m(), y_m = slope * field.cell_y_m();
+  const auto across_m = static_cast<float>(x_m), down_m = static_cast<float>(y_m);
+  const auto diagonal_m = static_cast<float>(std::hypot(x_m, y_m));
+  // One row of one of the two passes: raises row `y` to the envelope of the neighbour row `from`
+  // and of the preceding cells in the direction `step`.
+  const auto sweep = [&](int y, int from, int step) {
     float* const row = field.row(y);
     if (from >= 0 && from < kRows) {
       const float* const other = field.row(from);
@@ -86,20 +91,9 @@ struct Envelope {
       last = std::max(z, last - across_m);
       z = last;
     }
-  }
-};
-
-void limit_slope(HeightField& field) noexcept {
-  // Distances over eight neighbours turn a circle into an octagon. With square cells its flanks are
-  // steeper than along an axis by 1 / cos(22.5°). The slope is reduced by that factor, so along an
-  // axis it is slightly flatter than allowed.
-  const double slope = ReliefBuilder::kMaxSlope * std::cos(M_PI / 8);
-  const double across_m = slope * field.cell_x_m();
-  const double down_m = slope * field.cell_y_m();
-  const Envelope envelope{static_cast<float>(across_m), static_cast<float>(down_m),
-                          static_cast<float>(std::hypot(across_m, down_m))};
-  for (int y = 0; y < kRows; ++y) envelope.sweep(field, y, y - 1, 1);
-  for (int y = kRows - 1; y >= 0; --y) envelope.sweep(field, y, y + 1, -1);
+  };
+  for (int y = 0; y < kRows; ++y) sweep(y, y - 1, 1);
+  for (int y = kRows - 1; y >= 0; --y) sweep(y, y + 1, -1);
 }
 
 }  // namespace

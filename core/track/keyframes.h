@@ -18,9 +18,8 @@ namespace spidar {
 /// values behind that one.
 class KeyframeChooser {
  public:
-  using Take = std::function<void(size_t index, double value)>;
-
-  KeyframeChooser(double tolerance, Take take) : tolerance_(tolerance), take_(std::move(take)) {}
+  KeyframeChooser(double tolerance, std::function<void(size_t index, double value)> take)
+      : tolerance_(tolerance), take_(std::move(take)) {}
 
   void add(double value) {
     if (count_++ == 0) {
@@ -71,7 +70,7 @@ class KeyframeChooser {
   }
 
   const double tolerance_;
-  const Take take_;
+  const std::function<void(size_t index, double value)> take_;
   size_t count_ = 0;
   // Of the line: its first value, its last one so far, and the last one that was looked at.
   size_t begin_ = 0, end_ = 0, seen_ = 0;

@@ -34,8 +34,8 @@ class HapticOutput {
   void set_manual(std::function<int64_t()> now);
 
   /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the one that
-  /// the device has without. Throws ProfileError, DeviceError, std::runtime_error, and NoProfile
-  /// for a board without one, whose motors may get no force; then it stays closed. Empty, or why
+  /// the device has without. Throws ProfileError, std::runtime_error, and DeviceError, also for
+  /// a board without a profile, whose motors may get no force; then it stays closed. Empty, or why
   /// the haptic trace cannot be written: the device works without it. See set_max_force().
   std::string open(const std::string& device, const std::string& profile, double max_force_N,
                    const std::string& haptic_trace);

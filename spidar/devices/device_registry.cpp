@@ -58,9 +58,7 @@ boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name
                       DeviceErrorCode::kSettings);
   }
   auto emulated = kind.emulate(kind.simulated_motors(profile, mechanics));
-  return kind.attach(name, profile,
-                     std::make_unique<emulated::Transport>(std::move(emulated),
-                                                           std::make_shared<emulated::Wire>()));
+  return kind.attach(name, profile, std::make_unique<emulated::Transport>(std::move(emulated)));
 }
 
 }  // namespace spidar

@@ -35,7 +35,7 @@ DeviceKind sh4_kind() {
   DeviceKind kind = cyverse_kind();
   kind.title = "CyVerse USB 2.0 SH4";
   kind.profile_board = "usb-sh4";
-  kind.usb = {sh4::kVendor, sh4::kProduct, {sh4::kEndpointOut, sh4::kEndpointIn}};
+  kind.usb = {sh4::kVendor, sh4::kProduct, sh4::kEndpointOut, sh4::kEndpointIn};
   kind.board = "sh4";
   kind.attach = attach<boards::Sh4>;
   kind.emulate = emulate<emulated::Sh4>;
@@ -46,9 +46,8 @@ DeviceKind simple_kind() {
   DeviceKind kind = cyverse_kind();
   kind.title = "CyVerse USB 2.0 Simple";
   kind.profile_board = "usb-simple";
-  kind.usb = {usb_simple::kVendor,
-              usb_simple::kProduct,
-              {usb_simple::kEndpointOut, usb_simple::kEndpointIn}};
+  kind.usb = {usb_simple::kVendor, usb_simple::kProduct, usb_simple::kEndpointOut,
+              usb_simple::kEndpointIn};
   kind.board = "simple";
   kind.attach = attach<boards::Simple>;
   kind.emulate = emulate<emulated::Simple>;
@@ -59,7 +58,7 @@ DeviceKind falcon_kind() {
   DeviceKind kind;
   kind.device = "falcon";
   kind.title = "Novint Falcon";
-  kind.usb = {falcon::kVendor, falcon::kProduct, {falcon::kEndpointOut, falcon::kEndpointIn}};
+  kind.usb = {falcon::kVendor, falcon::kProduct, falcon::kEndpointOut, falcon::kEndpointIn};
   kind.usb.full_speed = true;
   kind.board = "falcon";
   kind.names = "falcon, falcon:ID";
@@ -75,7 +74,7 @@ DeviceKind mouse_kind() {
   DeviceKind kind;
   kind.device = "mouse";
   kind.title = "SPIDAR-mouse";
-  kind.usb = {mouse::kVendor, mouse::kProduct, {mouse::kEndpointOut, mouse::kEndpointIn, true}};
+  kind.usb = {mouse::kVendor, mouse::kProduct, mouse::kEndpointOut, mouse::kEndpointIn, true};
   kind.usb.shared = kind.usb.full_speed = true;
   kind.board = "mouse";
   kind.names = "mouse, mouse:ID";

@@ -162,7 +162,7 @@ std::function<BoardType&()> usb_opener(const std::string& name, const std::strin
                                        std::vector<std::unique_ptr<BoardType>>& boards) {
   std::map<const DeviceKind*, std::pair<UsbTransport*, BoardType*>> of_kind;
   for (const DeviceKind* kind : kinds) {
-    auto transport = std::make_unique<UsbTransport>(name, kind->usb.pipes);
+    auto transport = std::make_unique<UsbTransport>(name, kind->usb);
     UsbTransport* const selects = transport.get();
     boards.push_back(
         std::get<std::unique_ptr<BoardType>>(kind->attach(name, profile, std::move(transport))));

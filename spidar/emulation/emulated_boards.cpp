@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace spidar::emulated {
 namespace {
@@ -45,11 +46,12 @@ size_t Sh4::reply(MutableBytes bytes) noexcept {
 }
 
 void Simple::receive(ByteView bytes) noexcept {
-  usb_simple::HostPacket said;
-  if (!usb_simple::decode_command(bytes, said)) return;
-  switch (said.command) {
+  CyverseDigits digits{};
+  const std::optional<usb_simple::Command> command = usb_simple::decode_command(bytes, digits);
+  if (!command) return;
+  switch (*command) {
     case usb_simple::Command::kSetDac:
-      motors_->put_out(as_ints(said.digits));
+      motors_->put_out(as_ints(digits));
       break;
     case usb_simple::Command::kLatchCounters: {
       const std::array<int32_t, kMaxStrings> counts = motors_->counts();

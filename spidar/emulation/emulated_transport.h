@@ -57,28 +57,25 @@ class Board {
   std::shared_ptr<Motors> motors_;
 };
 
-/// Faults to be caused on the wire; must outlive the transport. Thread-safe.
-struct Wire {
-  /// The fault of every exchange. With kStall and kGone packets do not arrive; kBabble, kShort and
-  /// kWrongReply spoil the reply.
-  std::atomic<LinkFault> fault{LinkFault::kNone};
-};
-
 /// No time passes: a reply is available at once or not at all.
 class Transport final : public spidar::Transport {
  public:
-  Transport(std::unique_ptr<Board> board, std::shared_ptr<Wire> wire)
-      : board_(std::move(board)), wire_(std::move(wire)) {}
+  /// `fault` is that of every exchange. With kStall and kGone packets do not arrive; kBabble,
+  /// kShort and kWrongReply spoil the reply.
+  explicit Transport(std::unique_ptr<Board> board,
+                     std::shared_ptr<const std::atomic<LinkFault>> fault =
+                         std::make_shared<std::atomic<LinkFault>>(LinkFault::kNone))
+      : board_(std::move(board)), fault_(std::move(fault)) {}
 
   void open() override {
-    if (wire_->fault == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
+    if (*fault_ == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
     // As the interface of a real one is claimed until it is closed.
     if (open_) throw DeviceError("emulated board: in use");
     open_ = true;
   }
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t) noexcept override {
-    const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
+    const LinkFault fault = fault_->load(std::memory_order_relaxed);
     // A device that was pulled out must be opened again.
     if (fault == LinkFault::kGone) open_ = false;
     if (!open_) return {LinkFault::kGone, 0};
@@ -101,7 +98,7 @@ class Transport final : public spidar::Transport {
     return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
   }
   LinkFault control(const VendorRequest& request, int64_t) noexcept override {
-    const LinkFault fault = wire_->fault.load(std::memory_order_relaxed);
+    const LinkFault fault = fault_->load(std::memory_order_relaxed);
     if (fault == LinkFault::kGone) open_ = false;
     if (!open_) return LinkFault::kGone;
     if (fault == LinkFault::kStall || fault == LinkFault::kTimeout) return fault;
@@ -117,7 +114,7 @@ class Transport final : public spidar::Transport {
 
  private:
   const std::unique_ptr<Board> board_;
-  const std::shared_ptr<Wire> wire_;
+  const std::shared_ptr<const std::atomic<LinkFault>> fault_;
   bool open_ = false;
 };
 

@@ -34,20 +34,21 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
 
 // The total limits are balls: on a straight line to a point within them, the distance to them never
 // grows, and what is within them stays there.
-Wrench SlewLimit::apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept {
-  const auto step = [dt_s](Eigen::Vector3d& last, const Eigen::Vector3d& to, double max,
+Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
+                  const SafetyLimits& limits) noexcept {
+  const auto step = [dt_s](Eigen::Vector3d& from, const Eigen::Vector3d& to, double max,
                            double max_slew) {
     double left = non_negative(max_slew * dt_s);
-    const double above = last.norm() - non_negative(max);
+    const double above = from.norm() - non_negative(max);
     if (above > 0) {
-      last = shorten(last, last.norm() - std::min(above, left));
+      from = shorten(from, from.norm() - std::min(above, left));
       left = std::max(0.0, left - above);
     }
-    last = approach(last, to, left);
+    from = approach(from, to, left);
   };
-  step(last_.force_N, wanted.force_N, limits.max_force_N, limits.max_slew_N_s);
-  step(last_.torque_Nm, wanted.torque_Nm, limits.max_torque_Nm, limits.max_slew_Nm_s);
-  return last_;
+  step(last.force_N, wanted.force_N, limits.max_force_N, limits.max_slew_N_s);
+  step(last.torque_Nm, wanted.torque_Nm, limits.max_torque_Nm, limits.max_slew_Nm_s);
+  return last;
 }
 
 double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept {
@@ -58,7 +59,7 @@ double StaleRamp::apply(bool fresh, double dt_s, const SafetyLimits& limits) noe
 
 Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
                            const SafetyLimits& limits) noexcept {
-  slew_before_ = slew_;
+  last_before_ = last_;
   stale_before_ = stale_;
   const double before = stale_.fraction();
   const double fraction = stale_.apply(fresh, dt_s, limits);
@@ -66,30 +67,28 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
     const bool is_finite = wanted.is_finite();
     if (!is_finite) ++rejected_;
     const Wrench within = is_finite ? limit_total(wanted, limits) : Wrench();
-    return slew_.apply(fraction * within, dt_s, limits);
+    return last_ = limit_slew(last_, fraction * within, dt_s, limits);
   }
   const double left = before > 0 ? fraction / before : 0;
-  const Wrench last = slew_.last();
-  const Wrench within = limit_total(left * last, limits);
+  const Wrench within = limit_total(left * last_, limits);
   const auto step = [&](double size, double max_slew) {
     return std::max((1 - left) * size, non_negative(max_slew * dt_s));
   };
-  slew_.reset(
-      {approach(last.force_N, within.force_N, step(last.force_N.norm(), limits.max_slew_N_s)),
-       approach(last.torque_Nm, within.torque_Nm,
-                step(last.torque_Nm.norm(), limits.max_slew_Nm_s))});
-  return slew_.last();
+  last_ = {approach(last_.force_N, within.force_N, step(last_.force_N.norm(), limits.max_slew_N_s)),
+           approach(last_.torque_Nm, within.torque_Nm,
+                    step(last_.torque_Nm.norm(), limits.max_slew_Nm_s))};
+  return last_;
 }
 
 void WrenchLimits::undo() noexcept {
-  slew_ = slew_before_;
+  last_ = last_before_;
   stale_ = stale_before_;
 }
 
 void WrenchLimits::reset() noexcept {
-  slew_.reset();
+  last_ = {};
   stale_.reset();
-  slew_before_ = slew_;
+  last_before_ = last_;
   stale_before_ = stale_;
 }
 

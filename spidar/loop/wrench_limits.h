@@ -19,22 +19,12 @@ namespace spidar {
 /// not finite becomes zero.
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
-/// Bounds the change of force and torque per second. What exceeds the total limits, because they
-/// were lowered, comes straight down to them before it turns to what is wanted: on a way aside, it
-/// would fall by less than each step.
-class SlewLimit {
- public:
-  /// Returns the next wrench, `dt_s` after the last one. There is no step towards `wanted` if it is
-  /// not finite, or if `dt_s` is zero, negative or not a number.
-  Wrench apply(const Wrench& wanted, double dt_s, const SafetyLimits& limits) noexcept;
-
-  /// Continues from `at`.
-  void reset(const Wrench& at = {}) noexcept { last_ = at; }
-  const Wrench& last() const noexcept { return last_; }
-
- private:
-  Wrench last_;
-};
+/// Returns the wrench `dt_s` after `last`, with a bounded change of force and torque per second.
+/// What exceeds the total limits, because they were lowered, comes straight down to them before it
+/// turns to what is wanted: on a way aside, it would fall by less than each step. There is no step
+/// towards `wanted` if it is not finite, or if `dt_s` is zero, negative or not a number.
+Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
+                  const SafetyLimits& limits) noexcept;
 
 /// Ramps the wrench to rest when commands stop, and back when they begin. The ramp is level at both
 /// ends, so that there is neither a step nor a corner, and a command that is a little late makes
@@ -67,13 +57,13 @@ class WrenchLimits {
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
   /// The next apply() continues from `at`, to which the brake has reduced the last result.
-  void continue_from(const Wrench& at) noexcept { slew_.reset(at); }
+  void continue_from(const Wrench& at) noexcept { last_ = at; }
 
   /// The device did not receive the result of the last apply(): the next call continues from the
   /// wrench before it.
   void undo() noexcept;
   /// The wrench from which the next apply() continues.
-  const Wrench& last() const noexcept { return slew_.last(); }
+  const Wrench& last() const noexcept { return last_; }
 
   /// Sets the state to rest, as after construction. The count of rejected wrenches is kept.
   void reset() noexcept;
@@ -83,9 +73,9 @@ class WrenchLimits {
 
  private:
   uint64_t rejected_ = 0;
-  SlewLimit slew_;
+  Wrench last_;
   StaleRamp stale_;
-  SlewLimit slew_before_;  ///< the last apply()
+  Wrench last_before_;  ///< the last apply()
   StaleRamp stale_before_;
 };
 

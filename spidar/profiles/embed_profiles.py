@@ -16,8 +16,8 @@ output.write_text(
 
 namespace spidar {{
 
-const std::vector<ShippedProfile>& shipped_profiles() {{
-  static const std::vector<ShippedProfile> all{{
+const std::map<std::string, const char*>& shipped_profiles() {{
+  static const std::map<std::string, const char*> all{{
 {rows}}};
   return all;
 }}

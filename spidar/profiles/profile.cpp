@@ -64,10 +64,9 @@ Profile load_profile(const std::string& name_or_path) {
     if (fs::exists(path, error)) return read_file(path);
     searched.push_back(folder.string());
   }
-  for (const ShippedProfile& shipped : shipped_profiles()) {
-    if (name_or_path == shipped.name) {
-      return parse_profile(shipped.text, name_or_path + kEnding, name_or_path);
-    }
+  const auto shipped = shipped_profiles().find(name_or_path);
+  if (shipped != shipped_profiles().end()) {
+    return parse_profile(shipped->second, name_or_path + kEnding, name_or_path);
   }
   throw ProfileError("unknown profile \"" + name_or_path + "\"; known are " +
                      joined(list_profiles()) + "; searched in " + joined(searched));
@@ -75,7 +74,7 @@ Profile load_profile(const std::string& name_or_path) {
 
 std::vector<std::string> list_profiles() {
   std::set<std::string> names;
-  for (const ShippedProfile& shipped : shipped_profiles()) names.insert(shipped.name);
+  for (const auto& shipped : shipped_profiles()) names.insert(shipped.first);
   for (const fs::path& folder : search_path()) {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {

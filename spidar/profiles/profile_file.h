@@ -31,8 +31,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "spidar/profiles/profile.h"
 
@@ -49,12 +49,7 @@ std::string profile_text(const Profile& profile);
 /// Writes profile_text() to `path` with replace_file().
 void save_profile(const Profile& profile, const std::string& path);
 
-struct ShippedProfile {
-  const char* name;  ///< of the file, without ending
-  const char* text;  ///< TOML
-};
-
-/// All of them, sorted by name.
-const std::vector<ShippedProfile>& shipped_profiles();
+/// TOML by the name of the file without its ending.
+const std::map<std::string, const char*>& shipped_profiles();
 
 }  // namespace spidar

@@ -96,23 +96,19 @@ void encode_latch(Packet& packet) noexcept {
   packet[0] = kLatch;
 }
 
-bool decode_command(ByteView packet, HostPacket& command) noexcept {
-  if (packet.size != kPacketSize) return false;
+std::optional<Command> decode_command(ByteView packet, CyverseDigits& digits) noexcept {
+  if (packet.size != kPacketSize) return std::nullopt;
   switch (packet.u8(0)) {
     case kControl:
-      if (packet.u8(1) != kControlDirection) return false;
-      command.command = Command::kEncoderDirection;
-      command.channels = packet.u8(2);
-      return true;
+      if (packet.u8(1) != kControlDirection) return std::nullopt;
+      return Command::kEncoderDirection;
     case kSetDac:
-      command.command = Command::kSetDac;
-      for (size_t i = 0; i < kChannels; ++i) command.digits[i] = packet.u16(kDigitsAt + 2 * i);
-      return true;
+      for (size_t i = 0; i < kChannels; ++i) digits[i] = packet.u16(kDigitsAt + 2 * i);
+      return Command::kSetDac;
     case kLatch:
-      command.command = Command::kLatchCounters;
-      return true;
+      return Command::kLatchCounters;
     default:
-      return false;
+      return std::nullopt;
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "spidar/protocols/bytes.h"
 
@@ -42,9 +43,8 @@ constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
 
 using Packet = std::array<uint8_t, kPacketSize>;
 
-/// A reply of the board.
-/// The counters have 16 bits, counting in the opposite direction to the Simple board: its host
-/// negates them.
+/// A reply of the board. The counters have 16 bits, counting in the opposite direction to the
+/// Simple board: its host negates them.
 struct Reading : CyverseReading {
   CyverseDigits dac_echo{};
   std::array<uint16_t, kChannels> adc{};  ///< digits of 24 V / 4096
@@ -82,24 +82,16 @@ enum class Command {
   kLatchCounters,  ///< the next packet from the board holds the counters at this moment
 };
 
-/// The board's reply to kLatchCounters.
 void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept;
 /// Digits are clamped to kMaxDigit.
 void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept;
 void encode_latch(Packet& packet) noexcept;
 
-/// A packet to the board, decoded.
-struct HostPacket {
-  Command command = Command::kLatchCounters;
-  uint8_t channels = 0;    ///< of kEncoderDirection
-  CyverseDigits digits{};  ///< of kSetDac
-};
+/// Nothing when it is none of the commands, or does not have kPacketSize bytes. `digits` is only
+/// written with kSetDac.
+std::optional<Command> decode_command(ByteView packet, CyverseDigits& digits) noexcept;
 
-/// Returns false when it is none of the commands, or does not have kPacketSize bytes.
-bool decode_command(ByteView packet, HostPacket& command) noexcept;
-
-/// Counters are reduced to 24 bits.
-/// The counters have 24 bits.
+/// The board's reply to kLatchCounters. Counters are reduced to 24 bits.
 void encode_reading(const CyverseReading& reading, Packet& packet) noexcept;
 /// Returns false when it does not have kPacketSize bytes.
 bool decode_reading(ByteView packet, CyverseReading& reading) noexcept;

@@ -33,11 +33,9 @@ struct WiringSettings {
   SpscRing<PulledMotor, 64>* pulled = nullptr;
 };
 
-/// Counts of encoder (row) for a pull of motor (column).
-using CountChanges = Eigen::Matrix<double, kMaxStrings, kMaxStrings>;
-
 struct WiringAnswers {
-  CountChanges counts = CountChanges::Zero();
+  /// Of encoder (row) for a pull of motor (column).
+  Eigen::Matrix<double, kMaxStrings, kMaxStrings> counts = decltype(counts)::Zero();
   StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
   std::array<bool, kMaxStrings> reversed{};  ///< it did so with the other sign than the profile's
   /// The answers to its pulls differed at every attempt, because the hand moved.

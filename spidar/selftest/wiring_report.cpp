@@ -208,7 +208,7 @@ class Judge {
 
   const int count_;
   const StructureMatrix structure_;
-  CountChanges answer_ = CountChanges::Zero();  ///< shortening, metres per newton
+  decltype(WiringAnswers::counts) answer_ = decltype(answer_)::Zero();  ///< metres per newton
   Eigen::Matrix<double, kMaxStrings, kMaxStrings> expected_;
   std::array<bool, kMaxStrings> silent_motor_{}, silent_encoder_{};
 };

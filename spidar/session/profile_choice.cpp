@@ -91,8 +91,6 @@ void store_profile(const std::string& usb_id, const std::string& serial,
   replace_file(file, text.str());
 }
 
-namespace {
-
 std::string without_profile(const DeviceInfo& board) {
   std::string why = board.path.empty()
                         ? "no board is plugged in whose profile is remembered, and none is named"
@@ -104,6 +102,8 @@ std::string without_profile(const DeviceInfo& board) {
          "choose " +
          board.device + " --profile NAME";
 }
+
+namespace {
 
 /// Throws DeviceError for a board that is not there, whose profile is not the question then.
 void require_plugged_in(const std::string& device) {
@@ -150,9 +150,6 @@ std::string why_not(const DeviceInfo& board, const Profile& profile) {
 
 }  // namespace
 
-NoProfile::NoProfile(const DeviceInfo& board, SourceLocation location)
-    : DeviceError(without_profile(board), DeviceErrorCode::kSettings, location) {}
-
 std::vector<std::string> fitting_profiles(const DeviceInfo& board) {
   std::vector<std::string> fitting;
   for (const std::string& name : list_profiles()) {
@@ -190,7 +187,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
   if (board.name.empty()) make_device(device, load_profile(kDefaultProfile));
   if (named.empty() && board.profile.empty()) {
     require_plugged_in(device);
-    throw NoProfile(board);
+    throw DeviceError(without_profile(board), DeviceErrorCode::kSettings);
   }
   Profile profile = load_profile(named.empty() ? board.profile : named);
   const std::string why = why_not(board, profile);

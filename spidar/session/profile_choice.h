@@ -32,11 +32,8 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 void store_profile(const std::string& usb_id, const std::string& serial,
                    const std::string& profile);
 
-/// Nobody has named a profile for this board. what() lists those that fit it.
-class NoProfile : public DeviceError {
- public:
-  explicit NoProfile(const DeviceInfo& board, SourceLocation location = SourceLocation::here());
-};
+/// Says that nobody has named a profile for this board, and lists those that fit it.
+std::string without_profile(const DeviceInfo& board);
 
 /// The names of the profiles that fit a board: it can drive them, and their source names a board of
 /// its kind or none. Profiles that cannot be read are left out. Opens nothing.
@@ -49,8 +46,8 @@ std::string fitting_text(const DeviceInfo& board);
 bool can_drive(const std::string& device, const Profile& profile);
 
 /// Loads the profile `named`, which is a name or a path as for load_profile(). If it is empty,
-/// loads that of DeviceInfo::profile. Throws NoProfile if that is empty, too, DeviceError when the
-/// profile does not fit the board or there is no such device, and ProfileError.
+/// loads that of DeviceInfo::profile. Throws DeviceError if that is empty, too, when the profile
+/// does not fit the board, or when there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
 /// Throws DeviceError, which says what to do instead, if the board has no serial number by which

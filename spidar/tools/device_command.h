@@ -96,7 +96,7 @@ struct ChosenDevice {
   const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };
 
-/// Throws ProfileError, DeviceError, and NoProfile, which is one.
+/// Throws ProfileError and DeviceError.
 ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
                            boards::CountZero count_zero = boards::CountZero::kByProfile);
 

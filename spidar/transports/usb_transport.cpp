@@ -187,7 +187,7 @@ int claim(libusb_device_handle* handle) {
 }
 
 /// The alternate setting of interface 0 that has both pipes; −1 when there is none.
-int setting_with(libusb_device* device, const UsbPipes& pipes) {
+int setting_with(libusb_device* device, const UsbId& id) {
   libusb_config_descriptor* config = nullptr;
   if (libusb_get_active_config_descriptor(device, &config) != LIBUSB_SUCCESS) return -1;
   int found = -1;
@@ -195,8 +195,8 @@ int setting_with(libusb_device* device, const UsbPipes& pipes) {
     const libusb_interface& interface = config->interface[kInterface];
     for (int i = interface.num_altsetting - 1; i >= 0; --i) {
       const libusb_interface_descriptor& setting = interface.altsetting[i];
-      if (has_endpoint(setting, pipes.out, pipes.interrupt) &&
-          has_endpoint(setting, pipes.in, pipes.interrupt)) {
+      if (has_endpoint(setting, id.out, id.interrupt) &&
+          has_endpoint(setting, id.in, id.interrupt)) {
         found = setting.bAlternateSetting;
       }
     }
@@ -225,8 +225,7 @@ std::string UsbId::text() const {
   return text.data();
 }
 
-UsbTransport::UsbTransport(std::string name, const UsbPipes& pipes)
-    : name_(std::move(name)), pipes_(pipes) {}
+UsbTransport::UsbTransport(std::string name, const UsbId& id) : name_(std::move(name)), id_(id) {}
 
 UsbTransport::~UsbTransport() {
   close();
@@ -248,7 +247,7 @@ void UsbTransport::open() {
         libusb_get_device_address(list[i]) != device_.address) {
       continue;
     }
-    setting = setting_with(list[i], pipes_);
+    setting = setting_with(list[i], id_);
     error = libusb_open(list[i], &handle_);
   }
   if (list) libusb_free_device_list(list, 1);
@@ -280,7 +279,7 @@ void UsbTransport::open() {
 
 LinkFault UsbTransport::submit(Slot& slot, uint8_t endpoint, size_t length) noexcept {
   const auto bytes = static_cast<int>(length);
-  if (pipes_.interrupt) {
+  if (id_.interrupt) {
     libusb_fill_interrupt_transfer(slot.transfer, handle_, endpoint, slot.bytes.data(), bytes,
                                    mark_done, &slot.done, 0);
   } else {
@@ -326,14 +325,14 @@ Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, Mutable
   if (packets.size() > kMaxPackets || reply.size > kMaxLength) return {LinkFault::kWrongReply, 0};
   LinkFault fault = LinkFault::kNone;
   Slot& in = slots_.back();
-  if (reply.size > 0) fault = submit(in, pipes_.in, reply.size);
+  if (reply.size > 0) fault = submit(in, id_.in, reply.size);
   size_t used = 0;
   for (const ByteView packet : packets) {
     if (fault != LinkFault::kNone) break;
     Slot& slot = slots_[used++];
     const size_t length = std::min(packet.size, kMaxLength);
     std::copy_n(packet.data, length, slot.bytes.begin());
-    fault = submit(slot, pipes_.out, length);
+    fault = submit(slot, id_.out, length);
   }
   // If a packet was not sent there will be no reply.
   finish(fault == LinkFault::kNone ? deadline_ns : 0);
@@ -366,9 +365,9 @@ LinkFault UsbTransport::control(const VendorRequest& request, int64_t deadline_n
 void UsbTransport::recover() noexcept {
   if (!handle_) return;
   // Unless there is a stall, the published hosts reset only the pipe of the replies.
-  if (out_stalled_) libusb_clear_halt(handle_, pipes_.out);
+  if (out_stalled_) libusb_clear_halt(handle_, id_.out);
   out_stalled_ = false;
-  libusb_clear_halt(handle_, pipes_.in);
+  libusb_clear_halt(handle_, id_.in);
   // Drops replies to exchanges that timed out; a board buffers a few of them.
   std::array<uint8_t, kMaxLength> old{};
   for (int i = 0; i < 4; ++i) {
@@ -381,7 +380,7 @@ std::optional<LastWill> UsbTransport::last_will() const {
   LastWill will;
   will.wire = LastWill::Wire::kUsb;
   will.interface_number = kInterface;
-  will.endpoint = pipes_.out;
+  will.endpoint = id_.out;
   will.file = open_file(context_.get());
   if (will.file < 0) {
     throw DeviceError(name_ + ": libusb does not say which file it has opened for the board");

@@ -41,18 +41,13 @@ UsbContext make_usb_context();
 /// nothing is sent to a device. Throws DeviceError when there is no access to the bus.
 std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
 
-/// Endpoints of a board, all on interface 0.
-struct UsbPipes {
-  uint8_t out = 0;
-  uint8_t in = 0;
-  bool interrupt = false;  ///< otherwise bulk
-};
-
-/// How a board is known on the bus.
+/// How a board is known on the bus, and its endpoints, all on interface 0.
 struct UsbId {
   uint16_t vendor = 0;  ///< 0: it is not on USB
   uint16_t product = 0;
-  UsbPipes pipes;
+  uint8_t out = 0;
+  uint8_t in = 0;
+  bool interrupt = false;   ///< otherwise bulk
   bool shared = false;      ///< other devices have this id, too, so each that has it is asked
   bool full_speed = false;  ///< 12 Mbit/s, packets of 64 bytes; otherwise 480 and 512
 
@@ -67,7 +62,7 @@ struct UsbId {
 class UsbTransport final : public Transport {
  public:
   /// `name` is for messages.
-  UsbTransport(std::string name, const UsbPipes& pipes);
+  UsbTransport(std::string name, const UsbId& id);
   ~UsbTransport() override;
 
   /// Selects the device that open() opens.
@@ -98,7 +93,7 @@ class UsbTransport final : public Transport {
   bool in_flight() const noexcept;
 
   const std::string name_;
-  const UsbPipes pipes_;
+  const UsbId id_;
   UsbDeviceInfo device_;
   UsbContext context_{nullptr, nullptr};
   libusb_device_handle* handle_ = nullptr;

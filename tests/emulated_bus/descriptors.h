@@ -16,7 +16,7 @@ inline std::string descriptors_of(const DeviceKind& kind) {
   const auto low = [](int v) { return static_cast<uint8_t>(v & 0xFF); };
   const auto high = [](int v) { return static_cast<uint8_t>(v >> 8); };
   const uint16_t packet = usb.full_speed ? 64 : 512;
-  const bool hid = usb.pipes.interrupt;
+  const bool hid = usb.interrupt;
   const uint8_t type = hid ? 3 : 2;  // interrupt, bulk
   const uint8_t interval = hid ? 1 : 0;
   const uint8_t bytes[] = {// device: USB 2.0, class by interface, packets of 64, one configuration
@@ -27,8 +27,8 @@ inline std::string descriptors_of(const DeviceKind& kind) {
                            // interface 0 with two endpoints: HID or vendor's own
                            9, 4, 0, 0, 2, static_cast<uint8_t>(hid ? 3 : 0xFF), 0, 0, 0,
                            // endpoints
-                           7, 5, usb.pipes.out, type, low(packet), high(packet), interval, 7, 5,
-                           usb.pipes.in, type, low(packet), high(packet), interval};
+                           7, 5, usb.out, type, low(packet), high(packet), interval, 7, 5, usb.in,
+                           type, low(packet), high(packet), interval};
   return {reinterpret_cast<const char*>(bytes), sizeof bytes};
 }
 

@@ -52,8 +52,8 @@ void fuzz_simple(ByteView bytes) {
                 again.inputs == reading.inputs,
             "fuzz_protocols: a Simple reading is another");
   }
-  usb_simple::HostPacket command;
-  usb_simple::decode_command(bytes, command);
+  CyverseDigits digits{};
+  usb_simple::decode_command(bytes, digits);
 }
 
 void fuzz_uart(ByteView bytes, int board) {

@@ -99,11 +99,11 @@ void UsbipBoard::serve(int socket) {
 bool UsbipBoard::take(const UsbipRequest& request, const std::vector<uint8_t>& data) {
   if (request.endpoint == 0) return control(request);
   constexpr uint8_t kNumber = 0x0F;  // of an endpoint, without its direction
-  if (request.in && request.endpoint == (kind_.usb.pipes.in & kNumber)) {
+  if (request.in && request.endpoint == (kind_.usb.in & kNumber)) {
     waiting_.push_back(request);
     return !unplug_in_transfer_ && answer();
   }
-  if (request.in || request.endpoint != kind_.usb.pipes.out)
+  if (request.in || request.endpoint != kind_.usb.out)
     return reply(UsbipCommand::kSubmitReply, request.sequence, -EPIPE);
   board_->receive({data.data(), data.size()});
   return reply(UsbipCommand::kSubmitReply, request.sequence, 0, data.size()) && answer();

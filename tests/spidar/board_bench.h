@@ -46,7 +46,8 @@ struct BoardBench {
   const Profile profile = load_profile(is_uart ? "spidar-g6x" : kind.profile);
   MotorBench motors;
   std::shared_ptr<RecordedMotors> recorded = std::make_shared<RecordedMotors>(motors);
-  std::shared_ptr<emulated::Wire> wire = std::make_shared<emulated::Wire>();
+  std::shared_ptr<std::atomic<LinkFault>> wire =
+      std::make_shared<std::atomic<LinkFault>>(LinkFault::kNone);
 };
 
 inline MotorVolts all_volts(double volt) {

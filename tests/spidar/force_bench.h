@@ -58,7 +58,8 @@ struct ForceBench {
   const Profile profile = load_profile("spidar-g6x3-v2-r");
   MotorBench motors;
   std::shared_ptr<RecordedMotors> recorded = std::make_shared<RecordedMotors>(motors);
-  std::shared_ptr<emulated::Wire> wire = std::make_shared<emulated::Wire>();
+  std::shared_ptr<std::atomic<LinkFault>> wire =
+      std::make_shared<std::atomic<LinkFault>>(LinkFault::kNone);
 };
 
 }  // namespace spidar::test

@@ -40,7 +40,7 @@ inline std::string name_of(const testing::TestParamInfo<std::string>& board) {
 }
 
 inline std::unique_ptr<Transport> wire_to(std::unique_ptr<emulated::Board> emulated,
-                                          const std::shared_ptr<emulated::Wire>& wire) {
+                                          const std::shared_ptr<std::atomic<LinkFault>>& wire) {
   return std::make_unique<emulated::Transport>(std::move(emulated), wire);
 }
 

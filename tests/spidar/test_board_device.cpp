@@ -80,9 +80,9 @@ TEST(ExampleBoard, IsABoard) {
           "example", bench.profile,
           bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
       {boards::CountZero::kFirstOpen, false, false});
-  bench.wire->fault = LinkFault::kTimeout;
+  *bench.wire = LinkFault::kTimeout;
   EXPECT_THROW(device.open(), DeviceError);
-  bench.wire->fault = LinkFault::kNone;
+  *bench.wire = LinkFault::kNone;
   device.open();
   bench.motors.count[6] = -9;
   DeviceReading reading;

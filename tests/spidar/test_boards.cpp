@@ -109,12 +109,12 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
   };
   for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kShort, LinkFault::kBabble,
                                 LinkFault::kBusError, LinkFault::kStall, LinkFault::kGone}) {
-    wire->fault = fault;
+    *wire = fault;
     const uint64_t before = device->health().count(fault);
     EXPECT_EQ(exchange(), fault);
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
-    wire->fault = LinkFault::kNone;
+    *wire = LinkFault::kNone;
     if (fault == LinkFault::kGone) device->open();
     EXPECT_EQ(exchange(), LinkFault::kNone) << "after " << to_string(fault);
   }
@@ -123,7 +123,7 @@ TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
 TEST_P(Boards, GarbageIsNotTakenForCounts) {
   const auto device = this->device();
   device->open();
-  wire->fault = LinkFault::kWrongReply;
+  *wire = LinkFault::kWrongReply;
   DeviceReading reading;
   reading.count.fill(42);
   const LinkFault fault = device->exchange(all_volts(1), reading);
@@ -170,11 +170,11 @@ TEST_P(Boards, CountsAreZeroedByPolicyOnly) {
     device->open();
     ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], c.first);
-    wire->fault = LinkFault::kGone;
+    *wire = LinkFault::kGone;
     EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
     EXPECT_THROW(device->open(), DeviceError);
     motors.count[3] = 550;  // moved meanwhile
-    wire->fault = LinkFault::kNone;
+    *wire = LinkFault::kNone;
     device->open();
     ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], c.again);
@@ -188,9 +188,9 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     const auto device = this->device(false, policy);
     DeviceReading reading;
     device->open();
-    wire->fault = LinkFault::kGone;
+    *wire = LinkFault::kGone;
     EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
-    wire->fault = LinkFault::kNone;
+    *wire = LinkFault::kNone;
     motors.count[3] = 3;  // began anew
     for (int attempt = 0; attempt < 2; ++attempt) {
       try {
@@ -212,7 +212,7 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
 TEST_P(Boards, OpenSaysWhatIsWrong) {
   const auto device = this->device();
   for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kBabble}) {
-    wire->fault = fault;
+    *wire = fault;
     try {
       device->open();
       FAIL() << to_string(fault);
@@ -224,7 +224,7 @@ TEST_P(Boards, OpenSaysWhatIsWrong) {
       EXPECT_NE(what.find(expected), std::string::npos) << what;
     }
   }
-  wire->fault = LinkFault::kNone;
+  *wire = LinkFault::kNone;
   device->open();
 }
 

@@ -94,12 +94,12 @@ TEST_P(ForceBoards, EveryFaultIsNamedCountedAndForgotten) {
     faults.insert(faults.begin(), {LinkFault::kTimeout, LinkFault::kShort, LinkFault::kBabble,
                                    LinkFault::kBusError});
   for (const LinkFault fault : faults) {
-    wire->fault = fault;
+    *wire = fault;
     const uint64_t before = device->health().count(fault);
     EXPECT_EQ(exchange(*device, pushing(1), 1), fault);
     EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
     EXPECT_EQ(device->health().last_fault, fault);
-    wire->fault = LinkFault::kNone;
+    *wire = LinkFault::kNone;
     if (fault == LinkFault::kGone) device->open();
     EXPECT_EQ(exchange(*device, pushing(1), 1), LinkFault::kNone) << "after " << to_string(fault);
   }
@@ -108,7 +108,7 @@ TEST_P(ForceBoards, EveryFaultIsNamedCountedAndForgotten) {
 TEST_P(ForceBoards, OpenSaysWhatIsWrong) {
   const auto device = linked();
   for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kBabble}) {
-    wire->fault = fault;
+    *wire = fault;
     try {
       device->open();
       FAIL() << to_string(fault);
@@ -118,7 +118,7 @@ TEST_P(ForceBoards, OpenSaysWhatIsWrong) {
       EXPECT_NE(what.find(to_string(fault)), std::string::npos) << what;
     }
   }
-  wire->fault = LinkFault::kNone;
+  *wire = LinkFault::kNone;
   device->open();
 }
 
@@ -194,7 +194,7 @@ TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
   stick.command.wrench.force_N.x() = 1;
   stick.exchange(10);
   EXPECT_TRUE(stick.grip->reading().knows_pose());
-  stick.bench.wire->fault = LinkFault::kGone;
+  *stick.bench.wire = LinkFault::kGone;
   // Single failed updates are no loss.
   stick.exchange(static_cast<int>(boards::UpdateWatch::kFailures) *
                      boards::ForceFeedback::kUpdate_ms +

@@ -93,38 +93,33 @@ TEST(Sh4, DigitsBeyondTheDacAreClamped) {
   EXPECT_EQ(digits, kClamped);
   usb_simple::Packet simple;
   usb_simple::encode_set_dac(kBeyond, simple);
-  usb_simple::HostPacket said;
-  ASSERT_TRUE(usb_simple::decode_command(simple, said));
-  EXPECT_EQ(said.digits, kClamped);
+  ASSERT_EQ(usb_simple::decode_command(simple, digits), usb_simple::Command::kSetDac);
+  EXPECT_EQ(digits, kClamped);
 }
 
 // --- Simple
 
 TEST(UsbSimple, CommandsAreThoseOfTheFactSheet) {
   usb_simple::Packet packet;
-  usb_simple::HostPacket said;
+  CyverseDigits digits{};
   usb_simple::encode_encoder_direction(0xFF, packet);
   EXPECT_EQ(bytes_of(packet), padded({0xA2, 0x1A, 0xFF}, 32));
-  ASSERT_TRUE(usb_simple::decode_command(packet, said));
-  EXPECT_EQ(said.command, usb_simple::Command::kEncoderDirection);
-  EXPECT_EQ(said.channels, 0xFF);
+  EXPECT_EQ(usb_simple::decode_command(packet, digits), usb_simple::Command::kEncoderDirection);
 
   std::vector<uint8_t> set_dac{0x52};
   set_dac.insert(set_dac.end(), kDigitBytes.begin(), kDigitBytes.end());
   usb_simple::encode_set_dac(kDigits, packet);
   EXPECT_EQ(bytes_of(packet), padded(set_dac, 32));
-  ASSERT_TRUE(usb_simple::decode_command(packet, said));
-  EXPECT_EQ(said.command, usb_simple::Command::kSetDac);
-  EXPECT_EQ(said.digits, kDigits);
+  EXPECT_EQ(usb_simple::decode_command(packet, digits), usb_simple::Command::kSetDac);
+  EXPECT_EQ(digits, kDigits);
 
   usb_simple::encode_latch(packet);
   EXPECT_EQ(bytes_of(packet), padded({0x51}, 32));
-  ASSERT_TRUE(usb_simple::decode_command(packet, said));
-  EXPECT_EQ(said.command, usb_simple::Command::kLatchCounters);
+  EXPECT_EQ(usb_simple::decode_command(packet, digits), usb_simple::Command::kLatchCounters);
 
-  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x50}, 32)), said));
-  EXPECT_FALSE(usb_simple::decode_command(view(padded({0xA2, 0x1B}, 32)), said));
-  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x51}, 31)), said));
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x50}, 32)), digits));
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0xA2, 0x1B}, 32)), digits));
+  EXPECT_FALSE(usb_simple::decode_command(view(padded({0x51}, 31)), digits));
 }
 
 TEST(UsbSimple, ReadingHasTwentyFourBitCountersAndInputs) {

@@ -65,17 +65,17 @@ TEST(LimitTotal, SurvivesAnything) {
   }
 }
 
-TEST(SlewLimit, ChangesByNoMoreThanTheLimit) {
-  SlewLimit slew;
+TEST(LimitSlew, ChangesByNoMoreThanTheLimit) {
+  Wrench last;
   for (int i = 1; i <= 10; ++i) {
-    const Wrench left = slew.apply(limit_total({{3, 0, 0}, {0, 0, 0.1}}, {}), kTick_s, {});
-    EXPECT_NEAR(left.force_N.x(), 0.3 * i, 1e-12);
-    EXPECT_NEAR(left.torque_Nm.z(), 0.01 * i, 1e-12);
+    last = limit_slew(last, limit_total({{3, 0, 0}, {0, 0, 0.1}}, {}), kTick_s, {});
+    EXPECT_NEAR(last.force_N.x(), 0.3 * i, 1e-12);
+    EXPECT_NEAR(last.torque_Nm.z(), 0.01 * i, 1e-12);
   }
   // There, exactly, and it stays.
-  EXPECT_EQ(slew.apply(force(3, 0, 0), kTick_s, {}).force_N.x(), 3);
+  EXPECT_EQ((last = limit_slew(last, force(3, 0, 0), kTick_s, {})).force_N.x(), 3);
   // Turning round goes straight through, at the same rate.
-  EXPECT_NEAR(slew.apply(force(-3, 0, 0), kTick_s, {}).force_N.x(), 2.7, 1e-12);
+  EXPECT_NEAR(limit_slew(last, force(-3, 0, 0), kTick_s, {}).force_N.x(), 2.7, 1e-12);
 }
 
 constexpr double kNoMost = std::numeric_limits<double>::infinity();
@@ -124,39 +124,37 @@ TEST(ForceLimits, EndAtWhatWasSetWhateverTheStringsExertAtRest) {
 }
 
 // A force that turned aside on its way down would be above the limit that falls beside it.
-TEST(SlewLimit, WhatIsAboveItsLimitComesStraightDown) {
-  SlewLimit slew;
-  slew.reset(force(3, 0, 0));
+TEST(LimitSlew, WhatIsAboveItsLimitComesStraightDown) {
+  Wrench last;
+  last = force(3, 0, 0);
   SafetyLimits low;
   low.max_force_N = 1;
   const double step_N = kTick_s * low.max_slew_N_s;
   for (int i = 1; i <= 6; ++i) {
-    EXPECT_NEAR(
-        (slew.apply(force(0, 1, 0), kTick_s, low).force_N - force(3 - i * step_N, 0, 0).force_N)
-            .norm(),
-        0, 1e-12);
+    last = limit_slew(last, force(0, 1, 0), kTick_s, low);
+    EXPECT_NEAR((last.force_N - force(3 - i * step_N, 0, 0).force_N).norm(), 0, 1e-12);
   }
   // 0.2 N are left of the seventh step, and 0.1 N of it for the turn.
-  const Eigen::Vector3d then_N = slew.apply(force(0, 1, 0), kTick_s, low).force_N;
+  const Eigen::Vector3d then_N = limit_slew(last, force(0, 1, 0), kTick_s, low).force_N;
   EXPECT_NEAR((then_N - Eigen::Vector3d(1, 0, 0)).norm(), 0.1, 1e-12);
   EXPECT_LE(then_N.norm(), 1);
 }
 
-TEST(SlewLimit, NoTimeNoStep) {
-  SlewLimit slew;
+TEST(LimitSlew, NoTimeNoStep) {
+  Wrench last;
   for (const double dt : {0.0, -1.0, kNaN}) {
-    EXPECT_EQ(slew.apply(force(3, 0, 0), dt, {}).force_N.norm(), 0) << "dt " << dt;
+    EXPECT_EQ(limit_slew(last, force(3, 0, 0), dt, {}).force_N.norm(), 0) << "dt " << dt;
   }
   SafetyLimits unlimited;
   unlimited.max_slew_N_s = kInf;
-  EXPECT_EQ(slew.apply(force(3, 0, 0), kTick_s, unlimited).force_N.x(), 3);
+  EXPECT_EQ(limit_slew(last, force(3, 0, 0), kTick_s, unlimited).force_N.x(), 3);
 }
 
-TEST(SlewLimit, IgnoresWhatIsNotFinite) {
-  SlewLimit slew;
-  slew.reset(force(1, 0, 0));
+TEST(LimitSlew, IgnoresWhatIsNotFinite) {
+  Wrench last;
+  last = force(1, 0, 0);
   for (const double bad : {kNaN, kInf}) {
-    EXPECT_EQ(slew.apply(force(bad, 0, 0), kTick_s, {}).force_N.x(), 1) << bad;
+    EXPECT_EQ(limit_slew(last, force(bad, 0, 0), kTick_s, {}).force_N.x(), 1) << bad;
   }
 }
 

@@ -84,8 +84,7 @@ TEST_F(Sound, ACardThatFailsEachTimeIsLostAndDoesNotKeepAProcessorBusy) {
 TEST(SoundBoard, SaysThatItRanDryMoreThanOnce) {
   auto emulated = std::make_unique<emulated::Sound>(std::make_shared<emulated::Motors>());
   sound::State& state = emulated->state;
-  boards::Sound board("sound:a", std::make_unique<emulated::Transport>(
-                                     std::move(emulated), std::make_shared<emulated::Wire>()));
+  boards::Sound board("sound:a", std::make_unique<emulated::Transport>(std::move(emulated)));
   board.open();
   const auto warning_after = [&](int underruns) {
     state.underruns = underruns;

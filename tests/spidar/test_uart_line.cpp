@@ -148,10 +148,8 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   // This one answers at once, so that each step of its ramp arrives.
   std::vector<std::unique_ptr<Transport>> lines;
   lines.push_back(std::make_unique<TtyTransport>("uart", line->path(), uart_motor::kBaud));
-  lines.push_back(std::make_unique<emulated::Transport>(
-      std::make_unique<emulated::Uart>(second_motors,
-                                       std::vector<emulated::Uart::Station>{{0, kB3M}}),
-      std::make_shared<emulated::Wire>()));
+  lines.push_back(std::make_unique<emulated::Transport>(std::make_unique<emulated::Uart>(
+      second_motors, std::vector<emulated::Uart::Station>{{0, kB3M}})));
   boards::Settings settings;
   settings.guardian = settings.threaded = false;
   const auto board = std::make_unique<boards::StringLink>(

@@ -43,7 +43,7 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
   plug(1, "simple");
   for (const std::string device : {"usb:1-1", "usb:1-2", "usb:A1", "usb:5", "uart:/dev/null"}) {
     EXPECT_EQ(board_info(device).profile, "") << device;
-    EXPECT_THROW(profile_for(device, ""), NoProfile) << device;
+    EXPECT_THROW(profile_for(device, ""), DeviceError) << device;
     EXPECT_EQ(profile_for(device, "spidar-g6x").name, "spidar-g6x") << device;
   }
   // Which board it is, and whether there is one, comes before its profile.
@@ -56,8 +56,8 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
     }
   }
   // The pages list these for the SH4 and the Simple board.
-  const std::string of_sh4 = NoProfile(board_info("usb:1-1")).what();
-  const std::string of_simple = NoProfile(board_info("usb:1-2")).what();
+  const std::string of_sh4 = without_profile(board_info("usb:1-1"));
+  const std::string of_simple = without_profile(board_info("usb:1-2"));
   const auto names = [](const std::string& text, const std::string& name) {
     return text.find(" " + name + ",") != std::string::npos;
   };
@@ -94,7 +94,7 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   expect_contains(refusal_of([] { profile_for("uart", ""); }), "write uart:PATH");
   DeviceInfo nothing;
   nothing.device = "uart";
-  expect_contains(NoProfile(nothing).what(), " No profile that is known here fits it. ");
+  expect_contains(without_profile(nothing), " No profile that is known here fits it. ");
 }
 
 TEST_F(UsbProfiles, AreKeptForTheSerialNumberForWhichTheyWereConfirmed) {
@@ -109,7 +109,7 @@ TEST_F(UsbProfiles, AreKeptForTheSerialNumberForWhichTheyWereConfirmed) {
   EXPECT_EQ(profile_for("usb:1-1", "").name, "spidar-g645");
   EXPECT_EQ(board_info("usb:A2").profile, (std::filesystem::current_path() / "mine.toml").string());
   EXPECT_THROW(remember_profile(board_info("usb:1-3"), "spidar-g6c"), DeviceError);
-  EXPECT_THROW(profile_for("usb:1-3", ""), NoProfile);
+  EXPECT_THROW(profile_for("usb:1-3", ""), DeviceError);
   // A board of the other kind is another one, whatever its number is.
   EXPECT_EQ(remembered_profile("0cec:0203", "A1"), "");
   // What cannot be read is not overwritten.

@@ -106,7 +106,7 @@ TEST(Wiring, OnlyDoubtfulMotorsArePulledAgain) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
   selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, without_pauses);
-  const selftest::CountChanges right = answers.counts;
+  const auto right = answers.counts;
   answers.counts.setConstant(1);
   std::array<bool, kMaxStrings> doubtful{};
   doubtful[2] = true;

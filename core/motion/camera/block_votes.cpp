@@ -41,16 +41,14 @@ void begin(BackgroundVotes& votes) {
   votes.of_areas = false;
 }
 
-enum class Voters { kTextured, kEdgesToo };
-
 /// Textured blocks vote on the camera's motion, and count twice at the border of the picture. Rest
 /// at the border counts once: graphics are mostly there, whereas a camera at rest shows it all over
 /// the picture. How an edge moves along itself is not known; edges therefore vote only where little
 /// else does, as in a picture out of focus. Returns whether the voters together have edges in more
 /// than one direction.
-bool collect(const BlockField& field, const Past& past, Voters voters, BackgroundVotes& votes) {
+bool collect(const BlockField& field, const Past& past, bool with_edges, BackgroundVotes& votes) {
   begin(votes);
-  votes.with_edges = voters == Voters::kEdgesToo;
+  votes.with_edges = with_edges;
   Eigen::Matrix2f together = Eigen::Matrix2f::Zero();
   const BlockGrid& grid = field.grid();
   const int left = past.margin_columns;
@@ -108,12 +106,12 @@ bool is_new(const BlockField& field) {
 }  // namespace
 
 void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
-  collect(field, past, Voters::kTextured, votes);
+  collect(field, past, false, votes);
 }
 
 void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes) {
-  if (!collect(field, past, Voters::kEdgesToo, votes)) {
-    collect(field, past, Voters::kTextured, votes);
+  if (!collect(field, past, true, votes)) {
+    collect(field, past, false, votes);
   }
   votes.are_lost = is_new(field);
 }

@@ -61,9 +61,6 @@ bool fit_linear(const std::vector<Displacement>& points, const std::vector<doubl
   return true;
 }
 
-using Vector8 = Eigen::Matrix<double, 8, 1>;
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
-
 /// H s = g for the Gauss–Newton step s of the eight parameters of a homography. In x only the first
 /// three of them act, in y the next three, with the same derivatives `a`, and the last two act in
 /// both, with `p_x` and `p_y`: what is zero, or there already, is not added up.
@@ -71,7 +68,7 @@ struct HomographySums {
   Eigen::Matrix3d aa = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 2, 3> pa_x = Eigen::Matrix<double, 2, 3>::Zero(), pa_y = pa_x;
   Eigen::Matrix2d pp = Eigen::Matrix2d::Zero();
-  Vector8 g = Vector8::Zero();
+  Eigen::Matrix<double, 8, 1> g = Eigen::Matrix<double, 8, 1>::Zero();
 
   void add(double weight, const Eigen::Vector3d& a, const Eigen::Vector2d& p_x,
            const Eigen::Vector2d& p_y, const Eigen::Array2d& error) {
@@ -87,8 +84,8 @@ struct HomographySums {
   }
 
   /// The lower triangle of H.
-  Matrix8 lower() const {
-    Matrix8 H = Matrix8::Zero();
+  Eigen::Matrix<double, 8, 8> lower() const {
+    Eigen::Matrix<double, 8, 8> H = decltype(H)::Zero();
     H.block<3, 3>(0, 0) = H.block<3, 3>(3, 3) = aa;
     H.block<2, 3>(6, 0) = pa_x;
     H.block<2, 3>(6, 3) = pa_y;
@@ -123,10 +120,10 @@ bool refine_homography(const std::vector<Displacement>& points, const std::vecto
       const Eigen::Array2d p_x = -to.x() / kUnit_px * a, p_y = -to.y() / kUnit_px * a;
       sums.add(weights[i], {a.x(), a.y(), 1 / divisor}, p_x, p_y, error);
     }
-    const Eigen::LDLT<Matrix8, Eigen::Lower> ldlt(sums.lower());
-    const Vector8 pivots = ldlt.vectorD();
+    const Eigen::LDLT<Eigen::Matrix<double, 8, 8>, Eigen::Lower> ldlt(sums.lower());
+    const auto pivots = ldlt.vectorD();
     if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
-    const Vector8 change = ldlt.solve(sums.g);
+    const Eigen::Matrix<double, 8, 1> change = ldlt.solve(sums.g);
     model.linear(0, 0) += change[0] / kUnit_px;
     model.linear(0, 1) += change[1] / kUnit_px;
     model.linear(1, 0) += change[3] / kUnit_px;

@@ -81,9 +81,19 @@ uint32_t ObjectTracker::create(const Region& region) {
   return life.key;
 }
 
-/// Whether most of an object's usual blocks are where they were, none of which clearly moves.
-bool ObjectTracker::remains_there(const ObjectLife& life, const Remains& remains) {
-  return remains.blocks >= kRemainingFraction * life.expected.blocks;
+/// How many of the blocks on which an object was before, and which now do not clearly move by
+/// themselves, are found in the picture before and are not plain; nothing unless they are most of
+/// its usual blocks.
+std::optional<int> ObjectTracker::resting_blocks(const ObjectLife& life,
+                                                 const BlockField& field) const {
+  int blocks = 0, found = 0;
+  for (size_t i = 0; i < owners_before_.size(); ++i) {
+    if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
+    ++blocks;
+    found += (*relative_)[i].shows_motion || field.match_of(i) == BlockField::Match::kFound;
+  }
+  if (blocks < kRemainingFraction * life.expected.blocks) return std::nullopt;
+  return found;
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
@@ -93,7 +103,7 @@ bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
                               const BlockField& field) const {
   if (region.blocks >= kLeastBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
-  const bool is_rim = life->is_rim(region) && remains_there(*life, remains_of(*life, field));
+  const bool is_rim = life->is_rim(region) && resting_blocks(*life, field);
   return !life->is_layer && !is_rim;
 }
 
@@ -232,17 +242,6 @@ void ObjectTracker::observe(ObjectLife& life, const FieldInFrame& frame) {
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-ObjectTracker::Remains ObjectTracker::remains_of(const ObjectLife& life,
-                                                 const BlockField& field) const {
-  Remains remains;
-  for (size_t i = 0; i < owners_before_.size(); ++i) {
-    if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
-    ++remains.blocks;
-    remains.found += (*relative_)[i].shows_motion || field.match_of(i) == BlockField::Match::kFound;
-  }
-  return remains;
-}
-
 /// The object rests where it is.
 void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
@@ -259,14 +258,12 @@ void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
 void ObjectTracker::miss(ObjectLife& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
-  const Remains remains = remains_of(life, frame.field);
-  object.points = background_->is_known ? remains.found : 0;
-  if (object.points > 0 && remains_there(life, remains)) {
+  object.points = background_->is_known ? resting_blocks(life, frame.field).value_or(0) : 0;
+  if (object.points > 0) {
     life.turn(ObjectLife::State::kRests);
     stay(life, frame);
   } else {
     life.turn(ObjectLife::State::kHidden);
-    object.points = 0;
   }
   life.since_s += frame.interval_s;
   life.go_on_unseen(frame.interval_s);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -182,21 +183,14 @@ class ObjectTracker {
   static constexpr size_t kMostObjects = 16;
 
  private:
-  /// Blocks on which an object was before, and which now do not clearly move by themselves.
-  struct Remains {
-    int blocks = 0;
-    int found = 0;  ///< those of them that are found in the picture before, and are not plain
-  };
-
   void claim(const FieldInFrame& frame);
   ObjectLife* owner_of(int16_t region);
   ObjectLife* expected_at(const Region& region, const FieldInFrame& frame);
-  static bool remains_there(const ObjectLife& life, const Remains& remains);
   bool is_enough(const Region& region, const ObjectLife* life, const BlockField& field) const;
   uint32_t create(const Region& region);
   bool has_vanished(const ObjectLife& life, const FieldInFrame& frame) const;
   void observe(ObjectLife& life, const FieldInFrame& frame);
-  Remains remains_of(const ObjectLife& life, const BlockField& field) const;
+  std::optional<int> resting_blocks(const ObjectLife& life, const BlockField& field) const;
   void stay(ObjectLife& life, const FieldInFrame& frame);
   void miss(ObjectLife& life, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {

@@ -12,7 +12,6 @@
 namespace spidar {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::Vector2d;
 using Eigen::Vector2f;
 
@@ -83,7 +82,7 @@ Vector2f turned(const Vector2f& by, const Vector2f& what) {
 }
 
 /// (growth, roll) of the similarity that is nearest to a linear map A of displacements.
-Complex similarity_in(const Eigen::Matrix2d& A) {
+std::complex<double> similarity_in(const Eigen::Matrix2d& A) {
   return {(A(0, 0) + A(1, 1)) / 2, (A(1, 0) - A(0, 1)) / 2};
 }
 
@@ -157,12 +156,12 @@ void TurnMeter::collect_slopes(const BlockField& field) {
   thin_out(slopes_, kMostPixels);
 }
 
-inline Vector2f TurnMeter::before_px(const Pixel& pixel, const Parameters& motion) const {
+inline Vector2f TurnMeter::before_px(const Pixel& pixel, const Eigen::Vector4f& motion) const {
   return pixel.at_px - motion.head<2>() - turned(motion.tail<2>(), pixel.rho);
 }
 
 /// `start` is about how the object moved.
-TurnMeter::Pixel TurnMeter::describe(const Place& place, const Parameters& start,
+TurnMeter::Pixel TurnMeter::describe(const Place& place, const Eigen::Vector4f& start,
                                      const ObjectEvidence& evidence) const {
   const PaddedImage& now = evidence.field.picture();
   const PaddedImage& before = evidence.field.before();
@@ -191,7 +190,7 @@ TurnMeter::Pixel TurnMeter::describe(const Place& place, const Parameters& start
   return pixel;
 }
 
-TurnMeter::Sums TurnMeter::sum_up(const Parameters& motion, float edge_px,
+TurnMeter::Sums TurnMeter::sum_up(const Eigen::Vector4f& motion, float edge_px,
                                   const PaddedImage& before) {
   Sums all;
   sums_.clear();
@@ -244,15 +243,16 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   // A displacement forth of a · (position before) is one back of a / (1 + a) · (position now).
   const MotionModel& background = evidence.background.model;
   const Vector2d from_px = middle_px_ - region.relative_px - region.background_px;
-  const Complex behind = similarity_in(linear_at(background, from_px));
-  const Complex itself = found.model.kind == ModelKind::kSimilarity
-                             ? similarity_in(found.model.linear)
-                             : Complex(as_before.growth.value, as_before.roll_rad.value);
-  const Complex back = (itself + behind) / (1.0 + itself + behind);
+  const std::complex<double> behind = similarity_in(linear_at(background, from_px));
+  const std::complex<double> itself =
+      found.model.kind == ModelKind::kSimilarity
+          ? similarity_in(found.model.linear)
+          : std::complex<double>(as_before.growth.value, as_before.roll_rad.value);
+  const std::complex<double> back = (itself + behind) / (1.0 + itself + behind);
   const Vector2d moved_px =
       found.model.displacement_px(from_px) + background.displacement_px(from_px);
   const double reach_px = static_cast<double>(reach_px_);
-  Parameters motion =
+  Eigen::Vector4f motion =
       Eigen::Vector4d(moved_px.x(), moved_px.y(), back.real() * reach_px, back.imag() * reach_px)
           .cast<float>();
   pixels_.clear();
@@ -263,7 +263,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
     all = sum_up(motion, kEdge_px[step], evidence.field.before());
     const Eigen::LDLT<Eigen::Matrix4f> ldlt(all.information);
     if (!is_determined(ldlt)) return turn;
-    const Parameters by = ldlt.solve(all.gradient);
+    const Eigen::Vector4f by = ldlt.solve(all.gradient);
     motion -= by;
     if (step == kLastStep) covariance = ldlt.solve(Eigen::Matrix4f::Identity());
     const bool is_settled = step > 0 && step < kLastStep && by.cwiseAbs().maxCoeff() < kSettled_px;
@@ -283,8 +283,8 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
     explained += difference2(pixel, before_px(pixel, motion)) < most2;
   }
   const double bends_px = kBends_px * std::max(0.0, kRigid - explained / std::max(1.0, 1.0 * own));
-  const Complex found_back = Complex(motion[2], motion[3]) / reach_px;
-  const Complex forth = found_back / (1.0 - found_back) - behind;
+  const std::complex<double> found_back = std::complex<double>(motion[2], motion[3]) / reach_px;
+  const std::complex<double> forth = found_back / (1.0 - found_back) - behind;
   const Eigen::Vector4d of_blocks_px2 = between_px2(all, covariance * all.gradient);
   // The variance is that of the noise, or what the blocks disagree about. Nothing is known where
   // errors of the slopes determine the parameter.

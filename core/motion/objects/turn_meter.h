@@ -52,10 +52,6 @@ class TurnMeter {
   static constexpr size_t kMostPixels = 1024;
 
  private:
-  /// Where something was in the picture before: x − (shift + (grow, turn) · ρ), where ρ is the
-  /// position from the middle of the object in units of reach_px_, as complex numbers. In px of the
-  /// field's picture.
-  using Parameters = Eigen::Vector4f;  ///< shift, grow, turn
   /// A pixel with a slope.
   struct Place {
     int x, y;
@@ -85,9 +81,13 @@ class TurnMeter {
 
   void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
   void collect_slopes(const BlockField& field);
-  Pixel describe(const Place& place, const Parameters& start, const ObjectEvidence& evidence) const;
-  Eigen::Vector2f before_px(const Pixel& pixel, const Parameters& motion) const;
-  Sums sum_up(const Parameters& motion, float edge_px, const PaddedImage& before);
+  Pixel describe(const Place& place, const Eigen::Vector4f& start,
+                 const ObjectEvidence& evidence) const;
+  /// Where something was in the picture before: x − (shift + (grow, turn) · ρ), where ρ is the
+  /// position from the middle of the object in units of reach_px_, as complex numbers. In px of the
+  /// field's picture. `motion`: shift, grow, turn.
+  Eigen::Vector2f before_px(const Pixel& pixel, const Eigen::Vector4f& motion) const;
+  Sums sum_up(const Eigen::Vector4f& motion, float edge_px, const PaddedImage& before);
   Eigen::Vector4d between_px2(const Sums& all, const Eigen::Vector4f& step) const;
 
   std::vector<size_t> blocks_;
