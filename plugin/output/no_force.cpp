@@ -35,8 +35,8 @@ constexpr Wording kWordings[] = {
      "The video is not playing: it is paused, it is seeking, or its clock stands still."},
     {"ended", "The film has ended."},
     {"no-frames",
-     "No frame was measured in the last second: the video stalls, or its frames have no "
-     "timestamps."},
+     "No frame was measured in the last second: the video stalls, or its frames cannot be "
+     "analysed, as a warning says."},
     {"nothing-to-compare",
      "There was nothing to compare a picture with: it is the first one, or each picture shows "
      "another scene."},

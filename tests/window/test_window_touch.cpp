@@ -135,7 +135,9 @@ TEST(FeltLine, SaysWhyNothingIsFeltAndThatASlowDeviceIsTouchedWithLess) {
   touch.stiffness_N_m = 700;
   EXPECT_EQ(window::felt_line(state, touch, felt), "felt");
   state.no_force = "the grip is in front of the surface";
-  EXPECT_EQ(window::felt_line(state, touch, felt), "not felt: " + state.no_force);
+  EXPECT_EQ(window::felt_line(state, touch, {}), "not felt: " + state.no_force);
+  state.no_force = sentence(NoForceReason::kVibration);
+  EXPECT_EQ(window::felt_line(state, touch, felt), "felt: " + state.no_force);
 }
 
 TEST(FeltLine, TellsAPauseFromASeekAndFromTheEnd) {

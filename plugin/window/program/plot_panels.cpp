@@ -77,8 +77,8 @@ double highest_speed_px_s(const Timeline& timeline) {
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
 }
 
-/// The speeds whose force a hand does not feel: the dead zone of the controller, and what is weaker
-/// than kFeltForce_N.
+/// The speeds whose force is weaker than kFeltForce_N. `adaptive` is drawn with the dead zone of an
+/// unknown error, which is not that of each frame.
 void shade_unfelt(const Brush& brush, const Plot& plot, const std::vector<double>& curve_N,
                   double highest_px_s) {
   const auto felt = std::find_if(curve_N.begin(), curve_N.end(),

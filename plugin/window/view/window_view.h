@@ -56,14 +56,15 @@ struct ElementState {
   }
 };
 
-/// "felt", or "not felt: " and why, for the last line of the window; `now` is the force of this
-/// moment, `no_force` that of the last second. While the surface is felt also that the device gets
-/// less stiffness than is set.
+/// For the last line of the window: "felt", or "not felt: " and why; "felt: " and why, while the
+/// force is only lowered. `now` is the force of this moment, `no_force` that of the last second.
+/// While the surface is felt also that the device gets less stiffness than is set.
 inline std::string felt_line(const ElementState& state, const TouchScene& touch,
                              const Wrench& now) {
   if (state.has_ended) return state.no_force;
-  if (!state.no_force.empty()) return "not felt: " + state.no_force;
-  if (size_N(now) < kFeltForce_N) return "felt within the last second";
+  const bool is_felt = size_N(now) >= kFeltForce_N;
+  if (!state.no_force.empty()) return (is_felt ? "felt: " : "not felt: ") + state.no_force;
+  if (!is_felt) return "felt within the last second";
   const double wanted_N_m = state.value("touch-stiffness", 0);
   if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
   char text[96];
