@@ -50,7 +50,7 @@ inline std::string help_of(const CLI::App& program) {
 /// The exit status of `run`, which parses the command line and may throw. Prints the help, the
 /// version, or what was wrong, with what is printed itself.
 inline int exit_status_of(const CLI::App& program, const std::function<int()>& run) {
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   try {
     return status_after_printing(name, run());
   } catch (const CLI::ParseError& error) {
