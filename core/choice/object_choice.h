@@ -116,10 +116,11 @@ class BoxedObject {
   bool has_box_ = false;
 };
 
-/// Finds the object that is at a position, and follows its id. What rests is not an object for
-/// ObjectTracker after a while; so where none is, and where the object came to rest, the first one
-/// that begins to move there is meant. ObjectTracker also begins anew at what looks like a cut; one
-/// that then soon moves in the same way where the object would be is the same.
+/// Finds the object that is at a position, and follows its id. ObjectTracker drops an object that
+/// has rested for a while. Where there is no object, or where this one came to rest, the first one
+/// that begins to move there is taken. At what looks like a cut, ObjectTracker gives new ids: an
+/// object that soon moves in the same way at the place where this one would be is taken for the
+/// same.
 class FollowedObject {
  public:
   enum class State {

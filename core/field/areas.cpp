@@ -85,7 +85,7 @@ const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
                                             pixels_at(coarse.before, corner_px + match.from_px),
                                             pixels_at(counted_, corner_px));
       MotionBlock area = refined_block(sums, coarse.now, corner_px, match,
-                                       MotionBlock::kRegularization * kOfAreas);
+                                       MotionBlock::kRegularization * kAreaTextureScale);
       if (sums.pixels < kLeastPixels) area.structure.setZero();
       area.moved_px *= kCoarser;
       area.centre_px = kCoarser * area.centre_px + to_centre_px;

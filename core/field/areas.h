@@ -31,8 +31,8 @@ class Areas {
   PaddedImage counted_;  ///< of the coarse picture: 255; 0 where a block with corners is
 };
 
-/// The noise of a pixel of the coarse picture is kCoarser times less than that of the field's. What
-/// says how much texture a block needs, (grey / px)², is so much less for an area.
-constexpr float kOfAreas = 1.0f / (kCoarser * kCoarser);
+/// The noise of a pixel of the coarse picture is kCoarser times less than that of the field's, so
+/// that a limit of texture, in (grey / px)², is kCoarser² times lower for an area.
+constexpr float kAreaTextureScale = 1.0f / (kCoarser * kCoarser);
 
 }  // namespace spidar

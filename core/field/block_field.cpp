@@ -385,8 +385,8 @@ int BlockField::difference_if_moved(size_t block, const Vector2f& moved_px) cons
   return least;
 }
 
-std::optional<int> BlockField::better_if_moved(size_t block, int back,
-                                               const Vector2i& from_px) const {
+std::optional<int> BlockField::cell_difference_gain(size_t block, int back,
+                                                    const Vector2i& from_px) const {
   const Vector2i corner_px = grid_.corner_of(block);
   const Vector2i begin_px = corner_px + from_px;
   const Vector2i end_px = begin_px + Vector2i::Constant(kBlock_px);

@@ -21,7 +21,7 @@ namespace spidar {
 /// jumped.
 constexpr int kCoarser = 4;
 
-/// How much smaller this picture is than the base of the pyramid.
+/// How much smaller the picture of a BlockField is than the base of the pyramid.
 enum class FieldScale { kSame, kTwoThirds, kHalf };
 
 /// 1, 2/3 or 1/2 of its sides, whichever brings its area nearest to 427 × 240 px without going
@@ -118,9 +118,11 @@ class BlockField {
   /// How many pictures of the shot before the last one are known, kMostBack at most; none while all
   /// blocks stand still because that one is shown again.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
-  /// By how much the cells of a block differ less from the picture `back` pictures ago if it has
-  /// come from `from_px` further than if it rests; nothing where that is outside.
-  std::optional<int> better_if_moved(size_t block, int back, const Eigen::Vector2i& from_px) const;
+  /// By how much the cells of a block differ less from the picture `back` pictures ago if the block
+  /// has come from `from_px` away than if it has stayed in place; positive where it has moved.
+  /// Nothing if it would have come from outside the picture.
+  std::optional<int> cell_difference_gain(size_t block, int back,
+                                          const Eigen::Vector2i& from_px) const;
 
   /// Pixels of a block, or of the area `beside_px` beside it, that stayed in place while their
   /// surroundings moved by `moved_px`; none when that is out of reach.

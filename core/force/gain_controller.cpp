@@ -80,7 +80,7 @@ double GainController::force_N(double speed_px_s, double interval_s, double dead
     case ControlLaw::kAdaptive:
       break;
   }
-  const double dead_px_s = dead_zone_px_s > 0 ? dead_zone_px_s : DeadZone::kLeast_px_s;
+  const double dead_px_s = dead_zone_px_s > 0 ? dead_zone_px_s : DeadZone::kUnknownError_px_s;
   if (settings_.alpha_s_px == 0 || speed_px_s <= dead_px_s) return 0;
   adapt(speed_px_s, interval_s);
   return nonlinear_N(most_N, 1 / scale_px_s(), speed_px_s - dead_px_s);

@@ -32,9 +32,9 @@ void validate(const ControllerSettings& settings);
 /// kAdaptive: F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the
 /// speeds seen, and a dead zone V₀ that the force leaves without a step.
 ///
-/// The dead zone is that of the motion, or DeadZone::kLeast_px_s where it is not known. Within it
-/// the force is exactly zero and the scale stays as it is, so that a pause does not make the
-/// controller more sensitive.
+/// The dead zone is that of the motion, or DeadZone::kUnknownError_px_s where it is not known.
+/// Within it the force is exactly zero and the scale stays as it is, so that a pause does not make
+/// the controller more sensitive.
 ///
 /// The scale follows ln V: d ln S / dt = clamp(ln V − ln S, −1, 1) / T, with T = kAttack_s while
 /// speeds are above the scale and kRelease_s while they are below. It settles where a fraction of

@@ -24,8 +24,8 @@ enum class MotionKind {
   kCamera,  ///< motion of the camera
 };
 
-/// The dead zone of ControlLaw::kAdaptive: slower than this, a motion may be an error of measurement
-/// that changes from frame to frame.
+/// The dead zone of ControlLaw::kAdaptive: slower than this, a motion may be an error of
+/// measurement that changes from frame to frame.
 struct DeadZone {
   /// Of a velocity whose standard error in each coordinate is known: for a Gaussian error of two
   /// coordinates P(|e| > 3 σ) = 1.1 %.
@@ -40,7 +40,7 @@ struct DeadZone {
   /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
   /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed
   /// 24808327): tan(0.04 π / 6) / 0.01.
-  static constexpr double kLeast_px_s = 2.1;
+  static constexpr double kUnknownError_px_s = 2.1;
 };
 
 /// Motion of the picture between two frames.

@@ -11,9 +11,9 @@
 
 namespace spidar::touch {
 
-/// Interpolates between two reliefs with fraction s and displacement u: h(p) = (1 − s) before(p − s
-/// u)
-/// + s after(p + (1 − s) u). An object that moves by u from one frame to the next keeps its shape;
+/// Interpolates between two reliefs with fraction s and displacement u:
+/// h(p) = (1 − s) before(p − s u) + s after(p + (1 − s) u).
+/// An object that moves by u from one frame to the next keeps its shape;
 /// plain cross-fading would show it twice. Does not own the fields.
 struct MovingRelief {
   const HeightField* before = nullptr;  ///< must not be null

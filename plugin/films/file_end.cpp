@@ -137,9 +137,9 @@ FileLength length_of_wav(FileBytes& file) {
           std::min(file.size() - at - 8, is_unknown_size(promised) ? UINT64_MAX : promised);
       FileLength length;
       length.by_samples = true;
-      length.there_ns = time_ns(there / sample_bytes, rate_Hz);
+      length.available_ns = time_ns(there / sample_bytes, rate_Hz);
       if (!is_unknown_size(promised)) {
-        length.promised_ns = time_ns(promised / sample_bytes, rate_Hz);
+        length.declared_ns = time_ns(promised / sample_bytes, rate_Hz);
       }
       return length;
     }
@@ -155,10 +155,10 @@ FileLength length_of_flac(FileBytes& file) {
   if (flac.rate_Hz == 0 || !flac.end || *flac.end < flac.begin) return {};
   FileLength length;
   length.by_samples = true;
-  length.there_ns = time_ns(*flac.end - flac.begin, flac.rate_Hz);
+  length.available_ns = time_ns(*flac.end - flac.begin, flac.rate_Hz);
   length.is_cut_off = flac.is_cut_off;
   if (flac.is_cut_off && flac.promised > *flac.end) {
-    length.promised_ns = time_ns(flac.promised - flac.begin, flac.rate_Hz);
+    length.declared_ns = time_ns(flac.promised - flac.begin, flac.rate_Hz);
   }
   return length;
 }

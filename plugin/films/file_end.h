@@ -23,10 +23,10 @@ enum class FilmEnd {
 FilmEnd film_end(const std::string& path);
 
 struct FileLength {
-  std::optional<int64_t> there_ns;  ///< nothing when it is not known without decoding
-  int64_t promised_ns = 0;          ///< by its header; 0: not stated
-  bool by_samples = false;          ///< both are exact: of WAV and FLAC
-  bool is_cut_off = false;          ///< as film_end() finds, or within a frame of FLAC
+  std::optional<int64_t> available_ns;  ///< nothing when it is not known without decoding
+  int64_t declared_ns = 0;              ///< by its header; 0: not stated
+  bool by_samples = false;              ///< both are exact: of WAV and FLAC
+  bool is_cut_off = false;              ///< as film_end() finds, or within a frame of FLAC
 };
 
 FileLength file_length(const std::string& path);

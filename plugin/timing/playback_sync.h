@@ -90,7 +90,7 @@ class PlaybackSync {
 
  private:
   static constexpr size_t kWindow = 64;
-  /// Fewer readings say more about jitter than about drift: the newest and the nominal rate it is.
+  /// With fewer readings, jitter hides the drift: the newest one and the nominal rate are used.
   static constexpr size_t kEnough = 16;
   /// A reading further than this from the line is no jitter.
   static constexpr int64_t kJump_ns = 5 * 1000 * 1000;

@@ -32,7 +32,7 @@ std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string&
 
 class FilmPage {
  public:
-  /// The page is smaller. 100 KB pass where mail and chat cut off.
+  /// The curves of a page are made coarser until it is smaller, which mail and chat let pass.
   static constexpr size_t kMost_bytes = 100'000;
 
   /// The next millisecond of the track. Samples that are not numbers count as none.

@@ -137,7 +137,7 @@ class FilmBatch {
     if (!fs::exists(track, none) || (!found.empty() && fs::equivalent(found, track, none))) return;
     report_.print(
         std::string(found.empty() ? "" : "warning: " + found.string() + " goes before these; ") +
-        "players find these tracks with " + kTrackPath + "=" +
+        "players find these tracks with " + kTrackPathVariable + "=" +
         fs::absolute(options_.folder, none).lexically_normal().string());
   }
 

@@ -135,7 +135,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     app->add_option("--folder", track_folder_,
                     std::string("a folder with tracks of films, as record --folder fills it; else "
                                 "those of the variable ") +
-                        kTrackPath)
+                        kTrackPathVariable)
         ->check(CLI::ExistingDirectory)
         ->type_name("FOLDER");
   }
@@ -143,8 +143,9 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
   /// Names the folder for all that looks for a track.
   void search_folder() const {
     if (track_folder_.empty()) return;
-    const char* const others = g_getenv(kTrackPath);
-    g_setenv(kTrackPath, (track_folder_ + (others ? std::string(":") + others : "")).c_str(), TRUE);
+    const char* const others = g_getenv(kTrackPathVariable);
+    g_setenv(kTrackPathVariable,
+             (track_folder_ + (others ? std::string(":") + others : "")).c_str(), TRUE);
   }
 
   /// For commands that write one file.

@@ -36,8 +36,8 @@ void read_tags(GstPad* pad, Notes& notes) {
   }
 }
 
-/// The type of a file that nothing has taken apart, so that the stream is the file as it is: that
-/// of Wave64, whose only decoder gives other values. Empty for all others.
+/// The type of a file that has no demuxer, so that the stream is the file as it is: that of Wave64,
+/// whose only decoder gives other values. Empty for all others.
 std::string unparsed_type(GstPad* pad) {
   const Ref<GstPad> inner(gst_ghost_pad_get_target(GST_GHOST_PAD(pad)));
   const Ref<GstElement> source(inner ? gst_pad_get_parent_element(inner.get()) : nullptr);
@@ -98,8 +98,8 @@ class TrackOfFile : public OpenTrack {
       length_ = {};
     } else if (!length_.by_samples &&
                gst_element_query_duration(file_.pipeline(), GST_FORMAT_TIME, &length_ns)) {
-      length_.promised_ns = length_ns;
-      if (!length_.is_cut_off) length_.there_ns = length_ns;
+      length_.declared_ns = length_ns;
+      if (!length_.is_cut_off) length_.available_ns = length_ns;
     }
     is_open_ = true;
   }
@@ -114,11 +114,11 @@ class TrackOfFile : public OpenTrack {
   bool has_sound() const { return has_sound_; }
 
   const Notes& notes() const override { return notes_; }
-  std::optional<int64_t> duration_ns() const override { return length_.there_ns; }
+  std::optional<int64_t> duration_ns() const override { return length_.available_ns; }
   std::string missing(int64_t end_ns) const override {
     // Containers round durations, to milliseconds or samples.
-    if (length_.promised_ns - static_cast<int64_t>(GST_MSECOND) > end_ns) {
-      return "it is cut off: " + seconds_text(end_ns) + " of " + seconds_text(length_.promised_ns) +
+    if (length_.declared_ns - static_cast<int64_t>(GST_MSECOND) > end_ns) {
+      return "it is cut off: " + seconds_text(end_ns) + " of " + seconds_text(length_.declared_ns) +
              " are there";
     }
     return length_.is_cut_off ? "it is cut off: its end is missing" : "";
@@ -150,7 +150,7 @@ class TrackOfFile : public OpenTrack {
   }
 
  private:
-  static void give_up(GstElement* element) {
+  static void stop_waiting(GstElement* element) {
     gst_element_post_message(element, gst_message_new_application(
                                           GST_OBJECT(element), gst_structure_new_empty("enough")));
   }
@@ -158,7 +158,7 @@ class TrackOfFile : public OpenTrack {
   /// Ends reading before the end of the file.
   void fail(GstElement* element, const std::string& error) {
     blocks_->end(error);
-    give_up(element);
+    stop_waiting(element);
   }
 
   bool is_wanted(StreamContent content) const {
@@ -187,7 +187,7 @@ class TrackOfFile : public OpenTrack {
     auto& self = *static_cast<TrackOfFile*>(user);
     if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
     GstElement* const parser = GST_PAD_PARENT(pad);
-    if (++self.ended_ == parser->numsrcpads && !self.is_chosen_) give_up(parser);
+    if (++self.ended_ == parser->numsrcpads && !self.is_chosen_) stop_waiting(parser);
     return GST_PAD_PROBE_OK;
   }
   static void add_stream(GstElement*, GstPad* pad, gpointer user) {
@@ -218,15 +218,15 @@ class TrackOfFile : public OpenTrack {
   }
 
   /// Of a pass that has ended: why that is not the end that the file had when it was opened, or
-  /// empty. The elements that take files apart say nothing of it.
+  /// empty. The demuxers say nothing of it.
   std::string why_short() const {
     if (!is_open_) return {};  // as missing() finds
     const int64_t end_ns = end_ns_ + static_cast<int64_t>(GST_MSECOND);
-    const bool is_early = length_.there_ns && end_ns < *length_.there_ns;
+    const bool is_early = length_.available_ns && end_ns < *length_.available_ns;
     const bool has_shrunk = file_bytes() < bytes_;
     if (!has_shrunk && !(is_early && length_.by_samples)) return {};
-    const std::string was =
-        length_.there_ns ? seconds_text(*length_.there_ns) : std::to_string(bytes_) + " bytes";
+    const std::string was = length_.available_ns ? seconds_text(*length_.available_ns)
+                                                 : std::to_string(bytes_) + " bytes";
     return "its file was cut off while it was played: it ends at " + seconds_text(end_ns_) +
            ", and was " + was + " long";
   }
@@ -246,7 +246,7 @@ class TrackOfFile : public OpenTrack {
       if (error.empty() && self.wanted_ == Wanted::kFirstSound) error = why_unmarked(caps.get());
       self.caps_.reset(gst_caps_ref(caps.get()));
       if (!error.empty()) return self.fail(GST_PAD_PARENT(pad), error);
-      if (self.only_notes_) return give_up(GST_PAD_PARENT(pad));
+      if (self.only_notes_) return stop_waiting(GST_PAD_PARENT(pad));
     }
     if (self.only_notes_) return;
     self.take(buffer, pad);
@@ -266,7 +266,7 @@ class TrackOfFile : public OpenTrack {
           end_of(block) - std::exchange(first_ns_, std::min(first_ns_, block.begin_ns)) >=
               kFirstPart_ns) {
         has_begun_ = true;
-        give_up(GST_PAD_PARENT(pad));
+        stop_waiting(GST_PAD_PARENT(pad));
       }
       end_ns_ = std::max(end_ns_, end_of(block));
       return blocks_->put(block, input_.faults()) ? GST_FLOW_OK : GST_FLOW_EOS;

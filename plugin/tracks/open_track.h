@@ -25,7 +25,7 @@ class OpenTrack {
   virtual ~OpenTrack() = default;
 
   virtual const Notes& notes() const = 0;
-  /// By the head and the last bytes of the file. Nothing when they do not say, or when other
+  /// As the header and the last bytes of the file say. Nothing when they do not, or when other
   /// streams may be longer.
   virtual std::optional<int64_t> duration_ns() const = 0;
   /// Of a track that ends at `end_ns`: empty, or what is missing at the end of the file.
@@ -36,12 +36,12 @@ class OpenTrack {
   /// wrong, when the file is damaged, the track longer than kLongest_ns, or `stopped` has become
   /// true.
   virtual bool next(TrackBlock& block) = 0;
-  /// After ReadAhead::await_seek().
+  /// To the position that ReadAhead::await_seek() has returned.
   virtual void seek(int64_t time_ns) = 0;
   /// At the beginning and after seek(): fills blocks() until nothing more of this pass is wanted.
   /// Returns at once where threads of its own do that.
   virtual void read_pass() {}
-  /// Of an exchange format: each part's file, and as what it is felt.
+  /// For an exchange format, a line for each part: its file, and the axis on which it is felt.
   virtual std::vector<std::string> about() const { return {}; }
   /// What is part of it, and not felt.
   virtual std::vector<std::string> unfelt() const { return {}; }

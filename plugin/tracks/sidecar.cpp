@@ -17,11 +17,11 @@
 namespace spidar {
 namespace {
 
-/// So much may be missing at the end of a film that is known by its pictures.
+/// The longest end that may be missing of a film that is known by its pictures.
 constexpr int64_t kMostMissing_ns = 500'000'000;
 
-constexpr std::initializer_list<const char*> kTrackEnds = {".haptic.flac", ".haptic.mka",
-                                                           ".haptic.wav"};
+constexpr std::initializer_list<const char*> kTrackSuffixes = {".haptic.flac", ".haptic.mka",
+                                                               ".haptic.wav"};
 
 namespace fs = std::filesystem;
 
@@ -44,7 +44,7 @@ std::vector<std::string> list_beside(const std::string& film,
 /// that of the user.
 std::vector<fs::path> track_folders() {
   std::vector<fs::path> folders;
-  if (const char* const named = std::getenv(kTrackPath)) {
+  if (const char* const named = std::getenv(kTrackPathVariable)) {
     std::istringstream parts(named);
     for (std::string part; std::getline(parts, part, ':');) {
       if (!part.empty()) folders.emplace_back(part);
@@ -58,7 +58,7 @@ std::vector<fs::path> track_folders() {
 /// them the subfolders of their films. It is not known below which folder these are, so what agrees
 /// in most of the path comes first.
 std::vector<std::string> list_tracks(const std::string& film) {
-  std::vector<std::string> files = list_beside(film, kTrackEnds);
+  std::vector<std::string> files = list_beside(film, kTrackSuffixes);
   if (film.empty()) return files;
   std::error_code ignored;
   const fs::path path = fs::absolute(film, ignored).lexically_normal();
@@ -67,7 +67,7 @@ std::vector<std::string> list_tracks(const std::string& film) {
     for (auto from = std::next(path.begin()); from != path.end(); ++from) {
       fs::path below;
       for (auto part = from; part != path.end(); ++part) below /= *part;
-      for (const std::string& file : list_beside((folder / below).string(), kTrackEnds)) {
+      for (const std::string& file : list_beside((folder / below).string(), kTrackSuffixes)) {
         files.push_back(file);
       }
     }
@@ -87,7 +87,7 @@ std::string first_before(const std::vector<std::string>& files, const std::strin
 
 }  // namespace
 
-const char* const kTrackPath = "SPIDAR_TRACK_PATH";
+const char* const kTrackPathVariable = "SPIDAR_TRACK_PATH";
 
 std::string find_beside(const std::string& film, std::initializer_list<const char*> ends) {
   const std::vector<std::string> files = list_beside(film, ends);
@@ -152,7 +152,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
   return match;
 }
 
-std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
+std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
   gint64 film_ns = 0;
   if (!gst_pad_peer_query_duration(pad, GST_FORMAT_TIME, &film_ns) || film_ns <= 0) return {};
   // Plus a millisecond, because many containers round durations to milliseconds.

@@ -21,17 +21,17 @@ std::string find_beside(const std::string& film, std::initializer_list<const cha
 std::string film_of(GstPad* pad);
 
 /// The variable with folders of tracks that do not lie beside their films, separated by colons.
-extern const char* const kTrackPath;
+extern const char* const kTrackPathVariable;
 
 /// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else in the
-/// folders of kTrackPath, else in that of the user, ~/.local/share/gst-spidar/tracks: in the
-/// subfolder that the film has, if there is one. Empty when there is none.
+/// folders of kTrackPathVariable, else in that of the user, ~/.local/share/gst-spidar/tracks: in
+/// the subfolder that the film has, if there is one. Empty when there is none.
 std::string find_sidecar(const std::string& film);
 
 /// Empty, or a sentence about the track that find_sidecar() finds in place of `track`.
 std::string why_not_played(const std::string& film, const std::string& track);
 
-/// Why a file is not that of a film with other pictures.
+/// FilmMatch::mismatch of a track that was made of other pictures than the film has.
 extern const char* const kOtherPictures;
 
 struct FilmMatch {
@@ -48,6 +48,6 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
 /// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
 /// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one
 /// of its frames.
-std::string other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
+std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

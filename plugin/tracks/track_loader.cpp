@@ -234,7 +234,7 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
   std::string error = loaded.error;
   if (error.empty() && !loaded.is_compared) {
     GstPad* pad = gst_element_get_static_pad(element, "sink");
-    error = other_film(pad, loaded.duration_ns, frame_ns);
+    error = why_other_film(pad, loaded.duration_ns, frame_ns);
     gst_object_unref(pad);
   }
   std::string remark = loaded.remark;

@@ -48,12 +48,12 @@ inline std::vector<LastWill> wills(const Transport& transport,
   return {*will};
 }
 
-/// Until when a board has time to answer that is not asked in a tick, CLOCK_MONOTONIC.
+/// Deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: 0.1 s from now.
 inline int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
 }
 
-/// "usb:1-2: does not answer: stall"
+/// "usb:1-2: does not answer as it should: stall; switch it off and on, and check cable and supply"
 inline DeviceError no_answer(const std::string& board, LinkFault fault,
                              SourceLocation location = SourceLocation::here()) {
   return DeviceError(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip that takes its force as it is.
+/// The grip of a device that takes a force as it is, and not as tensions of strings.
 #pragma once
 
 #include <array>
@@ -97,7 +97,8 @@ class ForceGrip final : public Grip {
       reading_.motion.reset();
     }
   }
-  /// A stick is no hand: it snaps back, and its driver reports seldom.
+  /// Jumps of a stick count for nothing: it snaps back when it is let go, and its driver reports
+  /// seldom.
   PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double way_m = (answer.position_m - reading_.pose.position_m).norm();

@@ -15,16 +15,16 @@
 namespace spidar {
 namespace {
 
-/// Of simulations: the boards output positive volts only, which the usual profile is not made for.
-/// Real boards have no default (see profile_choice.h).
-constexpr const char* kPositiveProfile = "spidar-g6x3-v2-r";
+/// The profile of a simulation of these boards, which output positive voltages only: the usual one
+/// needs both signs. Real boards have no default (see profile_choice.h).
+constexpr const char* kUnipolarProfile = "spidar-g6x3-v2-r";
 
 /// What both boards have in common.
 DeviceKind cyverse_kind() {
   DeviceKind kind;
   kind.device = "usb";
   kind.names = "usb, usb:ID";
-  kind.profile = kPositiveProfile;
+  kind.profile = kUnipolarProfile;
   kind.note = "endpoints and D/A range are inferred";
   kind.traits = boards::kCyverseTraits;
   kind.simulated_motors = simulated_strings<boards::cyverse_dac>;
@@ -79,7 +79,7 @@ DeviceKind mouse_kind() {
   kind.board = "mouse";
   kind.names = "mouse, mouse:ID";
   kind.evidence = "inferred";
-  kind.note = "other devices have this id; asked when it is opened";
+  kind.note = "other devices have this id: it is asked when it is opened";
   kind.attach = attach<boards::Mouse>;
   kind.emulate = emulate<emulated::Mouse>;
   kind.simulated_motors = unconnected_motors;

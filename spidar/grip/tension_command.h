@@ -117,8 +117,9 @@ class TensionCommand {
   /// Two ticks: until the next exchange, and one that is late.
   static constexpr double kAhead_s = 2e-3;
   /// Where the strings cannot give a force alone, least squares leaves a torque beside it: within
-  /// 2 cm and 20° that of a lever of 0.3 to 0.6 of the grip's radius. So much of it is never taken
-  /// for too much, because only less force would have less.
+  /// 2 cm and 20° that of a lever of 0.3 to 0.6 of the grip's radius. A torque up to this
+  /// lever times the limit of the force never exceeds the limit of the torque, because only a
+  /// smaller force would lower it.
   static constexpr double kStrayLever = 0.5;
 
   /// The pace of fade() when the pose is lost: a string may have broken, and the others pull with

@@ -14,7 +14,7 @@ constexpr double kUnheldGrip_kg = 0.1;          // as most: from a third of it t
 constexpr double kFirmHand_N_m = 200;           // a firm hand has 300 or more, a light one 100
 constexpr double kLooseHand_N_m = 100;          // a softer hold is a loose hand or none
 constexpr double kFastest_m_s = kReleased_m_s;  // faster than any film moves a hand: 0.45
-constexpr double kFastest_rad_s = 20;  // a hand to and fro by 45°, 4 a second; a unheld grip: 40
+constexpr double kFastest_rad_s = 20;  // a hand to and fro by 45°, 4 a second; an unheld grip: 40
 constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; 2.1, GripWatch's, is 20 ms later
 constexpr double kTellingForce_N = 0.1;  // less force moves a hand less than it moves by itself
 constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any force
@@ -37,7 +37,7 @@ constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick, ha
 // --- From the whole wrench to none, and back
 constexpr double kRelease_s = 0.01;  // full force at the slew limit, 3 N by 300 N/s
 constexpr double kRest_s = 1.0;      // a released grip swings out, see ItsForceRestsAndReturns
-constexpr double kReturn_s = 1.0;    // slow enough that a unheld grip gives itself away
+constexpr double kReturn_s = 1.0;    // slow enough that an unheld grip gives itself away
 constexpr double kEases_s = 0.1;     // with kRelease_s, strings throw a grip that they balance
 
 // --- A grip that moves as the strings alone would move it
@@ -53,11 +53,11 @@ constexpr double kSpins_s = 0.01;  // 0.015: 1.10 m/s; wrong poses turn for 5 ms
 constexpr double kYieldTime_s = 0.05;  // in which a grip in a loose hand follows a force
 constexpr double kFirmForce_N = 0.3;   // that proves a hand, with kFirmHand_N_m, …
 constexpr double kProbes_N = 0.5;      // more than that, so that a hand far out can prove itself
-constexpr double kWithstands_s = 0.3;  // … for so long: a unheld grip follows in 0.07
+constexpr double kWithstands_s = 0.3;  // … for so long: an unheld grip follows in 0.07
 constexpr double kThrown_m = 0.025;    // 0.03: 1.07 m/s; 0.02: firm hands lose 3 times as much
 constexpr double kThrown_m_s = 0.4;    // along the force; a film moves a hand by 0.45 at most
 constexpr double kStored_s = 0.2;      // until the smoothed force has turned, and the grip is back
 constexpr double kFarOut = 0.5;     // of kReleased_J stored; without: 342 mJ at 10.2 N and 58 N/m
-constexpr double kThrows_J = 0.05;  // twice what throws a unheld grip of 50 g at 1 m/s
+constexpr double kThrows_J = 0.05;  // twice what throws an unheld grip of 50 g at 1 m/s
 
 }  // namespace spidar::brake

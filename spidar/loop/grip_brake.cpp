@@ -141,7 +141,7 @@ bool GripBrake::has_stored(const Eigen::Vector3d& way_m) const noexcept {
   return twice_J > kLooseHand_N_m * kThrown_m * kThrown_m;
 }
 
-/// A unheld grip follows a force that rises slowly to where the strings at rest balance it.
+/// An unheld grip follows a force that rises slowly to where the strings at rest balance it.
 bool GripBrake::is_balanced(const Eigen::Vector3d& way_m) const noexcept {
   return !is_withstood() && pulled_N_.norm() <= kTellingForce_N && -rest_N_.dot(way_m) > kThrows_J;
 }

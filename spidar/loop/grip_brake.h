@@ -30,7 +30,7 @@ struct FadeBand {
 ///   by the square of the speed. There is none while the strings have given less than the lightest
 ///   grip has at its speed: then a hand moves it, and is not to feel it.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
-///   faster than kFastest_rad_s, or moves as the strings alone would move a unheld grip. After
+///   faster than kFastest_rad_s, or moves as the strings alone would move an unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
 ///   still is no hand.
 /// - It also goes to rest again if the grip yields to the force that returns as only a loose hand

@@ -117,8 +117,8 @@ class HapticLoop {
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Why a lost device cannot be opened again although something is there, such as another device
-  /// under its name; empty while nothing is, and when the reason is new, because it may pass: udev
-  /// needs a moment to permit what is plugged in.
+  /// under its name. Empty while nothing is there, and until a reason has occurred twice in a row,
+  /// because the first may pass: udev needs a moment to permit what is plugged in.
   std::string refusal() const;
 
   /// Its description, name and health.
@@ -194,7 +194,7 @@ class HapticLoop {
   int errors_in_a_row_ = 0;
   uint64_t gap_ticks_ = 0;    ///< since the newest frame was over
   int64_t untrusted_ns_ = 0;  ///< time for which the pose has not been trusted
-  int64_t unfelt_ns_ = 0;     ///< time for which no force has been requested
+  int64_t unfelt_ns_ = 0;     ///< time for which no command was strong enough to be felt
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

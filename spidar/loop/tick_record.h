@@ -72,8 +72,8 @@ struct TickRecord : GripReport {
   Found found = Found::kNothing;
   /// From the timeline, plus the contact force and the callback's wrench; zero without any of them.
   Wrench wanted;
-  /// After finite, limit, slew and stale. If not acknowledged, the one of the last acknowledged
-  /// tick, limited.
+  /// After the four steps of wrench_limits.h. If not acknowledged, the one of the last acknowledged
+  /// tick, within the limits of this one.
   Wrench commanded;
   bool acknowledged = true;  ///< the device has answered
   GripVelocity velocity;     ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
@@ -99,8 +99,8 @@ struct LoopCounters {
   uint64_t ticks = 0;
   uint64_t overruns = 0;          ///< ticks that began more than one period late
   uint64_t missed_deadlines = 0;  ///< deadlines skipped because of that
-  /// While playing, without a force, because the frame before was over and the next one had not
-  /// come; it did.
+  /// Ticks of playback without a force, because a frame was over and the next one had not come yet.
+  /// They count when it comes, so that the end of a film is no gap.
   uint64_t gap_ticks = 0;
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;

@@ -16,9 +16,8 @@
 ///     grip = [[x, y, z], …]       as many, relative to the grip's origin, grip not turned
 ///     [strings]                   each one number for all strings or an array of one for each
 ///     min_tension_N = 0.3         at most 3
-///     max_tension_N = 6           at most 100, within newtons_per_volt · dac_max_V, and 16 steps
-///     of
-///                                 the D/A or more
+///     max_tension_N = 6           at most 100, within newtons_per_volt · dac_max_V, and at
+///                                 least 16 steps of the D/A
 ///     newtons_per_volt = 12.5     above zero: signs are below
 ///     metres_per_count = 2.25e-5  1e-6 … 1e-4
 ///     motor_sign = [1, …]         an array: 1 where a positive voltage pulls, else -1

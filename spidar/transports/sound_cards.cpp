@@ -79,8 +79,8 @@ std::string names_of(const std::vector<SoundCard>& cards) {
   return names.empty() ? "no card was found" : "there are " + names;
 }
 
-SoundCard chosen_card(const std::string& device, const std::string& id, const FirstDevice& first,
-                      const std::vector<SoundCard>& cards) {
+SoundCard resolve_card(const std::string& device, const std::string& id, const FirstDevice& first,
+                       const std::vector<SoundCard>& cards) {
   const auto named =
       std::find_if(cards.begin(), cards.end(), [&](const SoundCard& one) { return one.id == id; });
   if (first.known()) {

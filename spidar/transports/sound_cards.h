@@ -15,23 +15,23 @@ struct SoundCard {
   std::string id;  ///< of the card, "Controller", or of a device that the ALSA configuration names
   std::string name;         ///< for people
   std::string pcm;          ///< what ALSA calls it
-  std::string place = pcm;  ///< for a card on USB, the text has its port
+  std::string place = pcm;  ///< ALSA's long name; with the port of a card on USB
 
   DeviceIdentity identity() const { return {name, "", place}; }
 };
 
-/// What could be played on: cards, and devices of the ALSA configuration that are no way to other
-/// ones. Opens no device.
+/// What could be played on: sound cards, and PCMs of the ALSA configuration, without those that
+/// only lead to another one. Opens no PCM.
 std::vector<SoundCard> list_sound_cards();
 
 /// ALSA's number of a card; nothing for what its configuration names.
 std::optional<int> card_number(const std::string& id);
 
-/// The card with this id or, if `first` knows one, that card, whatever its id is by then: the
-/// kernel gives the id of a card that is gone to the next one of its name. Throws DeviceError for
-/// `device`.
-SoundCard chosen_card(const std::string& device, const std::string& id, const FirstDevice& first,
-                      const std::vector<SoundCard>& cards);
+/// The card with this id or, if `first` knows a card, that same card under the id that it has by
+/// now: the kernel gives the id of a card that is gone to the next one of its name. Throws
+/// DeviceError for `device` if the card is not there.
+SoundCard resolve_card(const std::string& device, const std::string& id, const FirstDevice& first,
+                       const std::vector<SoundCard>& cards);
 
 /// "there are sound:Controller, sound:shaker"
 std::string names_of(const std::vector<SoundCard>& cards);

@@ -212,7 +212,7 @@ void SoundTransport::open() {
             "\" plays on whatever a server or a setting chooses; name the card: " + names_of(cards),
         DeviceErrorCode::kSettings);
   }
-  const SoundCard card = chosen_card(name_, id, first_, cards);
+  const SoundCard card = resolve_card(name_, id, first_, cards);
   pcm_ = std::make_unique<Pcm>(name_, card, settings_.channels);
   first_.require(name_, card.identity());
   fed_.store({});

@@ -25,7 +25,7 @@ inline PaddedImage padded(const Picture& picture) {
 }
 
 /// After a cut.
-inline Past nothing_before() {
+inline PreviousFrame nothing_before() {
   static const std::vector<float> persistence;
   static const std::vector<uint8_t> burned_in;
   static const std::vector<uint32_t> objects;

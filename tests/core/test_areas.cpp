@@ -141,7 +141,7 @@ TEST(Border, IsNotThatOfAnObject) {
     for (size_t i = 0; i < objects.size(); ++i) {
       objects[i] = grid.column(i) < columns && grid.row(i) < rows;
     }
-    const Past past{nothing_before().persistence, nothing_before().burned_in, objects};
+    const PreviousFrame past{nothing_before().persistence, nothing_before().burned_in, objects};
     return border_has_moved(field, past, pan);
   };
   EXPECT_TRUE(has_moved_beside(grid.columns / 3, grid.rows / 3));

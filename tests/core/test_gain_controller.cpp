@@ -94,7 +94,7 @@ double force_N(double excess_px_s, double scale_px_s) {
 TEST(AdaptiveController, StartsLikeTheNonlinearOneBeyondTheDeadZone) {
   for (const double speed : {3.0, 50.0, 102.1, 1e4}) {
     GainController controller({ControlLaw::kAdaptive, kMax_N, kAlpha_s_px});
-    EXPECT_NEAR(controller.force_N(speed), force_N(speed - DeadZone::kLeast_px_s, 100),
+    EXPECT_NEAR(controller.force_N(speed), force_N(speed - DeadZone::kUnknownError_px_s, 100),
                 kAdaptiveRounding);
     controller.reset();
     EXPECT_NEAR(controller.force_N(speed, 0, 1.5), force_N(speed - 1.5, 100), kAdaptiveRounding);
@@ -110,7 +110,7 @@ TEST(AdaptiveController, ASteadySpeedConvergesToHalfOfTheMaximum) {
     // From a scale 8 times too large, ln 8 = 2.1: 1.1 T until the bound ends, and what is left
     // then falls by exp(−(90 / 6 − 1.1)) = 1e-6.
     EXPECT_NEAR(controller.scale_px_s(), speed, 2e-6 * speed) << speed;
-    EXPECT_NEAR(force, force_N(speed - DeadZone::kLeast_px_s, speed), 1e-5) << speed;
+    EXPECT_NEAR(force, force_N(speed - DeadZone::kUnknownError_px_s, speed), 1e-5) << speed;
   }
 }
 
@@ -156,7 +156,7 @@ TEST(AdaptiveController, RestGivesExactlyNoForceAndIsNotLearnt) {
   play(controller, 50, 3);
   const double scale_px_s = controller.scale_px_s();
   EXPECT_EQ(play(controller, 0, 100), 0);
-  EXPECT_EQ(play(controller, DeadZone::kLeast_px_s, 100), 0);
+  EXPECT_EQ(play(controller, DeadZone::kUnknownError_px_s, 100), 0);
   EXPECT_EQ(controller.force_N(30, kFrame_s, 30.0), 0);  // its own dead zone
   EXPECT_EQ(controller.scale_px_s(), scale_px_s);
 }
@@ -190,8 +190,8 @@ TEST(AdaptiveController, NewLimitsKeepTheScaleAndResetForgetsIt) {
   const double scale_px_s = controller.scale_px_s();
   controller.configure({ControlLaw::kAdaptive, 1.0, kAlpha_s_px});
   EXPECT_EQ(controller.scale_px_s(), scale_px_s);
-  EXPECT_NEAR(controller.force_N(300), force_N(300 - DeadZone::kLeast_px_s, scale_px_s) / kMax_N,
-              kAdaptiveRounding);
+  EXPECT_NEAR(controller.force_N(300),
+              force_N(300 - DeadZone::kUnknownError_px_s, scale_px_s) / kMax_N, kAdaptiveRounding);
   // Outside a decade of the new α: clamped to its edge.
   controller.configure({ControlLaw::kAdaptive, kMax_N, 1.0});
   EXPECT_NEAR(controller.scale_px_s(), 10, kAdaptiveRounding);

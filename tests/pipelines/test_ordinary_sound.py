@@ -29,7 +29,7 @@ class OrdinarySound(gst_case.GstCase):
         return self.path(name)
 
     def played(self, line):
-        """the result of processing it, and the largest force, N."""
+        """How the line has played, and the largest force, N."""
         pipeline = self.parse(line)
         outcome = self.play(pipeline)
         self.assertTrue(outcome.eos, outcome.error)

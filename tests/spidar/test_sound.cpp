@@ -116,7 +116,7 @@ TEST(SoundCards, OnlyTheSameOneComesBack) {
   const SoundCard other{"Device", "USB Audio", "hw:CARD=Device,DEV=0", "USB Audio at usb-2"};
   FirstDevice first;
   const auto chosen = [&](const std::vector<SoundCard>& cards) {
-    return chosen_card("sound:Device", "Device", first, cards);
+    return resolve_card("sound:Device", "Device", first, cards);
   };
   EXPECT_EQ(chosen({other}).place, other.place) << "the first one is any";
   first.require("sound:Device", shaker.identity());

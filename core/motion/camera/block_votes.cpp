@@ -18,9 +18,9 @@ constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
-/// A vote counts the more, the more structure the block has in both directions and the better its
-/// motion fits, and half for a block that moved by itself until now. What comes from the coarse
-/// picture needs less texture, see kOfAreas.
+/// The weight of a vote rises with the structure that the block has in both directions, and falls
+/// with the residual of its motion; for a block that moved by itself until now it is half. What
+/// comes from the coarse picture needs less texture, see kAreaTextureScale.
 double weight_of(const MotionBlock& block, double of_texture, float persistence) {
   const double texture = static_cast<double>(block.weakest_texture());
   return texture / (texture + of_texture * kFullTexture) /
@@ -46,7 +46,8 @@ void begin(BackgroundVotes& votes) {
 /// the picture. How an edge moves along itself is not known; edges therefore vote only where little
 /// else does, as in a picture out of focus. Returns whether the voters together have edges in more
 /// than one direction.
-bool collect(const BlockField& field, const Past& past, bool with_edges, BackgroundVotes& votes) {
+bool collect(const BlockField& field, const PreviousFrame& past, bool with_edges,
+             BackgroundVotes& votes) {
   begin(votes);
   votes.with_edges = with_edges;
   Eigen::Matrix2f together = Eigen::Matrix2f::Zero();
@@ -90,8 +91,8 @@ bool has_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
   return corners > kCoarser * kCoarser / 2;
 }
 
-/// Whether more of the picture is lost than found, and more than says nothing: a ball that bounces
-/// before a plain wall may be all that is lost.
+/// Whether more of the picture is lost than found, and at least kLeastVotes of it: a ball that
+/// bounces before a plain wall may be all that is lost.
 bool is_new(const BlockField& field) {
   size_t lost = 0;
   size_t found = 0;
@@ -105,19 +106,19 @@ bool is_new(const BlockField& field) {
 
 }  // namespace
 
-void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes) {
+void collect_votes(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes) {
   collect(field, past, false, votes);
 }
 
-void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes) {
+void collect_edges(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes) {
   if (!collect(field, past, true, votes)) {
     collect(field, past, false, votes);
   }
   votes.are_lost = is_new(field);
 }
 
-void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
-                   BackgroundVotes& votes) {
+void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas,
+                   const PreviousFrame& past, BackgroundVotes& votes) {
   begin(votes);
   votes.of_areas = true;
   const Eigen::Vector2d picture_px(field.picture().width(), field.picture().height());
@@ -130,10 +131,10 @@ void collect_areas(const BlockField& field, const std::vector<MotionBlock>& area
     if (inside_px < -kCoarser) continue;
     const bool at_border = inside_px < kBorderBlocks * kBlock_px;
     votes.all += at_border ? kBorderVotes : 1;
-    if (area.weakest_texture() < kOfAreas * MotionBlock::kLeastTexture) continue;
+    if (area.weakest_texture() < kAreaTextureScale * MotionBlock::kLeastTexture) continue;
     const size_t middle = field.grid().block_at(centre_px + picture_px / 2);
     if (past.is_burned_in(middle) || has_corners(field, centre_px + picture_px / 2)) continue;
-    const double weight = weight_of(area, static_cast<double>(kOfAreas),
+    const double weight = weight_of(area, static_cast<double>(kAreaTextureScale),
                                     past.persistence_of(field.origin_of(middle)));
     votes.cast.push_back(vote_of(area, weight, at_border, middle));
   }

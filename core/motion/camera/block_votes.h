@@ -13,7 +13,7 @@ namespace spidar {
 
 /// What is known from the frame before about the votes of this one. Vectors have one value for each
 /// block, or none after a cut.
-struct Past {
+struct PreviousFrame {
   /// How likely the block was not part of the background, 0 … 1.
   const std::vector<float>& persistence;
   const std::vector<uint8_t>& burned_in;  ///< 1: it showed graphics
@@ -28,11 +28,12 @@ struct Past {
 };
 
 /// Sets `votes` to those of the textured blocks of `field`.
-void collect_votes(const BlockField& field, const Past& past, BackgroundVotes& votes);
-/// The same with edges, if together they have more than one direction: where little else votes.
-void collect_edges(const BlockField& field, const Past& past, BackgroundVotes& votes);
+void collect_votes(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
+/// As collect_votes(), but edges vote too, if together they have more than one direction: for
+/// pictures in which little else votes.
+void collect_edges(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
 /// Sets `votes` to those of `areas`, see Areas.
-void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas, const Past& past,
-                   BackgroundVotes& votes);
+void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas,
+                   const PreviousFrame& past, BackgroundVotes& votes);
 
 }  // namespace spidar

@@ -26,7 +26,7 @@ constexpr double kUnequalSigmas = 2;
 constexpr double kCoded = static_cast<double>(kRounding_grey) * kBlockArea_px;
 
 /// How many borders of the film cut an object.
-int borders_of(uint32_t object, const BlockField& field, const Past& past) {
+int borders_of(uint32_t object, const BlockField& field, const PreviousFrame& past) {
   const BlockGrid& grid = field.grid();
   const int first_column = past.margin_columns, last_column = grid.columns - 1 - first_column;
   const int first_row = past.margin_rows, last_row = grid.rows - 1 - first_row;
@@ -54,7 +54,7 @@ double clearly_unequal(const BlockField& field) {
 
 /// Calls `visit(block)` for each block of the ring that shows the film.
 template <typename Visit>
-void each_at_border(const BlockField& field, const Past& past, Visit&& visit) {
+void each_at_border(const BlockField& field, const PreviousFrame& past, Visit&& visit) {
   const BlockGrid& grid = field.grid();
   for (size_t i = 0; i < grid.size(); ++i) {
     const int across = grid.columns_beside(i) - past.margin_columns;
@@ -89,7 +89,8 @@ bool are_graphics(const StayingPixels& staying, double least_exact) {
   return near >= kLeastStaying && staying.exact > least_exact * near + std::sqrt(near) / 2;
 }
 
-bool border_has_moved(const BlockField& field, const Past& past, const MotionModel& model) {
+bool border_has_moved(const BlockField& field, const PreviousFrame& past,
+                      const MotionModel& model) {
   const double clearly = clearly_unequal(field);
   uint32_t asked = 0;  // neighbours are mostly of one object
   bool is_left_out = false;
@@ -120,7 +121,7 @@ bool border_has_moved(const BlockField& field, const Past& past, const MotionMod
   return all > left_out && moved - rest > kMoreThanRest * all;
 }
 
-double share_border(const BlockField& field, const Past& past,
+double share_border(const BlockField& field, const PreviousFrame& past,
                     const std::vector<MotionModel>& models, std::vector<double>& shares) {
   const double clearly = clearly_unequal(field);
   const BlockGrid& grid = field.grid();

@@ -20,7 +20,7 @@ constexpr double kMoreThanRest = 0.2;
 /// Whether the blocks along the border, with texture or without, fit the picture before better if
 /// they have moved like the model than if they rest. Known objects are left out; where they have
 /// most of the border, it says nothing.
-bool border_has_moved(const BlockField& field, const Past& past, const MotionModel& model);
+bool border_has_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
 
 /// Fraction of the pixels of graphics that are exactly equal. With noise of one grey level after
 /// reduction, 0.35 of the pixels of a static object are. Of graphics it is nearly all of them, or
@@ -38,7 +38,7 @@ constexpr size_t kMostModels = 4;
 /// Graphics do not count, if the first model moves. Returns the fraction of the blocks that count.
 /// Of a single model, they are those that it does not explain, because a block always fits the
 /// motion that was found for it.
-double share_border(const BlockField& field, const Past& past,
+double share_border(const BlockField& field, const PreviousFrame& past,
                     const std::vector<MotionModel>& models, std::vector<double>& shares);
 
 }  // namespace spidar

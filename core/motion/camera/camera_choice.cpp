@@ -57,7 +57,8 @@ void PlainParts::go_back(const BlockField& field, const MotionModel& model) {
   }
 }
 
-bool PlainParts::have_moved(const BlockField& field, const Past& past, const MotionModel& model) {
+bool PlainParts::have_moved(const BlockField& field, const PreviousFrame& past,
+                            const MotionModel& model) {
   go_back(field, model);
   const double size_px = field.picture().width() + field.picture().height();
   constexpr int kClearly = static_cast<int>(kRounding_grey * kBlockArea_px);
@@ -68,7 +69,7 @@ bool PlainParts::have_moved(const BlockField& field, const Past& past, const Mot
     if (field.blocks()[i].has_corners() || past.is_burned_in(i)) continue;
     if (!(moved_px_[i].norm() < size_px)) continue;
     const Eigen::Vector2i from_px = -moved_px_[i].array().round().cast<int>();
-    const std::optional<int> gain = field.better_if_moved(i, back_, from_px);
+    const std::optional<int> gain = field.cell_difference_gain(i, back_, from_px);
     if (!gain) continue;
     ++all;
     better += *gain > kClearly;
@@ -156,7 +157,8 @@ void CameraChoice::add_rival(const Background& chosen, const BackgroundVotes& vo
 /// order are what its votes leave over, and what the areas along the border show. The best is
 /// chosen instead if it explains clearly more of the border. If most votes are then an object's,
 /// they are left out of what is learnt, or they would pass for noise.
-void CameraChoice::prefer_rival(const BlockField& field, const Past& past, Background& chosen) {
+void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& past,
+                                Background& chosen) {
   const bool was_rival = std::exchange(is_rival_, false);
   models_.assign(1, chosen.model);
   if (share_border(field, past, models_, shares_) < kDoubt) return;
@@ -200,7 +202,7 @@ void CameraChoice::prefer_rival(const BlockField& field, const Past& past, Backg
   likely_ = best;
 }
 
-const Background& CameraChoice::find(const BlockField& field, const Past& past) {
+const Background& CameraChoice::find(const BlockField& field, const PreviousFrame& past) {
   areas_.reserve(field);
   Background chosen = find_in_order(field, past);
   if (field.pictures_back() > 0) prefer_rival(field, past, chosen);
@@ -208,7 +210,7 @@ const Background& CameraChoice::find(const BlockField& field, const Past& past) 
   return estimator_.keep(chosen);
 }
 
-Background CameraChoice::find_in_order(const BlockField& field, const Past& past) {
+Background CameraChoice::find_in_order(const BlockField& field, const PreviousFrame& past) {
   collect_votes(field, past, votes_);
   const bool are_few = votes_.are_few();
   const Background of_blocks = are_few ? Background() : estimator_.propose(votes_);

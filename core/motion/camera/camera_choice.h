@@ -19,7 +19,7 @@ namespace spidar {
 class PlainParts {
  public:
   /// Whether they show that they move like the model.
-  bool have_moved(const BlockField& field, const Past& past, const MotionModel& model);
+  bool have_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
 
   /// The model of this picture, for the next ones. One that is shown again does not count.
   void remember(const BlockField& field, const MotionModel& model);
@@ -42,7 +42,7 @@ class CameraChoice {
  public:
   CameraChoice();
 
-  const Background& find(const BlockField& field, const Past& past);
+  const Background& find(const BlockField& field, const PreviousFrame& past);
 
   /// How many votes the last background has been found from.
   size_t votes() const { return votes_.cast.size(); }
@@ -56,8 +56,8 @@ class CameraChoice {
   void reset();
 
  private:
-  Background find_in_order(const BlockField& field, const Past& past);
-  void prefer_rival(const BlockField& field, const Past& past, Background& chosen);
+  Background find_in_order(const BlockField& field, const PreviousFrame& past);
+  void prefer_rival(const BlockField& field, const PreviousFrame& past, Background& chosen);
   template <typename Counts>
   void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
 

@@ -12,13 +12,15 @@
 
 namespace spidar {
 
-/// The model hierarchy: each model contains the ones before it.
+/// The model hierarchy: each model contains the ones before it, which is how BackgroundEstimator
+/// searches, from one to the next.
 enum class ModelKind { kStill, kTranslation, kSimilarity, kAffine, kHomography };
 constexpr int kModelKinds = 5;
 
-/// Free parameters: 0, 2, 4, 6, 8.
+/// Free parameters.
 constexpr int parameters(ModelKind kind) {
-  return 2 * static_cast<int>(kind);
+  constexpr int kFree[kModelKinds] = {0, 2, 4, 6, 8};
+  return kFree[static_cast<int>(kind)];
 }
 /// "still", "translation", "similarity", "affine", "homography".
 const char* to_string(ModelKind kind);

@@ -49,7 +49,7 @@ struct RelativeBlock {
   bool moves = false;         ///< moves by itself, taking its neighbours into account
 };
 
-/// Of the motion of a body, by how much that of its limbs may differ from it.
+/// How far the motion of a limb may differ from that of its body, as a fraction of the faster one.
 constexpr double kAlikeFraction = 0.5;
 
 /// Two motions of the same object differ by less than this, px of the field's picture:

@@ -161,7 +161,7 @@ class ObjectTracker {
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
 
   /// What the next frame's votes on the camera depend on.
-  Past past() const {
+  PreviousFrame past() const {
     const BurnedIn& burned_in = moving_.burned_in();
     return {moving_.persistence(), burned_in.held(), owners_, burned_in.margins().columns(),
             burned_in.margins().rows()};

@@ -49,7 +49,7 @@ class MotionChoice {
   /// becomes one before.
   void complete(const GstVideoFrame& frame, const Orientation& turn, FrameSettings& settings);
 
-  /// Says the result of processing it, once for each rule and click.
+  /// Says on the bus what became of each rule and click, once.
   void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);
 
  private:

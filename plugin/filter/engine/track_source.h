@@ -28,7 +28,7 @@ namespace spidar::filter {
 /// Gives the blocks of a track whose time it is, with their running times.
 class TrackReplay {
  public:
-  /// So much longer than a frame is shown its samples are given: the next frame may be late.
+  /// The samples of a frame go on for this long after its end, because the next one may be late.
   static constexpr int64_t kMargin_ns = 60'000'000;
   /// A frame waits at most so long for its samples, after a seek, or where they are read slowly for
   /// the first time.

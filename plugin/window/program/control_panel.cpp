@@ -10,9 +10,9 @@
 namespace spidar::window {
 namespace {
 
-/// A slider is logarithmic over a range of more than kLinear, or where the usual value would be in
-/// the first kFarLeft of it.
-constexpr double kLinear = 1e6, kFarLeft = 0.1;
+/// A slider is logarithmic if its range exceeds kMostLinearRange, or if its default would be in the
+/// first kFarLeft of it.
+constexpr double kMostLinearRange = 1e6, kFarLeft = 0.1;
 constexpr double kTooltip_px = 340, kNameFraction = 0.4;
 /// Room for a value to the right of its slider: "0.0025 s/px".
 constexpr double kValue_px = 84;
@@ -43,7 +43,7 @@ bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp |
-      (range > kLinear || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
+      (range > kMostLinearRange || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
   const char* const format = setting.kind == Setting::Kind::kWhole ? "%.0f" : "%.4g";
   const bool is_typing = ImGui::GetIO().WantTextInput;
   ImGui::BeginGroup();
@@ -110,7 +110,8 @@ void explain(const Brush& brush, const Rect& panel, const Setting& setting) {
 }
 
 /// One row of a table: name and widget.
-void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting, ControlsUse& use) {
+void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
+                  ControlsActions& actions) {
   ImGui::PushID(setting.name.c_str());
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -121,32 +122,32 @@ void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
   ImGui::SetNextItemWidth(-FLT_MIN);
   double value = setting.value;
   if (value_widget(brush, setting, value) && value != setting.value) {
-    use.changes.emplace_back(setting.name, value);
+    actions.changes.emplace_back(setting.name, value);
   }
   explain(brush, panel, setting);
   ImGui::PopID();
 }
 
 /// What a viewer sets; all else is of interest to who knows how it works.
-bool is_of_viewer(const Setting& setting) {
+bool is_basic(const Setting& setting) {
   constexpr std::array<const char*, 4> kNames{"motion", "max-force", "alpha", "touch"};
   return std::find(kNames.begin(), kNames.end(), setting.name) != kNames.end();
 }
 
 void draw_table(const Brush& brush, const Rect& panel, const ElementState& state, bool of_viewer,
-                ControlsUse& use) {
+                ControlsActions& actions) {
   if (!ImGui::BeginTable(of_viewer ? "settings" : "advanced", 2)) return;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
                           static_cast<float>(kNameFraction * panel.width));
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   for (const Setting& setting : state.settings) {
-    if (setting.name == "mute" || is_of_viewer(setting) != of_viewer) continue;
-    draw_setting(brush, panel, setting, use);
+    if (setting.name == "mute" || is_basic(setting) != of_viewer) continue;
+    draw_setting(brush, panel, setting, actions);
   }
   ImGui::EndTable();
 }
 
-void draw_stop(const Brush& brush, const ElementState& state, ControlsUse& use) {
+void draw_stop(const Brush& brush, const ElementState& state, ControlsActions& actions) {
   const bool muted = state.value("mute", 0) != 0;
   ImGui::PushStyleColor(ImGuiCol_Button,
                         muted ? IM_COL32(46, 110, 66, 255) : IM_COL32(176, 48, 48, 255));
@@ -154,7 +155,7 @@ void draw_stop(const Brush& brush, const ElementState& state, ControlsUse& use) 
                         muted ? IM_COL32(56, 132, 80, 255) : IM_COL32(204, 60, 60, 255));
   ImGui::PushFont(brush.fonts.bold);
   if (ImGui::Button(muted ? "Resume force (space)" : "Stop force (space)", {-1, brush.px(30)})) {
-    use.changes.emplace_back("mute", muted ? 0 : 1);
+    actions.changes.emplace_back("mute", muted ? 0 : 1);
   }
   ImGui::PopFont();
   ImGui::PopStyleColor(2);
@@ -162,26 +163,26 @@ void draw_stop(const Brush& brush, const ElementState& state, ControlsUse& use) 
 
 /// The two settings, a button that takes everything back, and the presets.
 void draw_choices(const Brush& brush, const Rect& panel, const ElementState& state,
-                  const TwoSettings& settings, ControlsUse& use) {
+                  const TwoSettings& settings, ControlsActions& actions) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Compare");
   for (const size_t which : {size_t{0}, size_t{1}}) {
     ImGui::SameLine();
     const bool is_used = settings.used() == which;
     if (is_used) ImGui::PushStyleColor(ImGuiCol_Button, kAccentColor);
-    if (ImGui::Button(which == 0 ? "1" : "2", {brush.px(26), 0})) use.use = which;
+    if (ImGui::Button(which == 0 ? "1" : "2", {brush.px(26), 0})) actions.settings = which;
     if (is_used) ImGui::PopStyleColor();
     explain_above(panel,
                   "Two settings to compare, also by the keys 1 and 2: each keeps its changes");
   }
   const float reset = ImGui::CalcTextSize("Reset").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(ImGui::GetContentRegionMax().x - reset);
-  use.resets = ImGui::Button("Reset");
+  actions.resets = ImGui::Button("Reset");
   explain_above(panel, "All settings as they were when the window was opened");
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::BeginCombo("##preset", "Presets")) {
     for (const std::string& preset : state.presets) {
-      if (ImGui::Selectable(preset.c_str())) use.preset = preset;
+      if (ImGui::Selectable(preset.c_str())) actions.preset = preset;
     }
     ImGui::EndCombo();
   }
@@ -196,24 +197,24 @@ void explain_above(const Rect& panel, const char* text) {
   ImGui::SetTooltip("%s", text);
 }
 
-ControlsUse draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                          const TwoSettings& settings) {
+ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
+                              const TwoSettings& settings) {
   constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                       ImGuiWindowFlags_NoSavedSettings;
-  ControlsUse use;
+  ControlsActions actions;
   ImGui::SetNextWindowPos(upper_left(panel));
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
   ImGui::Begin("controls", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
-  draw_stop(brush, state, use);
-  draw_choices(brush, panel, state, settings, use);
+  draw_stop(brush, state, actions);
+  draw_choices(brush, panel, state, settings, actions);
   // Only what is below scrolls.
   ImGui::BeginChild("scrolled");
-  draw_table(brush, panel, state, true, use);
-  if (ImGui::CollapsingHeader("Advanced")) draw_table(brush, panel, state, false, use);
+  draw_table(brush, panel, state, true, actions);
+  if (ImGui::CollapsingHeader("Advanced")) draw_table(brush, panel, state, false, actions);
   ImGui::EndChild();
   ImGui::End();
-  return use;
+  return actions;
 }
 
 void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& keys) {

@@ -97,13 +97,13 @@ void DebugWindow::use_settings(size_t which) {
 }
 
 void DebugWindow::draw_controls_and_use(const Brush& brush, const Rect& panel) {
-  const ControlsUse use = draw_controls(brush, panel, state_, settings_);
-  for (const auto& [name, value] : use.changes) change(name, value);
-  if (use.resets) {
+  const ControlsActions actions = draw_controls(brush, panel, state_, settings_);
+  for (const auto& [name, value] : actions.changes) change(name, value);
+  if (actions.resets) {
     for (const auto& [name, value] : settings_.reset()) change(name, value);
   }
-  if (use.preset) link_.load_preset(*use.preset);
-  if (use.use) use_settings(*use.use);
+  if (actions.preset) link_.load_preset(*actions.preset);
+  if (actions.settings) use_settings(*actions.settings);
 }
 
 /// Only a simulated device has a hand.
@@ -195,12 +195,12 @@ void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
 
 void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
   const FilmStrip strip = film_strip(report_, state_.rules.get(), choices().edits());
-  const TimelineUse use =
+  const TimelineActions actions =
       draw_timeline(brush, panel, timeline_, state_, strip, has_unsaved_choices());
-  if (use.removed) remove_choice(*use.removed);
-  if (use.saves) save_choices(&SceneChoices::has_unsaved);
-  if (use.toggles) toggle_play();
-  if (use.seek_ns) link_.seek(*use.seek_ns);
+  if (actions.removed) remove_choice(*actions.removed);
+  if (actions.saves) save_choices(&SceneChoices::has_unsaved);
+  if (actions.toggles) toggle_play();
+  if (actions.seek_ns) link_.seek(*actions.seek_ns);
 }
 
 /// Removing the choice that is felt lets go of its object.

@@ -56,7 +56,7 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
 
 /// What the user wants of the choices.
-struct TimelineUse {
+struct TimelineActions {
   std::optional<FeelRule> removed;  ///< this one is to be removed
   std::optional<int64_t> seek_ns;   ///< the film is to go on from there
   bool toggles = false;             ///< the film is to play, or to pause
@@ -64,8 +64,8 @@ struct TimelineUse {
 };
 /// The last minute, with a button that pauses the film, plays it, or plays it again. Below it the
 /// film with its choices, which can be saved if there are some that are not.
-TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                          const ElementState& state, const FilmStrip& strip, bool has_unsaved);
+TimelineActions draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                              const ElementState& state, const FilmStrip& strip, bool has_unsaved);
 
 /// `note`: the window's message at the moment; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
@@ -77,16 +77,16 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& 
 void draw_keys(const Brush& brush, const Rect& picture);
 
 /// What the user wants of the settings.
-struct ControlsUse {
+struct ControlsActions {
   std::vector<std::pair<std::string, double>> changes;  ///< by name
   std::optional<std::string> preset;
-  std::optional<size_t> use;  ///< see TwoSettings::use()
+  std::optional<size_t> settings;  ///< which are to be in use, see TwoSettings::use()
   bool resets = false;
 };
 /// The button for rest, which stays in sight; the two settings, presets, and widgets for each
 /// setting.
-ControlsUse draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                          const TwoSettings& settings);
+ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
+                              const TwoSettings& settings);
 
 /// Of the widget drawn last, above `panel`, so that it does not cover what is in it.
 void explain_above(const Rect& panel, const char* text);

@@ -66,7 +66,7 @@ class PlayerLink {
   std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }
   /// The file into which the next drawing is to be written.
   std::optional<std::string> wanted_picture() const { return wanted_picture_; }
-  /// the result of processing it, see PictureTaken.
+  /// Tells the element whether the picture was written, see PictureTaken.
   void picture_taken(const std::string& error);
 
   void change(const std::string& setting, double value) { send(ChangeSetting{setting, value}); }

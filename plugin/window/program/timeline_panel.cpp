@@ -67,7 +67,8 @@ void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip
 }
 
 /// With the mouse over it.
-void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip, TimelineUse& use) {
+void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip,
+               TimelineActions& actions) {
   ImGui::SetCursorScreenPos(im(position.x, position.y - 2 * brush.scale));
   ImGui::InvisibleButton("film", im(position.width, position.height + 4 * brush.scale));
   if (!ImGui::IsItemHovered()) return;
@@ -76,18 +77,18 @@ void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip,
   if (!mark) {
     const auto at_ns = static_cast<int64_t>(fraction * static_cast<double>(strip.length_ns));
     ImGui::SetTooltip("A click plays from %s.", film_time(at_ns).c_str());
-    if (ImGui::IsItemClicked()) use.seek_ns = at_ns;
+    if (ImGui::IsItemClicked()) actions.seek_ns = at_ns;
     return;
   }
   ImGui::SetTooltip("%s%s. A click removes it.", rule_text(mark->rule).c_str(),
                     mark->is_new ? ", not saved" : "");
-  if (ImGui::IsItemClicked()) use.removed = mark->rule;
+  if (ImGui::IsItemClicked()) actions.removed = mark->rule;
 }
 
 }  // namespace
 
-TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
-                          const ElementState& state, const FilmStrip& strip, bool has_unsaved) {
+TimelineActions draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
+                              const ElementState& state, const FilmStrip& strip, bool has_unsaved) {
   const Rect left = draw_panel(brush, panel, "Last minute");
   const double button = std::min(96 * brush.scale, left.width / 3);
   const double margin = 10 * brush.scale;
@@ -121,23 +122,23 @@ TimelineUse draw_timeline(const Brush& brush, const Rect& panel, const Timeline&
   ImGui::SetNextWindowSize(im(panel.width, panel.height));
   ImGui::Begin("timeline", nullptr, kBare);
   ImGui::SetCursorScreenPos(im(left.x, left.y + 2 * brush.scale));
-  TimelineUse use;
+  TimelineActions actions;
   const char* const label = state.has_ended ? "Play again" : state.is_playing ? "Pause" : "Play";
-  use.toggles = ImGui::Button(label, im(button, 0));
+  actions.toggles = ImGui::Button(label, im(button, 0));
   explain_above(panel, "Asks the player for it (P)");
   if (has_unsaved) {
     ImGui::SetCursorScreenPos(im(left.x, left.y + 28 * brush.scale));
     ImGui::PushFont(brush.fonts.small);
-    use.saves = ImGui::Button("Save choices", im(button, 0));
+    actions.saves = ImGui::Button("Save choices", im(button, 0));
     ImGui::PopFont();
     explain_above(panel, "Writes them as rules into the file beside the film (C)");
   }
   ImGui::SetCursorScreenPos(upper_left(plot.area()));
   ImGui::InvisibleButton("force", im(plot.area().width, std::max(plot.area().height, 1.0)));
   if (ImGui::IsItemHovered()) tell_force(plot, force);
-  if (strip.length_ns > 0) use_strip(brush, film, strip, use);
+  if (strip.length_ns > 0) use_strip(brush, film, strip, actions);
   ImGui::End();
-  return use;
+  return actions;
 }
 
 }  // namespace spidar::window

@@ -19,8 +19,8 @@ namespace spidar::window {
 /// use. Whether the force is stopped is part of neither.
 class TwoSettings {
  public:
-  /// So many answers of the element may have been on their way when it was asked for a change; then
-  /// it has refused it.
+  /// A change that the element has not made after this many of its answers was refused: those
+  /// before may have been on their way when it was asked.
   static constexpr int kPatience = 30;
 
   /// As the element has them now.
