@@ -5,7 +5,7 @@
 
 namespace spidar {
 
-/// What a hand holds against without effort, and every device takes as its limits.
+/// The default limits of every device: what a hand holds against without effort.
 constexpr double kDefaultForce_N = 3;
 constexpr double kDefaultTorque_Nm = 0.1;
 

@@ -11,30 +11,32 @@
 
 namespace spidar {
 
-/// Whose members stay in the order in which they were added.
+/// JSON to write: members stay in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// On a single line, without its end, or indented by `indent`. File names are bytes and JSON is
-/// UTF-8, so a byte that is not becomes U+FFFD. Numbers that are not finite are null.
+/// The text of `json`: on a single line without a line end, or indented by `indent` if that is not
+/// negative. File names are bytes and JSON is UTF-8, so an invalid byte becomes U+FFFD. Numbers
+/// that are not finite become null.
 inline std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A vector of Eigen, whichever size it has.
+/// An Eigen vector of any size as a JSON array.
 template <typename Vector>
 Json json_array(const Vector& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-/// As it is read. Not ordered, which takes a time that grows with the square of the members.
+/// JSON that was read. Its members are not ordered, which would take a time that grows with the
+/// square of their number.
 using ReadJson = nlohmann::json;
 
-/// Arrays and objects inside each other in JSON from outside, at most. HJIF has 12.
+/// Greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.
 constexpr size_t kMostJsonDepth = 64;
 
-/// All JSON that is not this program's own is read here: deeper or wrong JSON is refused before
-/// anything is made of it that calls itself for each level. Of equal members the last one counts.
-/// When it cannot be read, a value that is_discarded(), and `why` says why: "it is no JSON: …".
+/// Reads all JSON that is not this program's own. Deeper JSON is refused before any code recurses
+/// into its levels. Of members with the same name the last one counts. On an error returns a value
+/// that is_discarded(), and `why` says why: "it is no JSON: …".
 ReadJson parse_json(std::string_view text, std::string& why);
 
 }  // namespace spidar

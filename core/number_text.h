@@ -13,8 +13,8 @@
 
 namespace spidar {
 
-/// The shortest text that is read back as the same number, 1e-09 for small ones. It needs no
-/// memory, and fits always.
+/// The shortest text that is read back as the same number, 1e-09 for small ones. It allocates
+/// nothing and always fits.
 class NumberText {
  public:
   template <typename Number>
@@ -26,14 +26,14 @@ class NumberText {
   operator std::string_view() const noexcept { return {text_.data(), length_}; }
 
  private:
-  /// "-2.2250738585072014e-308", than which no double is longer; integers of 64 bits are shorter.
+  /// The length of "-2.2250738585072014e-308", the longest double; integers of 64 bits are shorter.
   static constexpr size_t kLongest = 24;
 
   std::array<char, kLongest> text_{};
   size_t length_ = 0;
 };
 
-/// Nothing unless all of the text is one finite number.
+/// The number that all of the text is; nothing unless it is one finite number.
 inline std::optional<double> number_of(std::string_view text) noexcept {
   double value = 0;
   const char* const text_end = text.data() + text.size();

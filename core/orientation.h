@@ -13,9 +13,9 @@ namespace spidar {
 /// them. Directions are x right, y down; positions go from (0, 0), the top left corner, to (1, 1).
 class Orientation {
  public:
-  /// Shown as it is.
+  /// For a picture that is shown as it is stored.
   Orientation() = default;
-  /// First mirrored left to right, if `mirrored`; then turned clockwise.
+  /// First mirrored left to right, if `mirrored`; then turned clockwise by `quarters` right angles.
   explicit Orientation(int quarters, bool mirrored = false) {
     Eigen::Matrix2d quarter;
     quarter << 0, -1, 1, 0;
@@ -41,7 +41,7 @@ class Orientation {
     return middle() + to_stored(position - middle());
   }
 
-  /// A torque is an axial vector: what mirrors the picture reverses it in addition.
+  /// A torque is an axial vector: mirroring the picture reverses it in addition.
   Wrench to_displayed(const Wrench& wrench) const {
     if (is_none()) return wrench;
     Eigen::Matrix3d in_device = Eigen::Matrix3d::Identity();

@@ -45,7 +45,7 @@ Value median(std::vector<Value> values) {
   return median(values.begin(), values.end());
 }
 
-/// The median of each coordinate. Changes the order of `vectors`, of which there is one at least.
+/// The median of each coordinate. Changes the order of `vectors`, which must not be empty.
 template <typename Vector>
 Vector median_of_each(std::vector<Vector>& vectors) {
   Vector medians;

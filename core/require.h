@@ -9,8 +9,8 @@
 
 namespace spidar {
 
-/// Throws std::invalid_argument if a setting is not what it must be: "Contact: stiffness_N_m must
-/// be above 0, but is -1.000000".
+/// Throws std::invalid_argument unless the setting is `right`: "Contact: stiffness_N_m must be
+/// above 0, but is -1.000000".
 inline void require(bool right, const char* owner, const char* setting, const char* rule,
                     double value) {
   if (right) return;

@@ -22,17 +22,18 @@
 
 namespace spidar {
 
-/// Of the analysis of frames, and of the rendering of what it finds.
+/// Settings of the analysis of frames, and of the rendering of what it finds.
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
   /// Position of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its
   /// bottom right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
-  /// Come before `motion` where they say something, and not with kMean, which knows no objects.
+  /// Rules that take precedence over `motion` where one holds, but not over kMean, which knows no
+  /// objects.
   std::shared_ptr<const FeelRules> feel;
-  KeptObject kept;  ///< comes before `feel`
-  /// That came with this frame; null: none did.
+  KeptObject kept;  ///< takes precedence over `feel`
+  /// Boxes that came with this frame; null: none did.
   std::shared_ptr<const std::vector<PictureBox>> boxes;
   FilterSettings filter;
   AxisGains axes;
@@ -44,7 +45,7 @@ struct AnalyzerSettings {
 /// controller.
 AnalyzerSettings paper_settings();
 
-/// Throws std::invalid_argument when one is out of range.
+/// Throws std::invalid_argument when a setting is out of range.
 void validate(const AnalyzerSettings& settings);
 
 /// When another object is felt than before, or none any more, the last wrench fades out over
@@ -52,11 +53,12 @@ void validate(const AnalyzerSettings& settings);
 /// at once and in full.
 class WrenchFade {
  public:
-  /// Begins a frame. `object` is what is felt in it: a number that is constant while the same is
-  /// felt; 0: nothing, or the whole picture. Returns whether the last wrench begins to fade out.
+  /// Begins a frame. `object` identifies what is felt in it, by a number that is constant while the
+  /// same is felt; 0: nothing, or the whole picture. Returns whether the last wrench begins to fade
+  /// out.
   bool turn_to(uint64_t object);
 
-  /// The wrench to render in this frame, `interval_s` > 0 after the one before, if `wrench` is
+  /// The wrench to render in this frame, `interval_s` > 0 after the previous one, if `wrench` is
   /// that of the object.
   Wrench fade(const Wrench& wrench, double interval_s);
 
@@ -98,7 +100,7 @@ class ForceRenderer {
   void configure(const AnalyzerSettings& settings);
 
   /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order in which they
-  /// are shown, but for those that wait; `turn` is that before they are shown.
+  /// are shown, except those that wait; `turn` is how they are turned before they are shown.
   void render(Frame& frame, const Orientation& turn = {});
   /// The next frame follows a seek or a discontinuity.
   void reset();

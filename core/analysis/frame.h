@@ -16,16 +16,17 @@ namespace spidar {
 
 /// When a frame is shown, and in which run of its film.
 struct FrameStamp {
-  /// Counts the runs of playback: a frame of another run does not follow the one before. A seek of
-  /// any length, another film and another rate begin one; a gap in the film does not.
+  /// Counts the runs of playback: a frame of another run does not continue the previous frame. A
+  /// seek of any length, another film and another rate begin one; a gap in the film does not.
   uint32_t epoch = 0;
-  int64_t stream_ns = -1;   ///< position in the film of what is to be seen of it; −1: not known
+  int64_t stream_ns = -1;   ///< position in the film of the part that is shown; −1: not known
   int64_t running_ns = -1;  ///< when that is shown; its end if backwards; −1: not known
   int64_t length_ns = 0;    ///< of stream time, for which it is shown; 0: not known
   double rate = 1;          ///< of stream time against running time; negative: backwards
 };
 
-/// The steps of the analysis fill it in, one after the other, and everybody else reads it.
+/// The result for one frame: the steps of the analysis fill it in, one after the other, and all
+/// other code reads it.
 struct Frame : MeasuredFrame {
   FrameStamp stamp;
   Chosen choice;             ///< without `object`
@@ -35,11 +36,12 @@ struct Frame : MeasuredFrame {
                   ///< is shown
 
   bool has_motion_before() const { return picture != Likeness::kFirst; }
-  /// The picture before is shown again, and its wrench goes on. Rest has nothing that could go on.
+  /// Whether the previous picture is shown again and its wrench goes on. At rest there is no wrench
+  /// to go on.
   bool is_continuation() const {
     return picture == Likeness::kWaiting && !wrench.stacked().isZero(0);
   }
-  /// Nothing is known. The memory stays.
+  /// Forgets everything, but keeps the memory.
   void clear() {
     std::vector<FollowedPoint> kept_points = std::move(points);
     std::vector<MovingObject> kept_objects = std::move(objects);

@@ -16,8 +16,8 @@
 
 namespace spidar {
 
-/// Takes each picture through the steps: whether it repeats the one before, how camera and objects
-/// move (MotionEstimator), which of these is felt, and with what wrench (ForceRenderer). One thread
+/// Finds for each picture whether it repeats the previous one, how the camera and the objects move
+/// (MotionEstimator), which of these is felt, and with what wrench (ForceRenderer). For one thread
 /// at a time.
 ///
 /// A frame that shows the previous picture again does not show whether anything moves. It waits
@@ -29,9 +29,9 @@ class MotionAnalyzer {
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {})
       : settings_(settings), tracker_(settings.tracker), renderer_(settings) {}
 
-  /// Takes effect with the next frame; what the controller has learnt stays unless its kind
-  /// changes, and so do the points. Throws std::invalid_argument when a setting is out of range,
-  /// and then changes nothing.
+  /// Takes effect with the next frame. The points stay, and so does what the controller has learnt
+  /// unless its law changes. Throws std::invalid_argument when a setting is out of range, and then
+  /// changes nothing.
   void configure(const AnalyzerSettings& settings);
 
   /// Frames must come in the order in which they are shown. A running time that does not rise
@@ -45,8 +45,8 @@ class MotionAnalyzer {
                        const Orientation& turn = {});
 
   /// Takes a frame that is known to repeat the previous picture, without analysing it. Returns null
-  /// when the picture has been repeated for too long, or when there is no previous picture: then it
-  /// is at rest, and the next frame is not compared with the one before.
+  /// when the picture has been repeated for too long, or when there is no previous picture: the
+  /// picture is then at rest, and the next frame is not compared with it.
   const Frame* repeat(int64_t running_ns);
 
   /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
@@ -62,8 +62,8 @@ class MotionAnalyzer {
 
   AnalyzerSettings settings_;
   ReducedFrame reduced_;
-  OpenCvTracker tracker_;   ///< for the mean
-  MotionEstimator motion_;  ///< for all else
+  OpenCvTracker tracker_;   ///< for MotionKind::kMean
+  MotionEstimator motion_;  ///< for all other kinds
   Cadence cadence_;
   ForceRenderer renderer_;
   std::optional<int64_t> last_running_ns_;

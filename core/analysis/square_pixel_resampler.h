@@ -26,8 +26,8 @@ class SquarePixelResampler {
   std::vector<uint8_t> resampled_;
 };
 
-/// Changes `frame`, of a SquarePixelResampler, to that of the picture as it is stored, `width`
-/// pixels wide.
+/// Converts `frame`, measured in the pixels of SquarePixelResampler, to those of the picture as it
+/// is stored, `width` pixels wide.
 void to_stored_pixels(Frame& frame, int width);
 
 }  // namespace spidar

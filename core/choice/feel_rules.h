@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is felt of a film, and when, in the words of a person.
+/// Rules, written by a person, of what is felt of a film and when.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 
 namespace spidar {
 
-/// One line. Places go from (0, 0), the top left corner of the picture as it is shown, to (1, 1).
+/// One rule. Positions go from (0, 0), the top left corner of the picture as it is shown, to (1,
+/// 1).
 struct FeelRule {
   enum class Kind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
 
@@ -33,30 +34,32 @@ struct FeelRule {
   Eigen::Vector2d position{0, 0};
   Eigen::Vector2d far_corner{1, 1};  ///< kRegion
   Eigen::Vector2d direction{0, 0};   ///< kFurthest: of length 1
-  /// kBox: what the box is called, up to a zero; empty when any is meant. Copies allocate nothing.
+  /// kBox: the name of the box, zero-terminated; empty when any box is meant. An array, so that
+  /// copies allocate nothing.
   std::array<char, kLongestName + 1> name{};
   double gain = 1;  ///< of force and torque, 0 … 10
 
   bool is_about_objects() const { return kind != Kind::kCamera && kind != Kind::kNothing; }
 };
 
-/// Begins with "line 3: " and is a sentence without a full stop.
+/// An error in the text of rules. The message begins with "line 3: " and is a sentence without a
+/// full stop.
 class FeelRulesError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Ordered by time; outside of all of them, what `motion` says is felt.
+/// Rules in order of time. Where none holds, the setting `motion` decides what is felt.
 class FeelRules {
  public:
-  /// A rule is a line, or ends with a semicolon; what follows a # is a remark:
+  /// A rule ends with its line or with a semicolon; a # begins a comment:
   ///
   ///     [FROM-[TO]] WHAT [gain G]
   ///
-  /// Times are of the film, as 12.5, 0:12 or 1:02:03; without them, all of it is meant. WHAT is one
-  /// of: object at X,Y; largest; leftmost; rightmost; topmost; bottommost; box [NAME]; region X,Y
-  /// to X,Y; camera; nothing. A NAME of several words is in quotes. Throws FeelRulesError, also
-  /// when there is no rule.
+  /// Times are positions in the film, as 12.5, 0:12 or 1:02:03; without them, the rule holds for
+  /// the whole film. WHAT is one of: object at X,Y; largest; leftmost; rightmost; topmost;
+  /// bottommost; box [NAME]; region X,Y to X,Y; camera; nothing. A NAME of several words is in
+  /// quotes. Throws FeelRulesError, also when there is no rule.
   explicit FeelRules(std::string_view text);
 
   const std::vector<FeelRule>& rules() const { return rules_; }
@@ -71,23 +74,25 @@ class FeelRules {
   std::vector<FeelRule> rules_;
 };
 
-/// One rule, as FeelRules::text() has it.
+/// One rule, as FeelRules::text() writes it.
 std::string rule_text(const FeelRule& rule);
-/// "0:12" or "1:02:03.5", as rules have it.
+/// A time as rules write it: "0:12" or "1:02:03.5".
 std::string time_text(int64_t ns);
-/// "0.31,0.62".
+/// A position as rules write it: "0.31,0.62".
 std::string position_text(const Eigen::Vector2d& position);
 
-/// From one moment of a film to another, one object is felt, or no rule holds.
+/// A change of the rules: from one time of the film to another, one object is felt, or no rule
+/// holds.
 struct FeelEdit {
   int64_t from_ns = 0, to_ns = 0;
   /// Where the object is at `from_ns`, as in FeelRule; none: no rule holds.
   std::optional<Eigen::Vector2d> position;
 };
 
-/// `rules` in order of time, and so is the result. Rules give way to the edit; what is left behind
-/// it of a rule about the object at a position goes, too, because nobody knows where the object is
-/// then. An edit that does not end after it begins changes nothing.
+/// Applies `edit` to `rules`, which are in order of time, as is the result. Rules give way to the
+/// edit; of a rule about the object at a position, the part after the edit is dropped, too, because
+/// nobody knows where the object is then. An edit that does not end after it begins changes
+/// nothing.
 inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
   if (edit.to_ns <= edit.from_ns) return rules;
   std::vector<FeelRule> result;

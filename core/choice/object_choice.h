@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a person wants to feel of a frame, by rules, by boxes of somebody else or by a click.
+/// Chooses what is felt of a frame: by rules, by boxes from outside, or by a click.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace spidar {
 
-/// A box that somebody else found in a picture: a detector or a tracker. Corners go from (0, 0),
-/// the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
+/// A box that a detector or a tracker outside this project found in a picture. Corners go from (0,
+/// 0), the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
 struct PictureBox {
   std::string name;                ///< of what is in it, "face"
   Eigen::Vector2d position{0, 0};  ///< the corner that is nearer to (0, 0)
@@ -33,7 +33,7 @@ struct KeptObject {
   Eigen::Vector2d position{0, 0};  ///< of the click
 };
 
-/// The answer to what was asked.
+/// What was chosen for a frame.
 struct Chosen {
   /// Result of a request.
   enum class State {
@@ -45,54 +45,55 @@ struct Chosen {
     kBoxAtRest,  ///< boxes came, but nothing moves in them
   };
 
-  std::optional<FeelRule> rule;  ///< of the moment
+  std::optional<FeelRule> rule;  ///< that holds now; none: none does
   bool is_kept = false;          ///< a click counts, and no rule
   State state = State::kGood;
-  const MovingObject* object = nullptr;  ///< the one that is felt, when it is one
+  const MovingObject* object = nullptr;  ///< the one that is felt; null when it is not one alone
 
-  /// Nothing of this: what `motion` says is felt.
+  /// Whether neither a rule nor a click counts: the setting `motion` decides what is felt.
   bool is_free() const { return !rule && !is_kept; }
 };
 
-/// What a choice needs of a frame. Places of rules and clicks are those of the picture as it is
-/// shown.
+/// What a choice needs to know of a frame. Positions of rules and clicks are those in the picture
+/// as it is shown.
 struct ChoiceInput {
   const std::vector<MovingObject>& objects;
-  const Background* background;                    ///< null when it is not known
-  int width, height;                               ///< px
-  double interval_s;                               ///< since the frame before; 0 when there is none
-  bool is_cut;                                     ///< nothing in it was in the frame before
-  int64_t stream_ns;                               ///< position in the film
-  Orientation turn;                                ///< of the frame before it is shown
-  const std::vector<PictureBox>* boxes = nullptr;  ///< that came with it; null: none did
+  const Background* background;  ///< null when it is not known
+  int width, height;             ///< px
+  double interval_s;             ///< since the previous frame; 0 when there is none
+  bool is_cut;                   ///< nothing in it was in the previous frame
+  int64_t stream_ns;             ///< position in the film
+  Orientation turn;              ///< of the frame before it is shown
+  const std::vector<PictureBox>* boxes = nullptr;  ///< that came with the frame; null: none
 
-  /// A position of the picture as it is shown, from the middle of the frame.
+  /// Converts a position in the picture as it is shown to px from the middle of the frame.
   Eigen::Vector2d px(const Eigen::Vector2d& position) const {
     const Eigen::Vector2d coded = turn.stored_position(position);
     return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
   }
-  /// The same of a box with these two corners.
+  /// The same for a box with these two corners.
   Eigen::AlignedBox2d px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner) const {
     return Eigen::AlignedBox2d(px(corner)).extend(px(far_corner));
   }
 };
 
-/// Boxes say what is meant, objects how it moves. A detector misses objects in some frames, so that
-/// the object stays for a moment without a box. Of several, the largest is taken; it stays for as
-/// long as there is a box around it.
+/// Finds the object in a box: boxes say what is meant, objects how it moves. A detector misses
+/// objects in some frames, so the object is kept for a moment without a box. Of several objects in
+/// boxes, the largest is taken; it stays for as long as there is a box around it.
 class BoxedObject {
  public:
-  /// By boxes of this name, or by all when it is empty. It outlives the frames up to the next
-  /// begin().
+  /// Looks for boxes of this name, or for any when it is empty. `name` must stay valid until the
+  /// next begin().
   void begin(const char* name);
 
-  /// Takes the next frame. The object, as it is in `frame`; null when none is known.
+  /// Takes the next frame. Returns the object as it is in `frame`; null when none is known.
   const MovingObject* update(const ChoiceInput& frame);
 
   /// All objects have other ids.
   void cut() { id_ = 0; }
 
-  /// kNoBox or kBoxAtRest, where for kPatience_s no box was around an object; else kGood.
+  /// kNoBox or kBoxAtRest when no box was around an object within kPatience_s of begin(); else
+  /// kGood.
   Chosen::State state() const;
 
   /// How long an object is kept without a box: a detector that looks at every tenth frame of 25 a
@@ -100,9 +101,9 @@ class BoxedObject {
   static constexpr double kHold_s = 0.8;
   /// How long a new rule may get no box before that is reported.
   static constexpr double kPatience_s = 1;
-  /// Box and object are the same object when at least this fraction of the smaller of them is in
-  /// the other: a face is a part of the person who moves, a leg that moves one of the person in the
-  /// box.
+  /// A box is around an object when at least this fraction of the smaller of the two lies in the
+  /// other: a face is a part of the person who moves, and a leg that moves is a part of the person
+  /// in the box.
   static constexpr double kOverlap = 0.5;
 
  private:
@@ -117,10 +118,9 @@ class BoxedObject {
 };
 
 /// Finds the object that is at a position, and follows its id. ObjectTracker drops an object that
-/// has rested for a while. Where there is no object, or where this one came to rest, the first one
-/// that begins to move there is taken. At what looks like a cut, ObjectTracker gives new ids: an
-/// object that soon moves in the same way at the place where this one would be is taken for the
-/// same.
+/// has rested for a while. Where there is no object, or where the followed one came to rest, the
+/// first one that begins to move there is taken. At what looks like a cut, ObjectTracker gives new
+/// ids: an object that soon moves in the same way where the followed one would be is taken for it.
 class FollowedObject {
  public:
   enum class State {
@@ -131,12 +131,13 @@ class FollowedObject {
     kLost,      ///< nobody knows where it is
   };
 
-  /// What is there `since_s` before the frame that update() takes next. Places are in px from the
-  /// middle of the frame.
+  /// Looks for the object that was at `position_px`, from the middle of the frame, `since_s` before
+  /// the frame that update() takes next.
   void begin(const Eigen::Vector2d& position_px, double since_s);
 
-  /// Takes the next frame. The object, as it is in `objects`; null when it is not among them.
-  /// `interval_s`, the time since the frame before, and `background` are those of the motion.
+  /// Takes the next frame. Returns the object as it is in `objects`; null when it is not among
+  /// them. `interval_s`, the time since the previous frame, and `background` are those of the
+  /// motion.
   const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
                              double interval_s, const Background* background);
 
@@ -147,11 +148,12 @@ class FollowedObject {
 
   State state() const { return state_; }
 
-  /// An object is known from the second frame on in which it moves; so long is looked for one.
+  /// How long the object is looked for: it is known only from the second frame on in which it
+  /// moves.
   static constexpr double kLook_s = 0.5;
   /// An object that is not seen for longer is lost. ObjectTracker knows a hidden one for 0.5 s.
   static constexpr double kLost_s = 1;
-  /// How far from its box a position may be, as a fraction of the frame's height.
+  /// How far a position may be from an object's box, as a fraction of the frame's height.
   static constexpr double kReach = 0.05;
 
  private:
@@ -161,7 +163,7 @@ class FollowedObject {
   void miss(double interval_s);
 
   State state_ = State::kLost;
-  bool is_first_ = true;  ///< update()
+  bool is_first_ = true;  ///< the next update() is the first
   uint32_t id_ = 0;
   Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< where it is, or would be
   Eigen::Vector2d velocity_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
@@ -169,28 +171,28 @@ class FollowedObject {
   double missing_s_ = 0;
   bool rested_ = false;                ///< when it was seen last
   bool hidden_ = false;                ///< the same
-  std::array<uint32_t, 32> before_{};  ///< ids in the frame before
+  std::array<uint32_t, 32> before_{};  ///< ids in the previous frame
   size_t before_count_ = 0;
 };
 
-/// Frames in the order in which they are shown. Allocates nothing.
+/// Chooses what is felt, frame by frame in the order in which they are shown. Allocates nothing.
 class ObjectChoice {
  public:
-  /// A rule that is among them as before goes on with its object.
+  /// If the rule that held in the last frame is among the new ones, too, it keeps its object.
   void set_rules(std::shared_ptr<const FeelRules> rules);
   void set_kept(const KeptObject& kept);
 
   /// The result points into `frame`.
   Chosen choose(const ChoiceInput& frame);
 
-  /// Objects are others now: after a seek.
+  /// After a seek: all objects are new.
   void reset();
 
-  /// How much more than the one that is felt another object must have of what counts: 1.3 times the
-  /// area, or a twentieth of the frame's height further to the side.
+  /// By how much another object must surpass the one that is felt: 1.3 times the area, or a
+  /// twentieth of the frame's height further in the direction of the rule.
   static constexpr double kLarger = 1.3;
   static constexpr double kFurther = 0.05;
-  /// One that is not among the objects for so long is given up.
+  /// How long the object that is felt may be out of sight before it is given up.
   static constexpr double kHold_s = 0.2;
 
  private:
@@ -199,12 +201,12 @@ class ObjectChoice {
   bool follow_click(const ChoiceInput& frame, Chosen& choice);
 
   std::shared_ptr<const FeelRules> rules_;
-  const FeelRule* rule_ = nullptr;  ///< of the frame before
+  const FeelRule* rule_ = nullptr;  ///< of the previous frame
   bool seen_from_begin_ = false;    ///< the rule, see Chosen::State::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< nothing was at the position of `ruled_`
   BoxedObject boxed_;
-  uint32_t best_ = 0;  ///< of kLargest and kFurthest
+  uint32_t best_ = 0;  ///< id of the object of kLargest or kFurthest; 0: none
   double best_missing_s_ = 0;
 
   KeptObject kept_;

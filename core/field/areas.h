@@ -13,14 +13,14 @@ namespace spidar {
 
 /// Areas of kCoarser × kCoarser blocks, each of which overlaps its neighbours by half, as measured
 /// in the coarse picture. A block with corners is left out: it shows by itself how it moves, and
-/// may be an object's, before a wall whose motion is asked for. An area of which nothing is left
-/// has no structure.
+/// may belong to an object in front of the wall whose motion is wanted. An area of which nothing is
+/// left has no structure.
 class Areas {
  public:
   /// Allocates what find() needs for pictures of this size: it may be needed long after the first.
   void reserve(const BlockField& field);
-  /// Their lengths are in pixels of the field's picture, their structure is in (grey / px)² of the
-  /// coarse one. There are none while the field stands still. Valid until the next call.
+  /// Measures the areas. Lengths are in pixels of the field's picture, structure in (grey / px)² of
+  /// the coarse one. There are no areas while the field stands still. Valid until the next call.
   const std::vector<MotionBlock>& find(const BlockField& field);
 
  private:
@@ -31,8 +31,8 @@ class Areas {
   PaddedImage counted_;  ///< of the coarse picture: 255; 0 where a block with corners is
 };
 
-/// The noise of a pixel of the coarse picture is kCoarser times less than that of the field's, so
-/// that a limit of texture, in (grey / px)², is kCoarser² times lower for an area.
+/// Factor of a limit of texture, in (grey / px)², for an area: the noise of a pixel of the coarse
+/// picture is kCoarser times less than that of the field's.
 constexpr float kAreaTextureScale = 1.0f / (kCoarser * kCoarser);
 
 }  // namespace spidar

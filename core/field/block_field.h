@@ -17,15 +17,15 @@
 
 namespace spidar {
 
-/// Pixels of the picture to one of the coarse picture, in which BlockField looks for what has
-/// jumped.
+/// How many times larger the sides of the picture are than those of the coarse picture, in which
+/// BlockField looks for what has jumped.
 constexpr int kCoarser = 4;
 
 /// How much smaller the picture of a BlockField is than the base of the pyramid.
 enum class FieldScale { kSame, kTwoThirds, kHalf };
 
-/// 1, 2/3 or 1/2 of its sides, whichever brings its area nearest to 427 × 240 px without going
-/// below kMinSide_px.
+/// The scale, 1, 2/3 or 1/2 of the sides, that brings the picture's area nearest to 427 × 240 px
+/// without making a side shorter than kMinSide_px.
 FieldScale field_scale(int base_width, int base_height);
 
 /// Pixels of the base to one pixel of the picture: 1, 1.5 or 2.
@@ -38,16 +38,16 @@ void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& pic
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
 
 /// When the brightness of the whole picture has changed (a flickering lamp, a fade, a shutter),
-/// adapts the picture before to the new brightness, both `coarse_before`, in which it is seen in
-/// comparison with `coarse_now`, and `before`. The change counts only if that makes the two
-/// pictures more alike.
+/// adapts the previous picture to the new brightness: both `coarse_before`, whose comparison with
+/// `coarse_now` shows the change, and `before`. Does nothing unless this makes the two pictures
+/// more alike.
 void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
                       PaddedImage& before);
 
-/// So many pictures before the last one are known.
+/// How many pictures before the last one are kept at most.
 constexpr int kMostBack = 4;
 
-/// Pictures of a quarter of the sides, and from where each of their blocks has come.
+/// Pictures with sides a quarter as long, and where each block of theirs has come from.
 struct CoarseField {
   PaddedImage before;
   PaddedImage now;
@@ -71,12 +71,12 @@ class BlockField {
   /// The picture is shown again: all blocks stand still.
   void stand_still();
 
-  /// Forgets the picture before.
+  /// Forgets the previous picture.
   void reset() { has_picture_ = false; }
   bool has_picture() const { return has_picture_; }
 
   const PaddedImage& picture() const { return now_; }
-  /// The one before, as bright as this one.
+  /// The previous picture, adapted to the brightness of picture().
   const PaddedImage& before() const { return earlier_.front(); }
   const CoarseField& coarse() const { return coarse_; }
   const BlockGrid& grid() const { return grid_; }
@@ -115,10 +115,10 @@ class BlockField {
   /// exact position and at the nearest whole pixels. Negative when that position is out of reach.
   int difference_if_moved(size_t block, const Eigen::Vector2f& moved_px) const;
 
-  /// How many pictures of the shot before the last one are known, kMostBack at most; none while all
-  /// blocks stand still because that one is shown again.
+  /// How many pictures of this shot before the last one are known, kMostBack at most; 0 while all
+  /// blocks stand still because the last one is shown again.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
-  /// By how much the cells of a block differ less from the picture `back` pictures ago if the block
+  /// How much less the cells of a block differ from the picture `back` pictures ago if the block
   /// has come from `from_px` away than if it has stayed in place; positive where it has moved.
   /// Nothing if it would have come from outside the picture.
   std::optional<int> cell_difference_gain(size_t block, int back,
@@ -153,7 +153,7 @@ class BlockField {
   std::vector<BlockMatch> hints_;
   std::vector<BlockMatch> matches_;
   std::vector<MotionBlock> blocks_;
-  /// Of a block with texture: squares of Σ |now − before| and of Σ |pixel − mean|.
+  /// The squares of Σ |now − before| and of Σ |pixel − mean| of a block with texture.
   struct Textured {
     double difference2;
     double contrast2;

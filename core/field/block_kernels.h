@@ -12,10 +12,10 @@ namespace spidar {
 constexpr int kBlock_px = 16;
 constexpr int kBlockArea_px = kBlock_px * kBlock_px;
 
-/// Differences of a pixel, or of a block on the mean over its pixels, grey levels. Up to
-/// kRounding_grey there is none: pixels are whole grey levels, and an encoder changes less in what
-/// stays the same. Up to kDoubtful_grey it may be noise and coding alone; from kClear_grey on, the
-/// two show something else.
+/// Limits of the difference between two pixels, or of the mean difference between the pixels of two
+/// blocks, grey levels. Up to kRounding_grey they are equal: pixels are whole grey levels, and an
+/// encoder changes unchanged content by less. Up to kDoubtful_grey the difference may be noise and
+/// coding alone; from kClear_grey on, the two show different things.
 constexpr float kRounding_grey = 0.5f;
 constexpr int kDoubtful_grey = 3;
 constexpr int kClear_grey = 8;
@@ -26,7 +26,7 @@ struct BlockPixels {
   ptrdiff_t stride;
 };
 
-/// Unit of the fraction of a pixel by which bilinear_difference() moves a block.
+/// One pixel, in the unit of the fractions by which bilinear_difference() moves a block.
 constexpr int kFractionOne = 16;
 
 /// Σ over a block `now` and the block `before` that it is compared with. With Δₖ = p(x + k) −
@@ -99,11 +99,11 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted);
 
 /// Compares a block `now` with the same position in the picture `before`. `from` is the position in
-/// the picture before from which the surrounding motion would have brought the block; `to` is the
-/// position in the new picture to which it would have brought the block that was there. The larger
-/// of the two differences counts: something that stays in front of a moving background reveals
-/// itself both where it should have been covered and where it should have been uncovered. Reads one
-/// extra column and row of `from` and `to`.
+/// that picture from which the surrounding motion would have brought the block; `to` is the
+/// position in the new picture to which that motion would have brought the block that was in this
+/// place. The larger of the two differences counts: something that stays in front of a moving
+/// background reveals itself both where it should have been covered and where it should have been
+/// uncovered. Reads one extra column and row of `from` and `to`.
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
                              const MovedBlock& to);
 }  // namespace spidar

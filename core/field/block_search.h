@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which block is where in a picture, and where it was in the picture before, to whole pixels.
+/// The grid of blocks of a picture, and the search, in whole pixels, for where each block was in
+/// the previous picture.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +65,7 @@ struct BlockGrid {
       for (int x = left; x <= right; ++x) visit(index(x, y));
     }
   }
-  /// Whether that holds for a block or one of its eight neighbours.
+  /// Whether `is(other)` holds for a block or one of its eight neighbours.
   template <typename Is>
   bool any_around(size_t block, Is&& is) const {
     bool any = false;
@@ -106,27 +107,27 @@ class AreaSums {
 /// and the interpolation read around them.
 constexpr int kBlockReach_px = PaddedImage::kPad_px - 2;
 
-/// A block at p was at p + from_px in the picture before.
+/// A block at p was at p + from_px in the previous picture.
 struct BlockMatch {
   Eigen::Vector2i from_px{0, 0};
   int difference = 0;  ///< Σ |now − before| of the block
 };
 
 /// Searches as video encoders do: starts with the motions of the neighbouring blocks and of the
-/// frame before, descends from the best of these, and widens the search only if none fits. A motion
-/// that deviates from that of the neighbours must fit better in proportion; textureless blocks
-/// therefore move with their neighbours.
+/// previous frame, descends from the best of these, and widens the search only if none fits. A
+/// motion that deviates from that of the neighbours must fit better in proportion; textureless
+/// blocks therefore move with their neighbours.
 class BlockSearch {
  public:
-  /// On entry `matches` holds those of the picture before, one for each block of `grid`; on return,
-  /// those of `now`. Both pictures have the same size and repeated borders. `hints`, if there are
-  /// any, are additional candidates for each block.
+  /// On entry `matches` holds those of the previous picture, one for each block of `grid`; on
+  /// return, those of `now`. Both pictures have the same size and repeated borders. `hints`, if
+  /// there are any, are additional candidates for each block.
   void find(const PaddedImage& before, const PaddedImage& now, const BlockGrid& grid,
             const std::vector<BlockMatch>& hints, std::vector<BlockMatch>& matches);
 
  private:
   std::vector<BlockMatch> last_;
-  AreaSums before_sums_;  ///< where the whole range is searched
+  AreaSums before_sums_;  ///< for a search of the whole range
 };
 
 /// The smaller eigenvalue of a symmetric matrix.
@@ -144,15 +145,16 @@ Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
   return S.trace() > 0 ? smaller / (S.trace() - smaller) : 0;
 }
 
-/// How far a block's motion in whole pixels may be off: it is right to half a pixel, or wrong. What
-/// is further away shows something else, px of the picture in which motion is measured.
+/// Largest error of a block's motion in whole pixels, px of the picture in which motion is
+/// measured: it is right to half a pixel, or wrong. A block that is further off shows something
+/// else.
 constexpr float kMostOff_px = 1;
 
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
 /// in pixels of that picture, measured from its centre; x right, y down.
 struct MotionBlock {
   Eigen::Vector2f centre_px = Eigen::Vector2f::Zero();
-  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();  ///< since the picture before
+  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();  ///< since the previous picture
   /// Structure tensor: mean of g gᵀ over the block, without its common slope, (grey / px)².
   Eigen::Matrix2f structure = Eigen::Matrix2f::Zero();
   /// What the block's motion leaves unexplained: mean squared difference without its common offset,
@@ -168,8 +170,8 @@ struct MotionBlock {
   static constexpr float kLeastTexture = 5;
   /// Whether the motion is known in one direction at least.
   bool has_texture() const { return structure.trace() > 2 * kLeastTexture; }
-  /// With less roundness() it is that of an edge, and a match along the edge would only follow
-  /// noise.
+  /// Least roundness() of a structure that is not that of an edge. Along an edge, a match would
+  /// only follow noise.
   static constexpr double kLeastRoundness = 0.05;
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.

@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// Where the picture of a BlockField is in its frame.
+/// Scale and position of a BlockField's picture in its frame.
 struct FieldPosition {
   double scale = 1;  ///< px of the frame to one px of the field's picture
   /// Centre of the field's picture in the frame, px, where (0, 0) is the centre of the first pixel.
@@ -42,8 +42,8 @@ class FineWindows {
   void keep(const ImageView& frame, const BlockField& field, const FieldPosition& position,
             const std::vector<size_t>& blocks);
 
-  /// Finds them in the next frame, with which `field` has just been updated. Those that are lost
-  /// are left out. Valid until the next call.
+  /// Finds the windows in the next frame, with which `field` has just been updated. Lost ones are
+  /// left out. Valid until the next call.
   const std::vector<FineMotion>& find(const ImageView& frame, const BlockField& field,
                                       const FieldPosition& position);
 
@@ -53,8 +53,8 @@ class FineWindows {
   static constexpr size_t kMost = 48;
 
  private:
-  /// Side of a window, px of the frame: of a small frame it is the block, of a large one a part of
-  /// it.
+  /// Side of a window, px of the frame: in a small frame it covers the block, in a large one a part
+  /// of it.
   static constexpr int kSide_px = kBlock_px;
   /// How far a step may lead away from where the block went, px of the frame.
   static constexpr int kReach_px = 2;
@@ -78,7 +78,7 @@ class FineWindows {
             float& residual) const;
   bool match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px);
 
-  /// A window with kReach_px, and one for the interpolation, around it.
+  /// Side of a window with kReach_px, and one pixel for the interpolation, all around it.
   static constexpr int kPatch_px = kSide_px + 2 * kReach_px + 2;
   std::vector<Template> windows_;
   std::vector<FineMotion> found_;

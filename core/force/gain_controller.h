@@ -53,11 +53,11 @@ class GainController {
 
   /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once per frame, in
   /// the order of the frames. In px/s of the reference frame: `speed_px_s` ≥ 0, and
-  /// `dead_zone_px_s` as ImageMotion has it. `interval_s`: running time since the frame before. 0:
-  /// the interval, or the dead zone, is not known.
+  /// `dead_zone_px_s` as ImageMotion has it. `interval_s`: running time since the previous frame.
+  /// 0: the interval, or the dead zone, is not known.
   double force_N(double speed_px_s, double interval_s = 0, double dead_zone_px_s = 0);
 
-  /// Other limits from now on; what was learnt stays, unless the law is another one. Throws as
+  /// Takes effect with the next speed; what was learnt stays unless the law changes. Throws as
   /// validate() does.
   void configure(const ControllerSettings& settings);
 

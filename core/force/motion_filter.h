@@ -15,9 +15,9 @@ namespace spidar {
 /// Low-pass Filter for Noisy Input in Interactive Systems, CHI 2012, Algorithm 1 and 2): a
 /// first-order low-pass whose cutoff rises with the rate of change, fc = fc_min + β |dx/dt|. Slow
 /// changes are smoothed, fast ones hardly delayed. Here |dx/dt| is that of the whole vector, so
-/// that the filter does not depend on how the axes lie. Other than in the paper, the low-pass of
-/// the rate of change has its size and not its direction: in a motion to and fro, the direction
-/// would cancel itself, and the cutoff fall where it is needed.
+/// that the filter does not depend on how the axes lie. Unlike in the paper, the rate of change is
+/// low-passed as a magnitude, without its direction: in a motion to and fro, directions would
+/// cancel, and the cutoff would fall where it is needed.
 ///
 /// Samples may be any time apart: the smoothing factor is that of the backward Euler step,
 /// 1 / (1 + 1 / (2π fc Δt)). A ramp is delayed by 1 / (2π fc), whatever Δt.
@@ -29,8 +29,8 @@ class OneEuroFilter {
   /// Cutoff of the rate of change, as in the paper.
   static constexpr double kRateCutoff_Hz = 1;
 
-  /// The first value after reset() passes as it is. `interval_s` > 0 since the value before,
-  /// `min_cutoff_Hz` > 0, `beta` ≥ 0 in Hz for a unit of x a second.
+  /// The first value after reset() passes unchanged. `interval_s` > 0 is the time since the
+  /// previous value, `min_cutoff_Hz` > 0, `beta` ≥ 0 in Hz for a unit of x a second.
   Vector filter(const Vector& x, double interval_s, double min_cutoff_Hz, double beta) {
     if (!started_) {
       reset(x);
@@ -67,7 +67,7 @@ class OneEuroFilter {
   }
 
   Vector value_ = Vector::Zero();
-  double rate_ = 0;  ///< of change, its size
+  double rate_ = 0;  ///< magnitude of the rate of change
   double fraction_ = 1;
   bool started_ = false;
 };

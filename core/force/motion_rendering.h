@@ -68,7 +68,7 @@ inline Wrench render_motion(GainController& controller, const ImageMotion& motio
 /// 2013, PubMed 24808327.
 constexpr double kFeltForce_N = 0.04;
 
-/// Size of a wrench as one force, with torque divided by the arm kTorqueArm_m (see
+/// Magnitude of a wrench as one force, with the torque divided by the arm kTorqueArm_m (see
 /// render_motion()).
 inline double size_N(const Wrench& wrench) noexcept {
   return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);

@@ -11,19 +11,20 @@
 
 namespace spidar {
 
-/// Throws std::invalid_argument when a cut-off is out of range: finite and ≥ 0; 0: no washout.
+/// Throws std::invalid_argument unless the cut-off is finite and ≥ 0; 0: no washout.
 inline void validate_washout(double cutoff_Hz) {
   require_not_negative("washout_Hz", cutoff_Hz);
 }
 
-/// The washout of motion platforms: a high-pass of first order. A wrench w that has come at once
-/// is, after a time t, w exp(−2π fc t); where it ends at once, what it has lost is left in the
-/// opposite direction, and fades likewise.
+/// The washout of motion platforms: a high-pass of first order. A wrench w that begins suddenly is
+/// w exp(−2π fc t) after a time t; when it ends suddenly, what it has lost is left in the opposite
+/// direction, and fades likewise.
 class Washout {
  public:
   /// `wrench` less its low-pass; no larger than `most_N` as one force (size_N()), because a force
   /// that turns round would be up to twice as large. With a cut-off of 0 it is `wrench`, to the
-  /// bit. `interval_s` > 0 is that since the call before, in which that wrench stayed as it was.
+  /// bit. `interval_s` > 0 is the time since the previous call, during which that call's wrench
+  /// lasted.
   Wrench apply(const Wrench& wrench, double interval_s, double cutoff_Hz, double most_N) {
     if (cutoff_Hz == 0) {
       reset();

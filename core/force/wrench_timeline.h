@@ -14,14 +14,16 @@ namespace spidar {
 /// A wrench for one frame.
 struct TimedWrench {
   int64_t time_ns = 0;  ///< running time at which the frame is shown
-  /// With no later frame soon the wrench holds for this long after `time_ns`, then it is expired.
+  /// How long after `time_ns` the wrench holds if no later frame follows; after that it has
+  /// expired.
   int64_t hold_ns = 0;
   Wrench wrench;
-  /// The frame shows the picture before again: the wrench of that one holds on, from `time_ns` for
-  /// `hold_ns`. `wrench` is the same, for a timeline that has forgotten the frame before.
+  /// The frame shows the previous picture again: the wrench of that picture holds on, from
+  /// `time_ns` for `hold_ns`. `wrench` is the same, for a timeline that has forgotten the previous
+  /// frame.
   bool repeated = false;
-  /// The wrench is that of so long before the frame: a motion that was measured between two
-  /// pictures is that of the time halfway between them.
+  /// How long before the frame the wrench applies: a motion that was measured between two pictures
+  /// belongs to the time halfway between them.
   int64_t before_ns = 0;
 
   int64_t motion_ns() const noexcept { return time_ns - before_ns; }
@@ -40,65 +42,67 @@ struct TimelineResult {
   Wrench wrench;
   Found found = Found::kNothing;
   int64_t frame_time_ns = INT64_MIN;  ///< of the newest frame at or before the time asked for
-  int64_t late_ns = 0;  ///< how much later than its time the wrench of that frame is met
+  int64_t late_ns = 0;  ///< how much later than its time the wrench of that frame is reached
 };
 
 /// A short memory of timed wrenches. Interpolates, never extrapolates. Fixed size, no allocation.
 ///
-/// Between the times of two wrenches runs a cubic Hermite curve: exact at these, its slope
-/// continuous there, each component rising or falling only, and so never outside the two values.
-/// Slopes are those of M. Steffen, "A simple method for monotonic interpolation in one dimension",
-/// Astronomy and Astrophysics 239 (1990), equation 11, where the frame after is known by the time
-/// that the curve towards a frame begins, and zero where it is not: waiting for it would be delay,
-/// and any other slope could lead past what that frame turns out to be.
+/// A cubic Hermite curve joins two wrenches: it is exact at their times, its slope is continuous
+/// there, and each component only rises or only falls, and so stays between its two values. Slopes
+/// are those of M. Steffen, "A simple method for monotonic interpolation in one dimension",
+/// Astronomy and Astrophysics 239 (1990), equation 11, if the following frame is known by the time
+/// that the curve towards a frame begins. Otherwise they are zero: waiting would be delay, and any
+/// other slope could overshoot what the following frame turns out to be.
 ///
 /// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
-/// holds and expires as if the next frame were not known, and rises from zero to that of the next
-/// frame before that one is due: a picture that has been standing for long gives no force.
+/// holds and expires as if the next frame were not known; it rises from zero to the wrench of the
+/// next frame before that frame is due: a picture that has stood for long gives no force.
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// A frame that is known less than approach_after() ahead of its motion is met so long after it
-  /// is known, for a step would be felt as a knock. To rest, and from it, it takes kApproach_ns.
+  /// A frame that becomes known less than approach_after() ahead of its motion is reached that long
+  /// after it becomes known, because a step would be felt as a knock. To and from rest this takes
+  /// kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
-  /// Fraction of the interval between two frames: the less often pictures change, the more the
-  /// force changes at once, and the longer that takes. A force that changes during this fraction of
-  /// the time has 1 / √kApproachFraction = 1.49 times the rms step of one that changes all the
-  /// time.
+  /// Duration of an approach as a fraction of the interval between two frames: the less often
+  /// pictures change, the more the force changes at once, and the longer that takes. A force that
+  /// changes during this fraction of the time has 1 / √kApproachFraction = 1.49 times the rms step
+  /// of one that changes all the time.
   static constexpr double kApproachFraction = 0.45;
-  /// No frame is met later than this after its time, unless it became known too late for that. Late
-  /// touch is noticed from 50 ms on.
+  /// No frame is reached later than this after its time, unless it became known too late for that.
+  /// A delay of touch is noticed from 50 ms on.
   static constexpr int64_t kLatest_ns = 30'000'000;
-  /// kApproachFraction of the interval to the frame before; at least kApproach_ns, or the interval
-  /// where that is shorter.
+  /// Duration of an approach: kApproachFraction of the interval since the previous frame; at least
+  /// kApproach_ns, or the interval where that is shorter.
   static int64_t approach_after(int64_t interval_ns) noexcept;
-  /// No frame is to be held longer. TimedWrench::hold_ns may say otherwise: it is the caller's.
+  /// The longest time for which a frame should be held. It does not limit TimedWrench::hold_ns,
+  /// which the caller chooses.
   static constexpr int64_t kLongestHold_ns = 100'000'000;
-  /// TimedWrench::hold_ns of a frame that comes `interval_ns` after the one before, when no later
-  /// frame is known (live): until the next one is due, and while it may be a little late. With
-  /// SafetyLimits::ramp_s the force is gone 50 ms after a frame that does not come, and at any
+  /// TimedWrench::hold_ns of a frame that comes `interval_ns` after the previous one, when no later
+  /// frame is known (live): until the next one is due, and a little longer because it may be late.
+  /// With SafetyLimits::ramp_s the force is gone 50 ms after a frame that does not come, and at any
   /// frame rate from 11/s on it does not dip between two that do.
   static constexpr int64_t hold_after(int64_t interval_ns) noexcept {
     constexpr int64_t kLate_ns = 10'000'000;
     if (interval_ns <= 0) return 0;
     return interval_ns < kLongestHold_ns - kLate_ns ? interval_ns + kLate_ns : kLongestHold_ns;
   }
-  /// From a full wrench to rest when it has expired, and from rest to a full one after a gap.
+  /// Time from a full wrench to rest when it has expired, and from rest to a full one after a gap.
   /// SafetyLimits::ramp_s is the same.
   static constexpr int64_t kRamp_ns = 40'000'000;
 
   /// Returns false, and ignores the entry, when its time is not later than that of the last one. A
-  /// motion before the last frame counts as right after it, and one across a gap as that of its own
-  /// frame. A repeated frame does not shape the curve, which runs from the frame before it to the
-  /// next different one; it only prolongs the hold of the frame before, unless that has expired.
-  /// When the timeline is full, it drops the oldest entry.
+  /// motion before the last frame counts as right after that frame, and one across a gap as at the
+  /// time of its own frame. A repeated frame does not shape the curve, which runs from the frame
+  /// before it to the next different one; it only prolongs the hold of the previous frame, unless
+  /// that has expired. When the timeline is full, it drops the oldest entry.
   ///
   /// The curve never changes before the time that at() was asked for last, neither in value nor in
   /// slope. A late frame therefore fades in from that time, over what the curve would have been
   /// without it; when everything has expired by then, it applies at once.
   bool push(const TimedWrench& entry) noexcept;
 
-  /// Times may be asked in any order; the last one asked for is the present.
+  /// Times may be passed in any order; the last one passed is the present.
   TimelineResult at(int64_t time_ns) noexcept;
 
   void clear() noexcept {
@@ -125,10 +129,10 @@ class WrenchTimeline {
   int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
   /// When the segment to a frame that has just become known begins and ends.
   Segment segment_to(const TimedWrench& added) noexcept;
-  /// The slope at the last frame depends on the next one. It is set now, when that one has become
-  /// known, unless the segment to the last frame has begun.
+  /// Sets the slope at the last frame, which depends on the next one, now that the next one has
+  /// become known, unless the segment to the last frame has begun.
   void join_smoothly(Segment& next) noexcept;
-  /// In the segment of this age or, after it, at its frame.
+  /// The wrench in the segment of this age or, after the segment, that of its frame.
   Wrench value(size_t age, int64_t time_ns) const noexcept;
 
   History<Segment, kCapacity> segments_;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What Eigen does not have as it is needed here: singular values that are compiled once, and small
-/// systems of equations for the 1 kHz loop.
+/// Linear algebra that Eigen lacks in the form needed here: singular values that are compiled once,
+/// and small systems of equations for the 1 kHz loop.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace spidar {
 
-/// What belongs to the rows of the m×n matrix A = U diag(values) Vᵀ. AᵀA has the eigenvectors V and
-/// the eigenvalues values².
+/// The singular values and the directions V of the m×n matrix A = U diag(values) Vᵀ. AᵀA has the
+/// eigenvectors V and the eigenvalues values².
 struct SingularValues {
   Eigen::VectorXd values;  ///< n, descending, not negative; zeros fill up when m < n
   /// V, n×n and orthogonal. Columns from the rank of A on are a basis of its null space.
   Eigen::MatrixXd directions;
 };
 
-/// Rank, null space and eigenvectors of a matrix whose size is known only at run time; not empty.
-/// Not for the 1 kHz loop, for it allocates. Compiled here once, because Eigen's decompositions
-/// take the compiler up to ten seconds in every file.
+/// Rank, null space and eigenvectors of a matrix that is not empty and whose size is known only at
+/// run time. Not for the 1 kHz loop, because it allocates. Compiled here once, because Eigen's
+/// decompositions take the compiler up to ten seconds in every file.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
 /// A symmetric positive definite system of a few unknowns, picked out of a larger matrix. Solves

@@ -12,7 +12,8 @@
 
 namespace spidar {
 
-/// For each string, remembers the lengths of all strings at the time when its own changed last.
+/// For each string, remembers the lengths of all strings at the time when its own length last
+/// changed.
 class FrozenCounts {
  public:
   void update(const StringVector& lengths_m, int count) noexcept {
@@ -54,7 +55,8 @@ class FrozenCounts {
 enum class PoseStatus {
   kSolved,
   kNotConverged,  ///< the lengths fit no pose that was found: the last good pose is returned
-  /// They fit two, or only with a string that may be dead: the last good pose is returned.
+  /// The lengths fit two poses, or fit one only with a string that may be dead: the last good pose
+  /// is returned.
   kAmbiguous,
   kBadInput,  ///< a length is negative or not finite: the last good pose is returned
 };
@@ -87,11 +89,12 @@ class PoseSolver {
   /// for the coarsest encoder of the known devices.
   static constexpr double kMaxResidual_m = 20e-6;
 
-  /// The weakest of the grip's six motions at the centre changes the lengths of the strings by less
-  /// than this, relative to a string that follows it alone: no pose could be trusted. Those of the
-  /// shipped profiles have 0.2 or more.
+  /// The smallest least_stiffness() of a usable geometry: by how much the weakest of the grip's six
+  /// motions at the centre changes the lengths of the strings, relative to a string that follows
+  /// that motion alone. With less, no pose could be trusted. The shipped profiles have 0.2 or more.
   static constexpr double kMinStiffness = 0.02;
-  /// Of at least six strings, of which one ends away from the grip's origin.
+  /// See kMinStiffness. The geometry must have at least six strings, of which one ends away from
+  /// the grip's origin.
   static double least_stiffness(const StringGeometry& geometry);
 
   /// Throws std::invalid_argument when the geometry has fewer than six strings, all of them end in
@@ -100,9 +103,9 @@ class PoseSolver {
   /// a fault shows when a length is off by about six times as much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
-  /// For every tick: track(), and locate() when tracking fails, or when it starts from a guess and
-  /// leads away from it. The slowest case is lengths that fit no pose; `spidar-bench pose` measures
-  /// it.
+  /// For every tick: track(), and locate() when tracking fails, or when tracking starts from a
+  /// guess and leads away from it. The slowest case is lengths that fit no pose; `spidar-bench
+  /// pose` measures it.
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
   /// The pose near the last one, by Gauss–Newton from the last pose moved on by the last motion.
@@ -127,7 +130,7 @@ class PoseSolver {
                           int left_out) const noexcept;
   bool hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                           bool tracked) const noexcept;
-  /// Root mean square of what the lengths are off by at a pose.
+  /// Root mean square length error at a pose.
   double residual_m(const StringVector& lengths_m, const Pose& pose, int left_out) const noexcept;
   double misfit_m(const StringVector& lengths_m, const Pose& pose, int string) const noexcept;
   PoseResult follow(const StringVector& lengths_m, const Pose& expected) const noexcept;
@@ -150,7 +153,7 @@ class PoseSolver {
   bool tracking_ = false;         ///< the last call found a pose
   FrozenCounts counts_;
   int faulty_string_ = -1;
-  int fitting_ticks_ = 0;      ///< for how long its length has fitted again
+  int fitting_ticks_ = 0;      ///< for how long the length of faulty_string_ has fitted again
   double fitting_from_m_ = 0;  ///< its length when that began
 };
 

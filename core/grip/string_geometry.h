@@ -39,21 +39,21 @@ struct StringGeometry {
 StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
 
 /// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the
-/// grip point to the exit. A string of no length has no direction: its column is zero.
+/// grip point to the exit. A string of zero length has no direction: its column is zero.
 StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pose);
 
 /// Half the size of the box about the workspace's centre that holds the exits of the strings.
 Eigen::Vector3d half_frame_m(const StringGeometry& geometry);
 
-/// How far the grip is to move from the workspace's centre to each side: half of the way to that
-/// box. There it can still be held (docs/strings.md).
+/// How far the grip is to move from the workspace's centre to each side: half of half_frame_m(),
+/// where the strings can still hold it (docs/strings.md).
 inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
   return kReach * half_frame_m(geometry);
 }
 
-/// Stretched until half_room_m() is `half_m`, in the axes in which that is not zero: for a device
-/// without strings, which has room of its own.
+/// The geometry, stretched until half_room_m() is `half_m` in the axes in which `half_m` is above
+/// 0: for a device without strings, which has room of its own.
 inline StringGeometry with_room(StringGeometry geometry, const std::array<double, 3>& half_m) {
   const Eigen::Vector3d before_m = half_room_m(geometry);
   for (int axis = 0; axis < 3; ++axis) {

@@ -38,7 +38,7 @@ struct TensionResult {
   double residual_N = 0;  ///< ‖S(W t − f)‖
   /// Largest violation of the optimality conditions, that is of Q t = c for free strings and of its
   /// sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
-  /// TensionObjective in tension_solver.cpp. Solved means 1e-12 or less.
+  /// TensionObjective in tension_solver.cpp. kSolved means 1e-12 or less.
   double kkt_residual = 0;
   int iterations = 0;  ///< at most 24
   TensionStatus status = TensionStatus::kBadInput;

@@ -15,10 +15,11 @@ namespace spidar {
 /// cartoon drawn on twos, a late frame that was shown twice. Its motion is the displacement between
 /// two different pictures, divided by the time between them.
 ///
-/// This is not the time between their first frames when the pictures were taken at even intervals
-/// and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for three and
-/// two frames in turn. This class learns the right time from the latest intervals. It also decides
-/// how long a repeated picture may still belong to a motion, and from when on it is at rest.
+/// That time is not the one between their first frames when the pictures were taken at even
+/// intervals and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for
+/// three and two frames in turn. This class learns the right time from the latest intervals. It
+/// also decides how long a repeated picture may still belong to a motion, and from when on it is at
+/// rest.
 class Cadence {
  public:
   /// A picture that has been shown for this long is at rest, unless longer intervals have been
@@ -47,7 +48,7 @@ class Cadence {
 
   /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
   /// that waited for long enough to be analysed; or kOther. `repeats`: which frames that were
-  /// kOther are known by now to have repeated the picture before, this frame first.
+  /// kOther are known by now to have repeated the previous picture, this frame first.
   Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
@@ -86,7 +87,7 @@ class Cadence {
 
 /// A frame may have been repeated because the one after it was lost: the picture has then moved on
 /// in the meantime, and the time between the frames is the right one. The speed tells which of the
-/// two it was, because it is close to the previous one.
+/// two it was: the right one is close to the previous speed.
 class LostFrames {
  public:
   /// Factor for the speed that was computed with the interval of a Step that does not wait. Call

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motions of a picture that can be rendered: the mean of the paper, of an object, of the
-/// objects at a pointer or in a box, of the camera; and how fast a motion can be.
+/// The motions of a picture that can be rendered: the paper's mean, and those of an object, of the
+/// objects at a pointer or in a box, and of the camera; and how fast a motion can be.
 #pragma once
 
 #include <cstdint>
@@ -24,22 +24,22 @@ enum class MotionKind {
   kCamera,  ///< motion of the camera
 };
 
-/// The dead zone of ControlLaw::kAdaptive: slower than this, a motion may be an error of
-/// measurement that changes from frame to frame.
+/// The dead zone of ControlLaw::kAdaptive: a slower motion may be a measurement error that changes
+/// from frame to frame.
 struct DeadZone {
-  /// Of a velocity whose standard error in each coordinate is known: for a Gaussian error of two
-  /// coordinates P(|e| > 3 σ) = 1.1 %.
+  /// For a velocity whose standard error σ in each coordinate is known, in σ: for a Gaussian error
+  /// of two coordinates P(|e| > 3 σ) = 1.1 %.
   static constexpr double kSigmas = 3;
-  /// Of an object, as a fraction of MovingObject::error_px_s, which 95 % of its errors are below.
+  /// For an object, as a fraction of MovingObject::error_px_s, below which 95 % of its errors lie.
   /// Chosen for little loss of force, not derived: on films, the part of the error that changes
   /// from frame to frame had a standard error of 1/25 of the bound. In ten rendered clips with
   /// noise and coding, it is 0.06 to 0.85 of the bound, so the force of an object that is slower
   /// than its bound may tremble. With the whole bound as the dead zone, the median force of
   /// `adaptive` on films falls from 0.98 to 0.82 N.
   static constexpr double kOfBound = kSigmas / 25;
-  /// Where no error is known, px/s of the reference frame: the speed at which eq. 15 with α = 0.01
-  /// and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans. Haptics 2013, PubMed
-  /// 24808327): tan(0.04 π / 6) / 0.01.
+  /// For a motion whose error is not known, px/s of the reference frame: the speed at which eq. 15
+  /// with α = 0.01 and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans.
+  /// Haptics 2013, PubMed 24808327): tan(0.04 π / 6) / 0.01.
   static constexpr double kUnknownError_px_s = 2.1;
 };
 
@@ -84,13 +84,13 @@ ImageMotion camera_motion(const Background& background, int votes, double interv
 /// The motion of this object alone.
 ImageMotion relative_motion(const MovingObject& object);
 
-/// Two frames count as at least so far apart: half a tick of the haptic loop. Timestamps that
-/// differ by a rounding error are no time to divide a displacement by.
+/// The shortest interval that is assumed between two frames: half a tick of the haptic loop. A
+/// displacement must not be divided by the rounding error of timestamps.
 constexpr int64_t kLeastInterval_ns = 500'000;
 
-/// `motion` over `interval_s` > 0, at most what can be seen of any: a displacement of the frame's
-/// width, lengths twice or half as large, half a turn. Directions are kept. What is not finite is
-/// no motion.
+/// `motion`, limited to the most that can be seen in `interval_s` > 0: a displacement of the
+/// frame's width, lengths twice or half as large, half a turn. Directions are kept. A value that is
+/// not finite becomes 0.
 ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
 
 }  // namespace spidar

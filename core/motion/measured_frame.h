@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is measured in a frame. Of its objects the dominant one is named; what is felt is chosen
-/// after it.
+/// What is measured in a frame, including which object is dominant. What is felt is chosen later.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace spidar {
 
-/// Of a frame that waits, all but `picture` is that of the picture before.
+/// In a frame that waits, all but `picture` is that of the previous picture.
 struct MeasuredFrame {
   Likeness picture = Likeness::kFirst;
   int width = 0;  ///< px
@@ -26,17 +25,17 @@ struct MeasuredFrame {
   int features = 0;          ///< points looked for in the next frame
   /// Blocks that show how they move, or with motion=mean the points; empty with kFirst.
   std::vector<FollowedPoint> points;
-  /// With motion=mean the rest is empty, and this one is zero with all others.
+  /// Zero unless motion=mean, with which all members below are empty.
   ImageMotion mean;
   std::optional<Background> background;  ///< how the camera moves; nothing with kFirst
   int votes = 0;                         ///< displacements that the background was found from
   std::vector<MovingObject> objects;     ///< that are known, visible or not, ordered by id
   uint32_t dominant = 0;                 ///< id of the object that motion=object feels; 0: none
 
-  /// Null when there is none.
+  /// Null when no object is dominant.
   const MovingObject* dominant_object() const { return find_object(objects, dominant); }
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
-  /// Nothing is known to move. The memory stays.
+  /// Forgets what moves, but keeps the memory.
   void clear_motion() {
     picture = Likeness::kFirst;
     interval_ns = shown_for_ns = 0;

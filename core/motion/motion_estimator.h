@@ -22,11 +22,11 @@ namespace spidar {
 class MotionEstimator {
  public:
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
-  /// `interval_ns` > 0 is since the one before. False when there is nothing to compare with: the
-  /// first picture, another size, or a cut.
+  /// `interval_ns` > 0 is the time since the previous one. Returns false when there is nothing to
+  /// compare with: the first picture, another size, or a cut.
   bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame);
 
-  /// After a cut or a seek: the next frame is not compared with the one before.
+  /// After a cut or a seek: the next frame is not compared with the previous one.
   void reset();
 
  private:

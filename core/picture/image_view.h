@@ -10,11 +10,11 @@
 
 namespace spidar {
 
-/// How a pixel's luma is stored: in one byte, or in a word of two. Of a word only the eight bits
-/// above `shift` count; a word with bits above those stands for white.
+/// How a pixel's luma is stored: in one byte, or in a word of two bytes. Of a word, only the eight
+/// bits above the lowest `shift` count; a word with higher bits set stands for white.
 struct LumaSample {
   int bytes = 1;  ///< 1 or 2; a word need not lie at an even address
-  int shift = 0;  ///< of words, 0 … 8: 2 for 10 bits at the lower end, 8 for any at the upper
+  int shift = 0;  ///< of words, 0 … 8: 2 for 10 low-aligned bits, 8 for any high-aligned ones
   bool big_endian = false;  ///< of words
 };
 
@@ -36,8 +36,8 @@ constexpr double kReferenceHeight_px = 480.0;
 /// Minimum width and height of a frame in which motion is found, px.
 constexpr int kMinSide_px = 16;
 
-/// Throws std::invalid_argument when the frame has no pixels, less than kMinSide_px a side, a
-/// stride below its width, or a sample format that LumaSample does not support.
+/// Throws std::invalid_argument when the frame has no pixels, a side shorter than kMinSide_px, a
+/// stride shorter than a row, or a sample format that LumaSample does not support.
 inline void require_usable(const ImageView& frame) {
   const LumaSample& sample = frame.sample;
   const bool known =

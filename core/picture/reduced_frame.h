@@ -14,9 +14,9 @@ namespace spidar {
 /// Reduces each frame once, for all parts of the analysis.
 class ReducedFrame {
  public:
-  /// Returns picture(). A frame that repeats the picture before is skipped: the next one is
-  /// compared with that picture. With `may_wait`, one that is equal within the noise of coding is,
-  /// too. Throws as require_usable() does.
+  /// Returns picture(). A frame that repeats the previous picture is skipped: the next one is
+  /// compared with that picture. With `may_wait`, so is one that is equal within the noise of
+  /// coding. Throws as require_usable() does.
   Likeness read(const ImageView& frame, bool may_wait = false) {
     require_usable(frame);
     const bool is_comparable = frame.width == width_ && frame.height == height_;
@@ -39,14 +39,15 @@ class ReducedFrame {
   /// Mean of each factor() × factor() block of the frame, see halving_factor(). The border is
   /// repeated.
   const PaddedImage& base() const { return base_; }
-  /// The same for the frame before, if it is comparable.
+  /// The same for the previous frame, if it is comparable.
   const PaddedImage& before() const { return before_; }
   int factor() const { return factor_; }
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
-  /// kFirst where the frame before had another size; kSame where it was skipped. Never kWaiting.
+  /// kFirst where the previous frame had another size; kSame where this one was skipped. Never
+  /// kWaiting.
   Likeness picture() const { return picture_; }
-  /// Which of the latest frames repeated a picture, by what is known now.
+  /// Which of the latest frames repeated a picture, as far as is known by now.
   RepeatedPicture::Repeats repeats() const { return repeated_picture_.repeats(); }
 
   /// This frame was the first one after a cut.

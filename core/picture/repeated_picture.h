@@ -12,16 +12,16 @@
 
 namespace spidar {
 
-/// What a frame shows, compared with the picture before.
+/// What a frame shows, compared with the previous picture.
 enum class Likeness : uint8_t {
-  kFirst,    ///< there is nothing to compare with: the first one, another size, or a cut
+  kFirst,    ///< there is nothing to compare with: the first frame, another size, or a cut
   kWaiting,  ///< the same picture, and the motion may go on
   kSame,     ///< the same picture, which is at rest
   kAlike,    ///< the same picture, apart from the noise of coding
   kOther,    ///< another picture
 };
 
-/// Whether the picture before is shown again, be it waiting or at rest.
+/// Whether the previous picture is shown again, be it waiting or at rest.
 constexpr bool is_again(Likeness picture) {
   return picture != Likeness::kFirst && picture != Likeness::kOther;
 }
@@ -34,8 +34,8 @@ constexpr bool is_again(Likeness picture) {
 /// artefact of the encoder, so the mean over several of the most changed blocks is used. Their
 /// number is small so that a small object still counts.
 ///
-/// Good encoders hardly change a repeated picture at all, see kFractionAtOnce: that is known
-/// without a rhythm.
+/// Good encoders hardly change a repeated picture at all, see kFractionAtOnce: such a repetition is
+/// recognised without a rhythm.
 ///
 /// In a telecined film the encoder changes a repeated field by up to 0.41 of the change before it,
 /// while different pictures change by at least 0.6 of it. The limit is therefore higher when the
@@ -52,14 +52,14 @@ class RepeatedPicture {
     had_rhythm_ = false;
   }
 
-  /// The latest picture was the first one after a cut: that change says nothing of a motion. A film
-  /// that repeated pictures is likely to repeat them on.
+  /// The latest picture was the first one after a cut: its change says nothing about a motion. A
+  /// film that has repeated pictures is likely to go on doing so.
   void cut();
 
   static constexpr size_t kFrames = 12;
-  /// Of the latest frames, the newest first: whether they repeated the picture before, which is
-  /// known by now even if it was not when look() saw them. More than kMostAtOnce in a row are none:
-  /// after each of several titles that appear, all motion is small.
+  /// Which of the latest frames, the newest first, repeated the previous picture, as far as is
+  /// known by now; look() may not have known it yet. More than kMostAtOnce in a row do not count as
+  /// repetitions: when several titles appear, all motion after each of them is small in comparison.
   using Repeats = std::array<bool, kFrames>;
   Repeats repeats() const;
 
@@ -72,14 +72,14 @@ class RepeatedPicture {
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
   /// neighbours: between the 0.41 and the 0.6 above. A period has at least two frames.
   static constexpr float kFractionWhenDue = 0.5f;
-  /// The limit for the noise without any dip, as a fraction of both large changes before it: beside
-  /// that of a title that appears, all motion is small. In real films, x264 at crf 20 leaves 0.01
-  /// to 0.03 of the change before it in a repeated picture. A swing that turns between two
-  /// pictures may change as little, and is then held for a frame: at this limit, and where a
-  /// picture changes in proportion to its displacement, one turn in 16.
+  /// The limit for the noise without any dip, as a fraction of both large changes before it:
+  /// compared with the change when a title appears, all motion is small. In real films, x264 at crf
+  /// 20 leaves 0.01 to 0.03 of the change before it in a repeated picture. A swing that turns
+  /// between two pictures may change as little, and is then held for a frame: at this limit, and
+  /// where a picture changes in proportion to its displacement, one turn in 16.
   static constexpr float kFractionAtOnce = 0.03f;
-  /// That goes for so many frames, since what comes to rest all at once waits in vain: a picture of
-  /// 24 in 60, or one drawn on threes, is repeated twice.
+  /// Number of frames after a large change in which that limit holds, since a picture that comes to
+  /// rest all at once waits in vain: one of 24 in 60, or one drawn on threes, is repeated twice.
   static constexpr size_t kMostAtOnce = 2;
 
  private:

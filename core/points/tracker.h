@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-/// Of OpenCvTracker (Shi–Tomasi).
+/// How OpenCvTracker selects points (Shi–Tomasi).
 struct TrackerSettings {
   double quality_level = 0.01;  ///< fraction of the strongest corner's eigenvalue, 0 … 1
   /// Minimum distance between selected features, in pixels of the reference frame; finite and ≥ 0.
@@ -49,7 +49,7 @@ class OpenCvTracker {
  public:
   struct Result {
     std::vector<FollowedPoint> points;  ///< points found in both frames; empty with kFirst
-    int features = 0;                   ///< points to search in the next frame
+    int features = 0;                   ///< number of points to look for in the next frame
     /// With kSame the next frame will be compared with the same picture as this one. Never
     /// kWaiting.
     Likeness picture = Likeness::kFirst;
@@ -60,10 +60,10 @@ class OpenCvTracker {
   ~OpenCvTracker();
 
   /// Compares `frame` with the previous one. A frame of another size restarts the points, as does a
-  /// cut (a frame in which hardly any point is found again). Of a frame that repeats the picture,
-  /// points are at rest. With `may_wait`, one that is equal within the noise of coding counts as
-  /// kSame, too, and points stay those of the frame before. The result is valid until the next
-  /// call. Throws as require_usable() does.
+  /// cut (a frame in which hardly any point is found again). In a frame that repeats the picture,
+  /// points are at rest. With `may_wait`, a frame that is equal within the noise of coding counts
+  /// as kSame, too, and the points stay those of the previous frame. The result is valid until the
+  /// next call. Throws as require_usable() does.
   const Result& track(const ImageView& frame, bool may_wait = false);
 
   /// Discards the previous frame, so that the next one starts anew without motion.

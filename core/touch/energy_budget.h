@@ -18,10 +18,10 @@ struct ForcePath {
   double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
   double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
-  /// How long a force is held until the next one, which may be late, so that `dt_s` says nothing of
-  /// it.
+  /// How long a force is held until the next one. The next tick may be late, and `dt_s` does not
+  /// tell.
   double tick_s = 0.001;
-  /// A late tick counts for no more in the safety chain's slew limit.
+  /// The longest tick that counts in the safety chain's slew limit.
   double longest_tick_s = 0.002;
 };
 
@@ -68,7 +68,7 @@ class EnergyBudget {
   const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
 
  private:
-  // The acceleration is measured over so many ticks that are in time.
+  // Number of ticks, if they are on time, over which the acceleration is measured.
   static constexpr int kSlope = 3;
 
   double left_J_ = 0;
@@ -76,7 +76,7 @@ class EnergyBudget {
   // Short ticks follow one that is late, so that more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
-  History<double, kKept> dt_s_;  ///< of the last ticks: in these, the velocity became what it is
+  History<double, kKept> dt_s_;  ///< of the last ticks, in which the velocity changed
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
   Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();  ///< on the grip, at the end of the last tick

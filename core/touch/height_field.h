@@ -59,9 +59,9 @@ class HeightField {
   /// border.
   SurfacePoint at(double x_m, double y_m) const noexcept;
 
-  /// To look at: the brightness of each cell, rows from the top, as on maps with hill shading. The
-  /// light comes from the upper left, 45° above the picture: 128 is level, 255 faces the light, and
-  /// 0 is turned away from it by a right angle.
+  /// A picture of the relief for the eye: the brightness of each cell, rows from the top, as on
+  /// maps with hill shading. The light comes from the upper left, 45° above the picture: 128 is
+  /// level, 255 faces the light, and 0 is turned away from it by a right angle.
   std::string shading() const;
 
  private:

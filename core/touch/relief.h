@@ -38,15 +38,16 @@ class ReliefBuilder {
 
   ReliefBuilder();
 
-  /// Bright is near. Returns false, and leaves `field` unchanged, when the picture has no pixels.
-  /// The settings must be valid. Reads every pixel, so pass a reduced picture if one is available.
+  /// Builds a relief in which bright is near. Returns false, and leaves `field` unchanged, when the
+  /// picture has no pixels. The settings must be valid. Reads every pixel, so pass a reduced
+  /// picture if one is available.
   bool from_brightness(const ImageView& picture, const ReliefSettings& settings,
                        HeightField& field);
 
-  /// From `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as DepthPicture provides them.
-  /// A hole (NaN) takes the farther of the values to its left and right; an empty row takes the
-  /// farther of the values above and below. Returns false, and leaves `field` unchanged, when all
-  /// cells are holes. The settings must be valid.
+  /// Builds a relief from the `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as
+  /// DepthPicture provides them. A hole (NaN) takes the farther of the values to its left and
+  /// right; an empty row takes the farther of the values above and below. Returns false, and leaves
+  /// `field` unchanged, when all cells are holes. The settings must be valid.
   bool from_levels(const float* levels, const ReliefSettings& settings, HeightField& field);
 
   /// Writes the detail that smoothing removed from the last picture or depth, as heights about 0 (a

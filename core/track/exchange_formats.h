@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Haptic tracks in the formats of others: MPEG's HJIF (ISO/IEC 23090-31) and AHAP, the files of
-/// Core Haptics.
+/// Haptic tracks in exchange formats: MPEG's HJIF (ISO/IEC 23090-31) and AHAP, the files of Core
+/// Haptics.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace spidar {
 struct SampleSource {
   using Take = std::function<void(const TrackSample&)>;
   size_t count = 0;
-  /// Gives all samples in their order, each time that it is called.
+  /// Passes all samples in order to its argument, each time that it is called.
   std::function<void(const Take&)> each;
 };
-/// Takes the next piece of a file that is written.
+/// Receives the next piece of the file that is being written.
 using WriteText = std::function<void(const std::string&)>;
 
 /// Says what was wrong with a file, and where.
@@ -30,7 +30,7 @@ class TrackFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Of the full scale.
+/// The usual tolerance of write_hjif(), as a fraction of the full scale.
 constexpr double kHjifTolerance = 4e-4;
 
 /// HJIF of a track of 1000 samples a second: one perception of modality Force with six channels, fx
@@ -45,26 +45,27 @@ void write_hjif(const SampleSource& samples, const WriteText& write,
 /// The longest track that read_hjif() takes: 12 h.
 constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 
-/// Samples, 1000 a second, of the first perception of modality Force, which must have six channels.
-/// Curves of straight lines are evaluated and summed, multiplied by the gain of their channel; an
-/// effect is silent before its first and after its last keyframe. Throws TrackFileError: not JSON,
-/// a value that is missing or out of range, other bands or curves, or more than `most_samples`.
-/// `others` gets the perceptions that are not read: "perceptions[0] (Vibrotactile)".
+/// Returns the samples, 1000 a second, of the first perception of modality Force, which must have
+/// six channels. Curves of straight lines are evaluated and summed, multiplied by the gain of their
+/// channel; an effect is silent before its first and after its last keyframe. Throws
+/// TrackFileError: not JSON, a value that is missing or out of range, other bands or curves, or
+/// more than `most_samples`. `others` gets the perceptions that are not read: "perceptions[0]
+/// (Vibrotactile)".
 std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples,
                                    std::vector<std::string>* others = nullptr);
 
-/// By which samples are multiplied for formats with a range of their own: a force between a
-/// thousand times the full scale and a micronewton fills it.
+/// Limits of the gain by which samples are multiplied for formats with a range of their own: a peak
+/// between a thousand times and a millionth of the full scale fills that range.
 constexpr double kLeastGain = 1e-3, kMostGain = 1e6;
 
-/// Of the full scale.
+/// The usual tolerance of write_ahap(), as a fraction of the full scale.
 constexpr double kAhapTolerance = 0.02;
 
-/// A vibration as strong as the force: a continuous event whose intensity is the magnitude of the
-/// force as a fraction of the full scale, along straight lines that differ from it by at most
-/// `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are lost.
-/// Magnitudes beyond the full scale are clipped, and NaN becomes 0. The description says which
-/// force an intensity of 1 stands for, if the samples have been multiplied by `gain`.
+/// Writes a vibration as strong as the force: a continuous event whose intensity is the magnitude
+/// of the force as a fraction of the full scale, along straight lines that differ from it by at
+/// most `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are
+/// lost. Magnitudes beyond the full scale are clipped, and NaN becomes 0. The description says
+/// which force an intensity of 1 stands for, if the samples have been multiplied by `gain`.
 ///
 /// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
 /// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.

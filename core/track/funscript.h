@@ -15,21 +15,22 @@
 
 namespace spidar {
 
-/// As much as the rounding of a position differs from the curve: half a step of 2 %.
+/// Usual tolerance, as large as the rounding error of a position: half a step of 2 %.
 constexpr double kFunscriptTolerance = 0.01;
 
-/// One channel: −1, 0 and 1 are the positions 0, 50 and 100, whole numbers. Players draw straight
-/// lines between them, and move at the speed that these ask for; they differ from the curve by at
-/// most `tolerance`, a fraction of the full scale, and the rounding of a position, 0.01. Amplitudes
-/// beyond the full scale are clipped, and NaN becomes 0. The script says which channel it is of,
-/// and by which `gain` its samples have been multiplied.
+/// Writes one channel: −1, 0 and 1 become the positions 0, 50 and 100, whole numbers. Players join
+/// positions by straight lines, and move at the speed that the lines ask for. The lines differ from
+/// the curve by at most `tolerance`, a fraction of the full scale, and the rounding of a position,
+/// 0.01. Amplitudes beyond the full scale are clipped, and NaN becomes 0. The script notes its
+/// channel and the `gain` by which its samples have been multiplied.
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance = kFunscriptTolerance, double gain = 1);
 
-/// The latest position that is read: 12 h.
+/// The latest time of a position that is read: 12 h.
 constexpr int64_t kLatestPosition_ms = int64_t{12} * 3600 * 1000;
 
-/// What the positions 0 and 100 of scripts by others stand for: the usual max-force and max-torque.
+/// Force and torque that the positions 0 and 100 stand for in scripts from elsewhere: the usual
+/// max-force and max-torque.
 constexpr double kScriptForce_N = 3, kScriptTorque_Nm = 0.1;
 
 /// One axis of a script, and what it is felt as.
@@ -39,25 +40,26 @@ struct ScriptAxis {
     double fraction;  ///< of what the positions 0 and 100 stand for
   };
 
-  std::string name;       ///< as a script calls it: "R1", "roll"; empty: that of its own actions
-  size_t channel = 0;     ///< of a track
-  double gain = 1;        ///< by which the samples of the track were multiplied
-  bool is_noted = false;  ///< channel and gain are those of write_funscript()
-  std::vector<Point> points;  ///< their times rise; without any, it is at rest
+  std::string name;           ///< in the script: "R1", "roll"; empty: the axis of its own actions
+  size_t channel = 0;         ///< of a track
+  double gain = 1;            ///< by which the samples of the track were multiplied
+  bool is_noted = false;      ///< channel and gain are those of write_funscript()
+  std::vector<Point> points;  ///< in order of time; empty: the axis is at rest
 
   /// A sample of the track, along straight lines; at rest before the first position and after the
   /// last one.
   float at(int64_t time_ms) const;
 };
 
-/// "roll" or "R1", in small or capital letters: a channel, for the axes that players of several
-/// look for. L0 stroke up, L1 surge forwards, L2 sway sideways, R0 twist about the vertical, R1
-/// roll about forwards, R2 pitch about sideways. Nothing for other names.
+/// The channel of an axis such as "roll" or "R1", in small or capital letters, as players of
+/// several axes name them: L0 stroke up, L1 surge forwards, L2 sway sideways, R0 twist about the
+/// vertical, R1 roll about forwards, R2 pitch about sideways. Nothing for other names.
 ///
 /// Source: the README and default settings of MultiFunPlayer; OFS-NG calls its files
 /// film.R1.funscript (issue 2 of ofs69/ofs-ng).
 std::optional<size_t> channel_of_axis(std::string_view name);
-/// "vib", "V0", "suck" …: an axis of those players that is neither a force nor a torque.
+/// Whether `name` is an axis of those players that is neither a force nor a torque: "vib", "V0",
+/// "suck" …
 bool is_other_axis(std::string_view name);
 
 struct Funscript {
@@ -65,13 +67,13 @@ struct Funscript {
   std::vector<std::string> others;  ///< names of axes that cannot be felt
 };
 
-/// `channel` is that of its actions, unless it says another. Also the axes of versions 1.1 ("axes":
-/// [{"id":"R1","actions":…}]) and 2.0 ("channels":{"roll":{"actions":…}}). Positions are sorted,
-/// and of two at one time the later one counts, as in players. "range" is the percentage of the
-/// full scale that is used: launchcontrol, the player that the format comes from, scales the
-/// positions by it, and its usual limits put them about the middle. As there, 0 and a script
-/// without it stand for all. Throws TrackFileError: not JSON, no actions (but they may be empty),
-/// or a number out of its range.
+/// Reads a script. `channel` is that of its own actions, unless the script notes another one. Also
+/// reads the axes of versions 1.1 ("axes": [{"id":"R1","actions":…}]) and 2.0
+/// ("channels":{"roll":{"actions":…}}). Positions are sorted, and of two at one time the later one
+/// counts, as in players. "range" is the percentage of the full scale that is used: launchcontrol,
+/// the player that the format comes from, scales the positions by it, and its usual limits put them
+/// about the middle. As there, a range of 0 or none at all stands for 100. Throws TrackFileError:
+/// not JSON, no actions (but they may be empty), or a number out of its range.
 Funscript parse_funscript(const std::string& text, size_t channel);
 
 }  // namespace spidar

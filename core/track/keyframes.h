@@ -72,7 +72,8 @@ class KeyframeChooser {
   const double tolerance_;
   const std::function<void(size_t index, double value)> take_;
   size_t count_ = 0;
-  // Of the line: its first value, its last one so far, and the last one that was looked at.
+  // Indices on the line: of its first value, its last one so far, and the last one that was looked
+  // at.
   size_t begin_ = 0, end_ = 0, seen_ = 0;
   double begin_value_ = 0, end_value_ = 0;
   double lowest_ = 0, highest_ = 0;  ///< slopes

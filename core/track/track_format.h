@@ -11,16 +11,17 @@
 
 namespace spidar {
 
-/// Samples of a track that this project writes: one a millisecond, the rate of the haptic loop.
+/// Sample rate of the tracks that this project writes: one sample a millisecond, as in the haptic
+/// loop.
 constexpr int kTrackRate_Hz = 1000;
 constexpr int64_t kTrackPeriod_ns = 1'000'000'000 / kTrackRate_Hz;
-/// fx fy fz tx ty tz, in the device frame D.
+/// Channels of a track: fx fy fz tx ty tz, in the device frame D.
 constexpr size_t kTrackChannels = 6;
-/// A sample of 1.0 is this much. Only integer encodings clip larger values.
+/// Full scale: what a sample of 1.0 stands for. Only integer encodings clip larger values.
 constexpr double kTrackForceScale_N = 10;
 constexpr double kTrackTorqueScale_Nm = 1;
 
-/// One moment of a track: fractions of the full scale.
+/// All channels at one time, as fractions of the full scale.
 using TrackSample = std::array<float, kTrackChannels>;
 
 inline TrackSample to_track_sample(const Wrench& wrench) noexcept {
@@ -43,12 +44,12 @@ inline Wrench to_wrench(const TrackSample& sample) noexcept {
   return wrench;
 }
 
-/// Up to 40 samples that follow each other at equal distances of running time.
+/// Up to 40 successive samples at equal intervals of running time.
 struct TrackBlock {
   static constexpr size_t kCapacity = 40;
 
   int64_t begin_ns = 0;     ///< running time of the first sample
-  int64_t duration_ns = 0;  ///< of all of them; > 0
+  int64_t duration_ns = 0;  ///< of all samples; > 0
   size_t count = 0;         ///< 1 … kCapacity
   std::array<TrackSample, kCapacity> samples{};
 

@@ -12,10 +12,10 @@
 namespace spidar {
 
 /// Replaces groups of successive samples by their mean, so that frequencies that the haptic loop
-/// cannot render do not appear as others.
+/// cannot render do not alias.
 class TrackThinner {
  public:
-  /// For tracks of this rate: the size of a group brings it to kTrackRate_Hz or below.
+  /// Begins a track of this rate: groups are so large that their rate is kTrackRate_Hz or below.
   void begin(int rate_Hz) noexcept {
     *this = {};
     group_ = static_cast<size_t>((rate_Hz + kTrackRate_Hz - 1) / kTrackRate_Hz);
@@ -70,7 +70,7 @@ class TrackReader {
   TrackSample last_{};
   int64_t last_ns_ = INT64_MIN;  ///< nothing was read yet
   int64_t period_ns_ = 0;        ///< of the block to which that belongs
-  size_t read_ = 0;              ///< samples of the oldest block
+  size_t read_ = 0;              ///< number of samples of the oldest block that were read
 };
 
 }  // namespace spidar

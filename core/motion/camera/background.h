@@ -10,14 +10,16 @@
 
 namespace spidar {
 
-/// A block at the border of the picture counts as two elsewhere, because objects are rarely there.
+/// Votes of a block at the border of the picture: it counts as two elsewhere, because objects are
+/// rarely there.
 constexpr double kBorderVotes = 2;
 /// Weight of the newest frame in what is learnt from frame to frame.
 constexpr double kNewestWeight = 0.4;
-/// Fewer votes say nothing about the background.
+/// The least number of votes that say anything about the background.
 constexpr size_t kLeastVotes = 12;
 
-/// Votes that deviate by more are outliers, px of the field's picture, if the noise is `noise_px`.
+/// The deviation beyond which a vote is an outlier if the noise is `noise_px`, px of the field's
+/// picture.
 double vote_reach_px(double noise_px);
 
 /// A displacement from which the camera's motion is estimated.
@@ -34,12 +36,13 @@ struct BackgroundVotes {
   std::vector<BackgroundVote> cast;
   double all = 0;                 ///< votes of the whole picture, including its textureless parts
   Eigen::Vector2d size_px{1, 1};  ///< of the picture
-  /// Edges vote, too. Those of coding errors agree on no motion, which does not make it unknown.
+  /// Edges vote, too. Those of coding errors agree on no motion, which does not make the camera's
+  /// motion unknown.
   bool with_edges = false;
-  /// Votes are few because most of the picture is not found in the one before, as when it fades
-  /// while the camera moves fast. Only a plain background may be taken for one at rest.
+  /// Votes are few because most of the picture is not found in the previous one, as in a fade while
+  /// the camera moves fast. The background must not be taken for a plain one at rest then.
   bool are_lost = false;
-  /// Each is of an area so large that no object has several to itself.
+  /// Each vote is that of an area so large that no object has several areas to itself.
   bool of_areas = false;
 
   /// Votes of all points together, without their weights.
@@ -53,30 +56,31 @@ struct BackgroundVotes {
 /// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Keeps the kind of model of the frame before while it explains the votes, unless a simpler one
-/// has a smaller GRIC; otherwise takes each more general kind that has one, until it explains them.
+/// Keeps the previous frame's kind of model while it explains the votes, unless a simpler kind has
+/// a smaller GRIC; otherwise moves on to each more general kind with a smaller GRIC, until one
+/// explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
-/// some similarity. When so few votes are cast that two objects may have them all, a translation
-/// needs votes in two positions that are too far apart for one object, and a model above it needs
-/// them in three. Votes that agree and are connected are one object's, however large, unless two
-/// borders of the picture cut it. Rest needs none, because a plain background shows none. But where
-/// there are votes in three positions, more than objects have, and hardly any agrees with the model
-/// that explains them best, the camera's motion is unknown. It is also unknown if votes are few
-/// because most of the picture is new.
+/// some similarity. When there are so few votes that two objects may have cast them all, a
+/// translation needs votes in two positions that are too far apart for one object, and a more
+/// general model needs them in three. Votes that agree and are connected are one object's, however
+/// large, unless two borders of the picture cut it. Rest needs no votes, because a plain background
+/// casts none. But where there are votes in three positions, more than objects have, and hardly any
+/// agrees with the model that explains them best, the camera's motion is unknown. It is also
+/// unknown if votes are few because most of the picture is new.
 ///
 /// Models compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil.
 /// Trans. R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r =
 /// 4 coordinates of a pair, d = 2 for all models, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2.
-/// The smallest wins. More general models are only fitted in frames in which the one in use does
-/// not explain the votes.
+/// The model with the smallest value wins. More general models are only fitted in frames in which
+/// the one in use does not explain the votes.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();
 
-  /// What the votes of one frame say. Nothing is kept of it.
+  /// The background that the votes of one frame show. It is not kept.
   Background propose(const BackgroundVotes& votes);
-  /// The next frame is compared with this.
+  /// Keeps the background with which the next frame is compared.
   const Background& keep(const Background& background) { return background_ = background; }
 
   /// Learns the noise of the displacements from the votes on the background that was kept, for use

@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// What is known from the frame before about the votes of this one. Vectors have one value for each
+/// What the previous frame shows about the votes of this one. Vectors have one value for each
 /// block, or none after a cut.
 struct PreviousFrame {
   /// How likely the block was not part of the background, 0 … 1.

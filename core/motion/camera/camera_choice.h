@@ -12,16 +12,17 @@
 
 namespace spidar {
 
-/// The blocks without corners. Each is compared with that of the last four pictures from which the
-/// camera has moved it furthest: noise that an encoder has moved along with an object in one
-/// picture is new some pictures later, whereas shading and stains are still there. The sums of
-/// cells are compared, in which noise counts little.
+/// The blocks without corners. They are compared with that one of the last four pictures since
+/// which the camera has moved them furthest: noise that an encoder has moved along with an object
+/// in one picture is new some pictures later, whereas shading and stains are still there. The sums
+/// of cells are compared, in which noise counts little.
 class PlainParts {
  public:
-  /// Whether they show that they move like the model.
+  /// Whether the blocks show that they move like the model.
   bool have_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
 
-  /// The model of this picture, for the next ones. One that is shown again does not count.
+  /// Keeps the model of this picture for the next ones. A picture that is shown again does not
+  /// count.
   void remember(const BlockField& field, const MotionModel& model);
   void reset() { models_.fill(MotionModel()); }
 
@@ -34,10 +35,10 @@ class PlainParts {
   int back_ = 0;                           ///< how many pictures ago that was; 0: none
 };
 
-/// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Those move
-/// with a large object before them, too: the plain parts or the border must show the same. Last of
-/// all, edges vote beside few blocks. What explains clearly more of the border than what was found
-/// in this order is preferred to it.
+/// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Areas also
+/// move with a large object in front of them, so the plain parts or the border must show the same
+/// motion. Last of all, edges vote along with the blocks if those are few. A motion that explains
+/// clearly more of the border than the one found in this order is preferred to it.
 class CameraChoice {
  public:
   CameraChoice();
@@ -46,7 +47,7 @@ class CameraChoice {
 
   /// How many votes the last background has been found from.
   size_t votes() const { return votes_.cast.size(); }
-  /// As BackgroundEstimator does, from these votes.
+  /// Learns the noise as BackgroundEstimator does, from these votes.
   template <typename Moves>
   void learn_noise(Moves&& moves) {
     estimator_.learn_noise(votes_, moves);
@@ -66,8 +67,8 @@ class CameraChoice {
   BackgroundVotes rival_votes_;
   Areas areas_;
   PlainParts plain_;
-  /// What explains the picture best, whether it was believed or not: over several pictures the
-  /// plain parts may show what they do not show in one.
+  /// The model that explains the picture best, whether it was believed or not: over several
+  /// pictures the plain parts may show what they do not show in one.
   MotionModel likely_;
   BackgroundEstimator estimator_;
   RobustFitter fitter_;

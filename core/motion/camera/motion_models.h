@@ -17,7 +17,7 @@ namespace spidar {
 enum class ModelKind { kStill, kTranslation, kSimilarity, kAffine, kHomography };
 constexpr int kModelKinds = 5;
 
-/// Free parameters.
+/// Number of free parameters of a model.
 constexpr int parameters(ModelKind kind) {
   constexpr int kFree[kModelKinds] = {0, 2, 4, 6, 8};
   return kFree[static_cast<int>(kind)];
@@ -32,7 +32,7 @@ struct Displacement {
   Eigen::Vector2d moved_px;
 };
 
-/// No more are used of a frame, which bounds its cost.
+/// Largest number of displacements that are used in a frame, which bounds its cost.
 constexpr size_t kMostDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not
@@ -61,12 +61,12 @@ struct Background {
   double coverage =
       1;  ///< fraction of the picture's votes that agree with the model; 0: hardly any
   /// False where there is texture all over the picture and hardly any of it agrees with the best
-  /// model, where what agrees may be an object's, and where there are few votes because most of the
-  /// picture is new: how the camera moves is unknown, and with it what moves by itself. The model
-  /// is 'still' then, and `coverage` 0.
+  /// model, where the votes that agree may be an object's, and where there are few votes because
+  /// most of the picture is new: it is then unknown how the camera moves, and what moves by itself.
+  /// The model is 'still' then, and `coverage` 0.
   bool is_known = true;
-  /// Few of the blocks with texture showed it: areas of several blocks, or the border beside a
-  /// large object.
+  /// Few of the blocks with texture showed the motion: it was found from areas of several blocks,
+  /// or from the border beside a large object.
   bool is_of_few = false;
 };
 
@@ -84,16 +84,16 @@ struct WeightedDisplacements {
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
 };
 
-/// Samples in which the best is looked for. When half of the votes belong to the background, one
-/// pair in four has no outlier, and with a probability of 1e-5 none of so many pairs is.
+/// Number of pairs of points that are tried. When half of the votes belong to the background, one
+/// pair in four has no outlier; the probability that all pairs tried have one is 1e-5.
 constexpr size_t kMostTries = 40;
 
 /// Noise of a displacement where it has not been measured, each coordinate, px of the field's
 /// picture: that of blocks with much texture, and of points in a picture with noise.
 constexpr double kUsualNoise_px = 0.1;
-/// Standard deviation of what is the same for all blocks of an object, px of the field's picture:
-/// how far the interpolation between pixels is off at one fraction of a pixel. Of pans without
-/// noise it is between 0.01 and 0.03. No noise is assumed to be less.
+/// Standard deviation of the error that all blocks of an object share, px of the field's picture:
+/// that of the interpolation between pixels at one fraction of a pixel. In pans without noise it is
+/// between 0.01 and 0.03. No noise is assumed to be less.
 constexpr double kSharedError_px = 0.025;
 
 /// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a pair, and d = 2,
@@ -106,7 +106,7 @@ inline double point_cost(const MotionModel& model, const Displacement& point, do
   return std::min(e2 / (sigma_px * sigma_px), kMostCost);
 }
 
-/// Σ w ρ.
+/// Σ w ρ over the points, with ρ = point_cost().
 double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence);
 
 /// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives

@@ -31,18 +31,18 @@ class Margins {
   int columns() const { return columns_.is_known() ? columns_.blocks : 0; }
   int rows() const { return rows_.is_known() ? rows_.blocks : 0; }
 
-  /// Whether update() has found or lost bars: the film has another border than in the picture
-  /// before.
+  /// Whether update() has found or lost bars: the film has another border than in the previous
+  /// picture.
   bool have_changed() const { return have_changed_; }
 
-  /// Whether a block is outside of the film.
+  /// Whether a block is outside the film.
   bool contains(const BlockGrid& grid, size_t block) const {
     return grid.columns_beside(block) < columns() || grid.rows_beside(block) < rows();
   }
 
   void reset();
 
-  /// In one or two pairs, an object may look like a bar.
+  /// Number of pairs after which bars are known: in one or two, an object may look like a bar.
   static constexpr int kKnownAfterPairs = 3;
 
  private:
@@ -72,9 +72,9 @@ class Margins {
 /// noise. The pixels of an object that the camera follows change, however exactly it is followed.
 /// In semi-transparent graphics the film shows through: the edges stay in place, but neither rest
 /// nor any motion explains the pixels as well as in the blocks around them. An object that begins
-/// to deform looks the same, so this sign does not count where an object is known. Nor do they move
-/// as a whole: of a block that seems to move a little against the background, some pixels stay
-/// where they are.
+/// to deform looks the same, so this sign does not count where an object is known. Graphics do not
+/// move as a whole, either: in a block that seems to move a little against the background, some
+/// pixels stay where they are.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.

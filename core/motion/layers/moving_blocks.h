@@ -26,11 +26,11 @@ class Parallax {
   /// stays.
   void measure(const std::vector<Eigen::Vector2f>& moved_px);
 
-  /// px²; zero before measure(), and of no blocks.
+  /// In px²; zero before measure(), and after a measure() of no blocks.
   const Eigen::Matrix2f& covariance_px2() const { return covariance_px2_; }
 
-  /// The standard deviation of what moves in the direction of `motion`, px: that of the ellipse in
-  /// this direction. 0 if there is no noise, or no direction.
+  /// The standard deviation in the direction of `motion`, px: that of the covariance's ellipse. 0
+  /// if there is no noise, or no direction.
   double sigma_px(const Eigen::Vector2d& motion) const;
 
  private:
@@ -45,16 +45,16 @@ struct RelativeBlock {
   bool shows_motion = false;  ///< its texture, or its pixels, determine its motion
   bool was_outside = false;   ///< most of it was outside of the film in the previous picture
   bool is_occluded = false;   ///< something burned in hides the film here, see BurnedIn::occludes()
-  bool lasts = false;         ///< has stood out for so long that it moves without any neighbour
+  bool lasts = false;         ///< has stood out for so long that it needs no neighbour to move
   bool moves = false;         ///< moves by itself, taking its neighbours into account
 };
 
 /// How far the motion of a limb may differ from that of its body, as a fraction of the faster one.
 constexpr double kAlikeFraction = 0.5;
 
-/// Two motions of the same object differ by less than this, px of the field's picture:
-/// kAlikeFraction of `fastest_px`, the length of the longer one, and three standard deviations of a
-/// block.
+/// By how much two motions of the same object may differ, px of the field's picture: kAlikeFraction
+/// of `fastest_px`, the length of the longer one, plus three standard deviations of a block's
+/// motion.
 double alike_px(double fastest_px);
 
 /// Whether two motions may be of the same object.
@@ -63,8 +63,8 @@ bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 /// Compares each block with the background. A block moves by itself when its motion is further from
 /// the background's than its own error and the background's noise explain. The background's motion
 /// must also explain the pixels of a fast block clearly worse, and far worse if the block has no
-/// texture, as that of something out of focus. They do not separate motions that differ by less
-/// than a pixel: a slow block must stand out from the parallax of the scene instead, unless the
+/// texture, as that of something out of focus. Pixels do not separate motions that differ by less
+/// than one of them: a slow block must stand out from the parallax of the scene instead, unless the
 /// camera rests or an object is known there. While the motion of the background is unknown, no
 /// block is known to move by itself. A single block that stands out is an error unless it lasts.
 class MovingBlocks {
@@ -78,15 +78,15 @@ class MovingBlocks {
   /// along with the picture.
   const std::vector<float>& persistence() const { return persistence_; }
 
-  /// Blocks that belong to the screen: they say nothing about the motion of the camera or of
+  /// Blocks with burned-in graphics or bars: they say nothing about the motion of the camera or of
   /// objects.
   const BurnedIn& burned_in() const { return burned_in_; }
 
   void reset();
 
  private:
-  /// Of a block: in what fraction of the last frames it stood out in the same way, and how it moved
-  /// in the last one.
+  /// In what fraction of the last frames a block stood out in the same way, and how it moved in the
+  /// last one.
   struct StoodOut {
     float fraction = 0;
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();

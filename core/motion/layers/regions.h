@@ -18,10 +18,10 @@ namespace spidar {
 /// picture, positions relative to its centre.
 struct Region {
   int blocks = 0;
-  /// Number of them at the border of the picture, of the part of it that was in the previous
-  /// picture, or of something burned in that covers the film.
+  /// Number of them at a border: of the picture, of the part of it that was in the previous
+  /// picture, or of burned-in graphics that cover the film.
   int border_blocks = 0;
-  /// Number of them that something burned in covers, or that have such a neighbour.
+  /// Number of them that burned-in graphics cover, or that have such a neighbour.
   int graphics_blocks = 0;
   bool lasts = false;  ///< one of its blocks does, see RelativeBlock
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
@@ -71,9 +71,9 @@ class RegionFinder {
 /// camera follows is nearer to rest on the screen than to the background.
 class LayerEvidence {
  public:
-  /// Adds a frame, in px of the field's picture: the motion relative to the background, that of the
-  /// background at this position, and how far the blocks around move in the direction of the first,
-  /// as a standard deviation; 0 while the camera rests.
+  /// Adds a frame, in px of the field's picture: the motion relative to the background, the motion
+  /// of the background at this position, and the standard deviation of the motion of the blocks
+  /// around in the direction of `relative_px`; 0 while the camera rests.
   void add(const Eigen::Vector2d& relative_px, const Eigen::Vector2d& background_px,
            double noise_px, double interval_s);
 
@@ -88,7 +88,8 @@ class LayerEvidence {
   /// square, which an object has even while it turns round. Infinite without any motion.
   double ratio() const;
 
-  /// Longer than a swing of a hand-held camera, which shakes at 2 … 10 Hz.
+  /// Time constant of the means: longer than a swing of a hand-held camera, which shakes at 2 … 10
+  /// Hz.
   static constexpr double kMean_s = 0.6;
 
  private:
@@ -98,11 +99,12 @@ class LayerEvidence {
   bool is_empty_ = true;
 };
 
-/// √area × speed, px² of the field's picture. While the camera moves, 0 for what looks like an
-/// effect of its translation in a scene with depth: a layer extends over the border of the picture,
-/// moves along with the background, or hardly differs from the blocks around it. 0 also for the
-/// edge of graphics, and for a single edge. `was_followed`: it was an object before and may look a
-/// little more like a layer, and stand out a little less from the noise.
+/// How much a region stands out: √area × speed, px² of the field's picture. While the camera moves,
+/// 0 for what looks like an effect of its translation in a scene with depth: a layer extends over
+/// the border of the picture, moves along with the background, or hardly differs from the blocks
+/// around it. 0 also for the edge of graphics, and for a single edge. `was_followed`: it was an
+/// object before and may look a little more like a layer, and stand out a little less from the
+/// noise.
 double salience(const Region& region, const LayerEvidence& evidence, bool camera_moves,
                 bool was_followed);
 

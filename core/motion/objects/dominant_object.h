@@ -22,26 +22,29 @@ namespace spidar {
 ///
 /// No reason falls below −kReason_s, nor below 0 while the followed object is out of sight. An
 /// object that has stood out for long may therefore rest for twice kReason_s. A rival that appears
-/// while the followed object is out of sight begins with half of the time for which that has been
-/// lost: after twice kReason_s it is followed at once. So are the first object, any object after
-/// the followed one has left at the border of the picture, and one that covers half of the position
-/// at which the followed one would be while it is out of sight: it is a part of the same object.
-/// One that first appears where the followed one may have gone since it was lost, however it has
-/// turned, is that object: a ball that bounces in a frame in which it is not found.
+/// while the followed object is out of sight begins with half of the time for which the followed
+/// one has been lost: after twice kReason_s it is followed at once. So are the first object, any
+/// object after the followed one has left at the border of the picture, and one that covers half of
+/// the position at which the followed one would be while it is out of sight: it is a part of the
+/// same object. An object that first appears where the followed one may have gone since it was
+/// lost, however it has turned, is taken for that one: a ball that bounces in a frame in which it
+/// is not found.
 class DominantObject {
  public:
   DominantObject();
 
   /// Returns one of `objects`, at first the most prominent one. Null when none has moved yet, and
-  /// while the one that is followed is not among them. Call this once for each frame,
-  /// `interval_s` > 0 after the one before.
+  /// while the followed object is not among them. Call this once for each frame, `interval_s` > 0
+  /// after the previous one.
   const MovingObject* choose(const std::vector<MovingObject>& objects, double interval_s);
 
   void reset();
 
-  /// On real films, 4 to 8 are alike; with 3, a tenth more changes.
+  /// How many times as prominent as the followed object a rival must be. On real films, 4 to 8 make
+  /// little difference; with 3, there are a tenth more changes.
   static constexpr double kClearly = 4;
-  /// An eye takes 0.2 s and more to begin to turn to a new target.
+  /// The reason at which a rival is followed: an eye takes 0.2 s and more to begin to turn to a new
+  /// target.
   static constexpr double kReason_s = 0.3;
 
  private:

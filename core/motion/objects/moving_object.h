@@ -14,7 +14,7 @@
 
 namespace spidar {
 
-/// Length below which 95 % of the vectors are whose coordinates have a Gaussian error of standard
+/// Length below which 95 % of vectors lie whose coordinates have a Gaussian error of standard
 /// deviation 1: √(−2 ln 0.05).
 constexpr double kErrorSigmas = 2.4477;
 
@@ -23,8 +23,8 @@ struct MovingObject {
   uint32_t id = 0;  ///< constant while the object exists, never reused
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d size_px = Eigen::Vector2d::Zero();      ///< of the box around its blocks
-  /// How far the corners of the box to draw around it, upper left and lower right, are from those
-  /// of this box, which jumps by whole blocks: they move as the object does.
+  /// Offsets of the corners of the box to draw, upper left and lower right, from those of box_px(),
+  /// which jumps by whole blocks: the drawn corners move as the object does.
   Eigen::Vector2d low_off_px = Eigen::Vector2d::Zero(), high_off_px = Eigen::Vector2d::Zero();
 
   Eigen::AlignedBox2d box_px() const {
@@ -38,8 +38,8 @@ struct MovingObject {
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
   int points = 0;  ///< points or blocks from which it was measured; 0: out of sight
-  /// The true velocity against the background is less than this away from relative_px_s in 95 % of
-  /// the frames in which the object is in sight; 0: not known.
+  /// In 95 % of the frames in which the object is in sight, relative_px_s differs from the true
+  /// velocity by less than this; 0: not known.
   double error_px_s = 0;
   /// It moved outwards at the border of the picture when it was last seen: it does not come back.
   bool has_left = false;
@@ -47,14 +47,14 @@ struct MovingObject {
   double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };
 
-/// Null when it is not among them.
+/// The object with this id; null when it is not among them.
 inline const MovingObject* find_object(const std::vector<MovingObject>& objects, uint32_t id) {
   const auto found = std::find_if(objects.begin(), objects.end(),
                                   [id](const MovingObject& object) { return object.id == id; });
   return found == objects.end() ? nullptr : &*found;
 }
 
-/// The area of a box, 0 of an empty one.
+/// The area of a box; 0 for an empty one.
 inline double area_px2(const Eigen::AlignedBox2d& box_px) {
   return box_px.sizes().cwiseMax(0.0).prod();
 }

@@ -69,8 +69,8 @@ class ErrorBound {
   double px(uint32_t key, const Region& region, const ObjectMotion& found,
             const ObjectEvidence& evidence);
 
-  /// The same of what the object's own blocks show alone, without the errors that they share with
-  /// each other and with the background. Those last for many frames; this one differs from frame to
+  /// The same for the object's own blocks alone, without the errors that they share with each other
+  /// and with the background. Shared errors last for many frames; this one differs from frame to
   /// frame.
   double own_px(uint32_t key, const ObjectMotion& found, const ObjectEvidence& evidence) {
     return kErrorSigmas * std::sqrt(own_variance_px2(key, found, evidence));

@@ -40,12 +40,13 @@ struct ObjectLife {
     Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
   };
 
-  /// An object exists once it has been seen with a total of so many blocks, so that a small one
-  /// must be seen more often. A single frame counts for less: noise does not move twice alike.
+  /// Total number of blocks with which an object must have been seen to exist: a small one must be
+  /// seen more often. A single frame counts for less, because noise does not move alike twice.
   static constexpr int kBornAfterBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
-  /// Longer than what usually hides an object, and than most pauses in its motion.
+  /// How long an object may be out of sight or at rest before it is dropped: longer than objects
+  /// are usually hidden, and than most pauses in their motion.
   static constexpr double kForgotten_s = 0.5;
   /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
   /// with each frame of 25 a second, a tenth is left.
@@ -73,19 +74,19 @@ struct ObjectLife {
     state = next;
   }
 
-  /// Whether the region moves as the object did: as alike_px() has it, but with how far off the
-  /// motion of a block may be.
+  /// Whether the region moves as the object did: like alike_px(), but with kMostOff_px, the
+  /// largest error of a block's motion, in place of its noise.
   bool moves_like(const Region& other, double interval_s) const {
     const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
     const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
     return (other.relative_px - expected_px).norm() <
            kAlikeFraction * fastest_px + static_cast<double>(kMostOff_px);
   }
-  /// Whether a region of its blocks is only a rim of it.
+  /// Whether the visible region is only a rim of the object.
   bool is_rim(const Region& visible) const {
     return visible.blocks < kRimFraction * expected.blocks;
   }
-  /// Whether it has moved out of the picture after it was in sight until now.
+  /// Whether it has just moved out of the picture, after having been in sight until now.
   bool has_left(double interval_s) const {
     const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
     return region.border_blocks > 0 && region.position_px.dot(on_screen_px) > 0;
@@ -96,8 +97,8 @@ struct ObjectLife {
     low_px += moved_px;
     high_px += moved_px;
   }
-  /// It is then drawn towards the box around the blocks, from which it is never further away than a
-  /// block, because that is how well they locate an edge.
+  /// Moves the box to draw towards the box around the blocks, and keeps it within a block of that
+  /// one, because this is how well blocks locate an edge.
   void draw_box_to(const Region& seen, double interval_s) {
     const double newest = interval_s / (kBoxSettles_s + interval_s);
     const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {
@@ -109,7 +110,7 @@ struct ObjectLife {
     draw(low_px, seen.low_px);
     draw(high_px, seen.high_px);
   }
-  /// Nothing shows how it turns and grows.
+  /// For a frame in which nothing shows how the object turns and grows.
   void turn_unseen(double interval_s) {
     roll.miss(interval_s);
     growth.miss(interval_s);
@@ -166,7 +167,7 @@ class ObjectTracker {
     return {moving_.persistence(), burned_in.held(), owners_, burned_in.margins().columns(),
             burned_in.margins().rows()};
   }
-  /// A number of the object to which each block belongs in the last frame; 0 for none.
+  /// The number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
   /// Whether a block moved by itself in the last frame.

@@ -23,10 +23,10 @@ struct Estimate {
   /// Standard error of what differs from frame to frame; infinite where nothing determines the
   /// value.
   double sigma = std::numeric_limits<double>::infinity();
-  double shared = 0;  ///< of what lasts: that of kSharedError_px
+  double shared = 0;  ///< standard error of what lasts: that of kSharedError_px
 };
 
-/// Of an object against the background, between two frames.
+/// How an object turns and grows against the background between two frames.
 struct Turn {
   Estimate roll_rad;  ///< from x to y: clockwise as seen on the screen
   Estimate growth;    ///< relative change of lengths
@@ -41,13 +41,13 @@ class TurnMeter {
  public:
   TurnMeter();
 
-  /// `found` is the motion of the object `key`, and `as_before` what it would turn and grow now if
-  /// it went on as it did.
+  /// `found` is the motion of the object `key`, and `as_before` how it would turn and grow now if
+  /// it went on as before.
   Turn measure(uint32_t key, const Region& region, const ObjectMotion& found, const Turn& as_before,
                const ObjectEvidence& evidence);
 
-  /// These bound the time of a frame: of more blocks or pixels, every second one is used, and so
-  /// on.
+  /// Limits that bound the time for a frame: of more blocks or pixels, every second one is used,
+  /// and so on.
   static constexpr size_t kMostBlocks = 32;
   static constexpr size_t kMostPixels = 1024;
 
@@ -66,7 +66,7 @@ class TurnMeter {
     Eigen::Vector2f bend;   ///< half of the second differences
     float behind2;          ///< square of the difference if it is the background's, grey²
   };
-  /// Over the pixels of a block, with r = now − before and J = ∂r / ∂parameters.
+  /// Sums over the pixels of a block, with r = now − before and J = ∂r / ∂parameters.
   struct Sums {
     Eigen::Matrix4f information = Eigen::Matrix4f::Zero();  ///< Σ w J Jᵀ
     Eigen::Vector4f gradient = Eigen::Vector4f::Zero();     ///< Σ w J r
@@ -83,7 +83,7 @@ class TurnMeter {
   void collect_slopes(const BlockField& field);
   Pixel describe(const Place& place, const Eigen::Vector4f& start,
                  const ObjectEvidence& evidence) const;
-  /// Where something was in the picture before: x − (shift + (grow, turn) · ρ), where ρ is the
+  /// Where a pixel was in the previous picture: x − (shift + (grow, turn) · ρ), where ρ is the
   /// position from the middle of the object in units of reach_px_, as complex numbers. In px of the
   /// field's picture. `motion`: shift, grow, turn.
   Eigen::Vector2f before_px(const Pixel& pixel, const Eigen::Vector4f& motion) const;
@@ -99,19 +99,19 @@ class TurnMeter {
   float noise_grey2_ = 1;
 };
 
-/// Weights what each frame shows by its error. The rate comes in from none as it exceeds the bound
-/// of its error, and goes where nothing determines it any more.
+/// A rate of turning or growing, to which each frame contributes as its error allows. It rises from
+/// 0 as it exceeds the bound of its error, and fades where nothing determines it any more.
 class SteadyRate {
  public:
-  /// Time constant with which it goes.
+  /// Time constant with which the rate fades.
   static constexpr double kFades_s = 0.1;
 
-  /// What a frame shows, `interval_s` > 0 after the one before, as a change in that time.
+  /// Takes what a frame shows, `interval_s` > 0 after the previous one, as a change in that time.
   void see(const Estimate& change, double interval_s) {
     if (!std::isfinite(change.sigma)) return miss(interval_s);
     const double variance = std::pow(change.sigma / interval_s, 2);
     const double news_1_s = change.value / interval_s - followed_1_s_;
-    // What an error explains is smoothed away, as it is of the velocity.
+    // What an error explains is smoothed away, as in the velocity.
     const double news2 = news_1_s * news_1_s;
     const double newest = news2 / (news2 + kErrorSigmas * kErrorSigmas * variance);
     if (!std::isfinite(newest)) return;  // no news, and no error
@@ -121,7 +121,7 @@ class SteadyRate {
   }
   void miss(double interval_s) { followed_1_s_ *= std::exp(-interval_s / kFades_s); }
 
-  /// As it is felt.
+  /// The rate as it is felt: 0 within the bound of its error.
   double rate_1_s() const {
     const double square = followed_1_s_ * followed_1_s_;
     const double bound2 = kErrorSigmas * kErrorSigmas * (variance_ + shared_1_s_ * shared_1_s_);
