@@ -14,7 +14,7 @@
 
 namespace spidar {
 
-/// What a link reports of an exchange.
+/// The result of an exchange, as a link reports it.
 enum class LinkFault : uint8_t {
   kNone,         ///< answered
   kTimeout,      ///< no answer in time
@@ -28,7 +28,7 @@ enum class LinkFault : uint8_t {
   kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended, for example because it was killed
   kStoodStill,   ///< this process stood still, so that the guardian set the motors to zero
-  kRefused,      ///< the kernel's driver refuses what it is asked for
+  kRefused,      ///< the kernel's driver refuses the request
 };
 constexpr size_t kLinkFaults = 13;
 
@@ -94,7 +94,7 @@ struct MotorVolts {
   std::array<double, kMaxStrings> volt{};  ///< signed as the D/A puts it out
 };
 
-/// Whether any motor gets something.
+/// Whether any motor gets a voltage other than zero.
 inline bool pulls(const MotorVolts& volts) noexcept {
   for (const double volt : volts.volt) {
     if (volt != 0) return true;
@@ -110,25 +110,26 @@ inline MotorVolts scaled(MotorVolts volts, double fraction) noexcept {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
-  int64_t read_ns = 0;  ///< when, CLOCK_MONOTONIC; 0: in the tick, as far as is known
+  int64_t read_ns = 0;  ///< time of reading, CLOCK_MONOTONIC; 0: unknown, the tick's
 };
 
-/// What a board, a device and a grip have in common. One thread at a time, except where stated.
+/// The common interface of a board, a device and a grip. One thread at a time, except where stated.
 class Openable {
  public:
   /// `name` is for messages: "sim", "usb:1-2", …
   explicit Openable(std::string name) : name_(std::move(name)) {}
   virtual ~Openable() = default;
 
-  /// Claims the device and reads it once, with nothing that pulls. Throws DeviceError. After
-  /// close() or when it is_lost() it may be called again.
+  /// Claims the device and reads it once, while no motor pulls. Throws DeviceError. May be called
+  /// again after close(), or after a fault that is_lost().
   virtual void open() = 0;
 
-  /// Motors to zero, then releases the device. Safe to call twice, and when it is lost.
+  /// Sets the motors to zero, then releases the device. Safe to call twice, and when the device is
+  /// lost.
   virtual void close() noexcept = 0;
 
-  /// A description for people of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
-  /// Empty while closed, and for devices whose name says everything.
+  /// A description, for the user, of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch
+  /// 3". Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
 
   /// Statistics of the link to the device; all zero without one. Any thread.
@@ -141,7 +142,7 @@ class Openable {
   const std::string name_;
 };
 
-/// A device as a grip has it: `Output` goes out, `Reading` comes in.
+/// A device as a grip uses it: it takes an `Output` and returns a `Reading`.
 template <typename Output, typename Reading>
 class DeviceOf : public Openable {
  public:
@@ -152,7 +153,7 @@ class DeviceOf : public Openable {
   virtual LinkFault exchange(const Output& output, Reading& reading) noexcept = 0;
 };
 
-/// With strings: volts out, counts in.
+/// A device with strings: volts out, encoder counts in.
 using StringDevice = DeviceOf<MotorVolts, DeviceReading>;
 
 }  // namespace spidar

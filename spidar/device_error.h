@@ -22,16 +22,16 @@ struct SourceLocation {
   }
 };
 
-/// Why, for programs. The text is for people.
+/// The reason, for programs; what() is for people.
 enum class DeviceErrorCode {
   kFailed,     ///< it is there, but does not work as it should
-  kAbsent,     ///< it is not plugged in, or what it is reached by does not run
+  kAbsent,     ///< it is not plugged in, or the program behind which it is does not run
   kBusy,       ///< somebody else uses it
   kForbidden,  ///< this user may not open it
-  kSettings,   ///< its name, its profile or its setting up is wrong
+  kSettings,   ///< its name, its profile or its configuration is wrong
 };
 
-/// That `error`, an errno, means.
+/// The code for `error`, an errno.
 inline DeviceErrorCode error_code_of(int error) noexcept {
   switch (error) {
     case EACCES:

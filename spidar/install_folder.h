@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where this program, plugin or library was installed, which need not be where it was built for.
+/// Where this program, plugin or library is installed, which need not be the prefix it was built
+/// for.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +13,12 @@ namespace spidar {
 /// tell.
 std::filesystem::path own_file();
 
-/// The folder that `file` is installed below, when it lies in that folder's folder for libraries,
-/// plugins of GStreamer, or programs; empty when it lies anywhere else, as in a build folder.
+/// The prefix below which `file` is installed, if it lies in the prefix's folder for libraries,
+/// GStreamer plugins or programs; empty if it lies anywhere else, as in a build folder.
 std::filesystem::path prefix_of(const std::filesystem::path& file);
 
-/// `below`, relative to the prefix, where this code is installed; where it was to be installed when
-/// the code is not installed. `below` may be absolute, and then is the result.
+/// The path `below` under the prefix of this code or, if it is not installed, under the prefix it
+/// was built for. An absolute `below` is returned as it is.
 std::filesystem::path installed(const std::string& below);
 
 }  // namespace spidar

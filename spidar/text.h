@@ -10,7 +10,7 @@
 
 namespace spidar {
 
-/// Numbers have up to six digits, without zeros at the end.
+/// The value as text; numbers have up to six digits, without trailing zeros.
 template <typename T>
 std::string as_text(const T& value) {
   std::ostringstream out;
@@ -22,7 +22,7 @@ std::string as_text(const T& value) {
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 
 /// The text with a question mark for each control character, which a terminal would obey, for each
-/// character that turns the direction of writing round, and for each byte that is not UTF-8, which
+/// character that reverses the direction of writing, and for each byte that is not UTF-8, which
 /// neither JSON nor GStreamer takes. To be used where a name, a serial number or the like comes
 /// from a device.
 std::string printable(std::string_view text);

@@ -9,13 +9,13 @@
 
 namespace spidar {
 
-/// All of a file of at most `most_bytes`. Throws std::runtime_error, which says what is wrong as
-/// the end of a sentence ("it is not a regular file"), also when the system calls it regular, but
-/// does not let it be read, as with /proc/self/mem.
+/// Returns the content of a file of at most `most_bytes`. Throws std::runtime_error, which says
+/// what is wrong as the end of a sentence ("it is not a regular file"), also when the system calls
+/// it regular, but does not let it be read, as with /proc/self/mem.
 std::string read_regular_file(const std::string& path, size_t most_bytes);
 
-/// The file itself where `path` is a link: the link stays one, and leads to the new file. Throws
-/// std::runtime_error for a link that leads to nothing.
+/// The file to write for `path`: where a link leads, so that the link stays one and leads to the
+/// new file; otherwise `path`. Throws std::runtime_error for a link that leads to nothing.
 std::filesystem::path place_of_output(const std::filesystem::path& path);
 
 /// Gives the open file the permissions of the one at `path`, its access control list among them,
@@ -23,9 +23,9 @@ std::filesystem::path place_of_output(const std::filesystem::path& path);
 void keep_permissions(int file, const std::filesystem::path& path);
 
 /// Writes to a new file in the same folder, which then gets the name `named_file` and the
-/// permissions of what it replaces. A link of that name stays one, and what it leads to is
-/// replaced; a device or a folder is not, and no link is followed at the new file's own name.
-/// Throws std::runtime_error with the system's reason; the old file is unchanged then.
+/// permissions of the file that it replaces. A link of that name stays one, and the file that it
+/// leads to is replaced; a device or a folder is not, and no link is followed at the new file's own
+/// name. Throws std::runtime_error with the system's reason; the old file is unchanged then.
 void replace_file(const std::filesystem::path& named_file, const std::string& text);
 
 }  // namespace spidar

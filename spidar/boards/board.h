@@ -22,8 +22,8 @@ namespace spidar::boards {
 /// When the counts are set to zero at the present position of the grip.
 enum class CountZero {
   kByProfile,  ///< kNever for a profile with home offsets, otherwise kFirstOpen
-  kFirstOpen,  ///< not when the board is reopened after it was lost
-  kNever,      ///< the counts of the board, to which calibrated home offsets refer
+  kFirstOpen,  ///< not when a lost board is reopened
+  kNever,      ///< keeps the board's counts, to which calibrated home offsets refer
 };
 
 struct Settings {
@@ -35,8 +35,8 @@ struct Settings {
   bool threaded = true;
 };
 
-/// `Output` is what it puts out, `Reading` what it reads. Its open() also identifies and resets it;
-/// when that throws, the caller calls close(), which leaves the motors at their last value.
+/// A board that puts out an `Output` and reads a `Reading`. open() also identifies and resets the
+/// board; when it throws, the caller calls close(), which leaves the motors at their last value.
 template <typename Output, typename Reading>
 class BoardOf : public Openable {
  public:
@@ -50,7 +50,7 @@ class BoardOf : public Openable {
   virtual void recover() noexcept = 0;
 
   /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
-  /// another open(): the board is not to be left as other programs expect it.
+  /// another open(): the board is not to be left in the state that other programs expect.
   virtual void expect_reopening() noexcept {}
 
   /// Sets the counts to zero at the present position of the grip. To be called after open().
@@ -74,7 +74,7 @@ using Board = BoardOf<MotorVolts, DeviceReading>;
 
 struct ForceOutput {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the hand, device frame
-  bool on = false;  ///< forces are switched on, also where there is none at present
+  bool on = false;  ///< forces are switched on, even if there is none at present
 };
 
 inline bool pulls(const ForceOutput& output) noexcept {
@@ -89,12 +89,13 @@ inline ForceOutput scaled(ForceOutput output, double fraction) noexcept {
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
   PoseFault pose_fault = PoseFault::kNoReading;  ///< why the position is not a number, if it is not
-  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
-  int64_t lag_ns = 0;    ///< from a force to when it acts, as the device reports it
+  uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
+  int64_t lag_ns = 0;    ///< from the command of a force to its effect, as the device reports it
   int64_t read_ns = 0;   ///< as in DeviceReading
 };
 
-/// Shortens a force that it cannot give, and gives none for one that is not a number.
+/// A board that exerts forces. It shortens a force that it cannot give; one that is not a number
+/// counts as zero.
 class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
  public:
   using BoardOf::BoardOf;

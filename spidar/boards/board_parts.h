@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What boards share: opening, wills, conversion from volts to digits of a D/A converter.
+/// Common parts of boards: opening, wills, conversion from volts to digits of a D/A converter.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace spidar::boards {
 
-/// What is the same for all that are at the other end of one transport.
+/// The common part of all boards with a single transport.
 template <typename BoardType>
 class OnTransport : public BoardType {
  public:
@@ -81,7 +81,7 @@ struct DacScale {
   int min_digit = 0;
   int max_digit = 0;
 
-  /// Not a number is zero.
+  /// A voltage that is not a number counts as zero.
   int digit(double volt) const noexcept {
     const double digits = volt * digits_per_V;
     if (!std::isfinite(digits)) return 0;
@@ -91,15 +91,15 @@ struct DacScale {
   double volt(int digits) const noexcept { return digits / digits_per_V; }
 };
 
-/// What the protocol of a board defines for every board of its kind.
+/// The properties that a protocol defines for every board of its kind.
 struct Traits {
   int dac_bits = 12;
-  double max_V = 0;      ///< of its D/A; 0: not published, the profile has it
+  double max_V = 0;      ///< largest voltage of the D/A; 0: not published, the profile states it
   bool negative = true;  ///< whether it puts out negative volts
 };
 
-/// Why the profile describes a board that this one cannot be, as the end of a sentence with the
-/// field's name: "has dac_bits = 16, …". Empty if it fits.
+/// Why the profile cannot be for this board, as the end of a sentence that names the field: "has
+/// dac_bits = 16, …". Empty if it fits.
 std::string misfit(const Profile& profile, const Traits& board);
 
 /// Throws DeviceError with misfit().

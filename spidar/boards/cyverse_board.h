@@ -19,8 +19,8 @@ namespace spidar::boards {
 
 constexpr Traits kCyverseTraits{sh4::kDacBits, 0, false};
 
-/// From zero to the profile's largest voltage. The range is not published (inferred, because all
-/// published digits are positive).
+/// The D/A converter, from zero to the profile's largest voltage. Its range is not published
+/// (inferred, because all published digits are positive).
 inline DacScale cyverse_dac(const Profile& profile) noexcept {
   return {sh4::kMaxDigit / profile.dac_max_V, 0, sh4::kMaxDigit};
 }

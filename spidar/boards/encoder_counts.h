@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a board whose counters wrap round, which continue when it is closed and opened again.
+/// Counts of a board whose counters wrap round. They continue when the board is closed and
+/// reopened.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +44,7 @@ class CountUnwrapper {
   /// nothing when a counter has jumped, or when the counters seem to have been reset by a loss of
   /// power: all of them are near zero now, were not near zero before, and are far from their
   /// previous values. A grip that a hand moved while it was near the counters' zero looks the same.
-  /// Mistaking it for a reset costs a new zero; the opposite mistake would lose the right zero.
+  /// Mistaking this for a reset costs a new zero; the opposite mistake would keep a wrong zero.
   /// Call begin() to accept the new values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
@@ -99,7 +100,7 @@ class EncoderCounts {
 
   explicit EncoderCounts(int bits) noexcept : unwrapper_(bits) {}
 
-  /// First reading after opening.
+  /// Takes the first reading after opening.
   void open(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     first_ = raw;
     channels_ = channels;

@@ -15,9 +15,9 @@
 
 namespace spidar::boards {
 
-/// Its firmware, which it forgets without power, is not ours to ship. open() takes it from the file
-/// that $SPIDAR_FALCON_FIRMWARE names, or from ~/.local/share/gst-spidar/novint-falcon.bin, if the
-/// device does not answer without. That takes up to three seconds.
+/// The device forgets its firmware without power, and this project may not ship it. If the device
+/// does not answer without firmware, open() loads it from the file that $SPIDAR_FALCON_FIRMWARE
+/// names, or from ~/.local/share/gst-spidar/novint-falcon.bin. That takes up to three seconds.
 ///
 /// Until every encoder has passed its mark there is no position and no force: the user pulls the
 /// grip all the way out and pushes it all the way in.
@@ -34,8 +34,8 @@ class Falcon final : public OnTransport<ForceBoard> {
   GripAbilities abilities() const noexcept override { return kAbilities; }
 
  private:
-  /// At libnifalcon's scale, the motors can give this in every direction within 50 mm of the
-  /// centre. Often quoted, without a source, are 8.9 N (2 lb).
+  /// At libnifalcon's scale, the force that the motors can give in every direction within 50 mm of
+  /// the centre. 8.9 N (2 lb) are often quoted, without a source.
   static constexpr double kMostForce_N = 4.4;
   /// The corners of a picture are 49.5 mm from the centre, those of the whole room 54.6 mm.
   static constexpr GripAbilities kAbilities{{true, true, true}, false, true, {true, true, true},

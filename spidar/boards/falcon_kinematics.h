@@ -20,8 +20,8 @@ namespace spidar::falcon {
 /// which use 0.075 to 0.175 m).
 constexpr double kCentre_m = 0.125;
 
-/// The grip reaches every position up to here from the origin, m, as the lengths give it. Often
-/// quoted is a cube of 4 inches.
+/// The grip reaches every position within this distance of the origin, m, as computed from the
+/// lengths. A cube of 4 inches is often quoted.
 constexpr double kReach_m = 0.055;
 
 /// Range of an arm, radians. Within kReach_m, −0.65 to 1.5 are needed; the stops are not published
@@ -33,9 +33,9 @@ constexpr double kMostAngle_rad = 1.9;
 /// grip at `position_m` in the device frame. Nothing if an arm cannot reach it.
 std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noexcept;
 
-/// The position of the grip, device frame, m. Newton's method from the origin, which arrives from
-/// every position within kReach_m; without allocation, within kMaxSteps. Nothing if no position
-/// fits, or only one with a bent-back arm.
+/// The position of the grip, device frame, m; nothing if no position fits, or only one with a
+/// bent-back arm. Uses Newton's method from the origin, which converges to every position within
+/// kReach_m in kMaxSteps. Does not allocate.
 std::optional<Eigen::Vector3d> grip_position(const Eigen::Vector3d& angles_rad) noexcept;
 constexpr int kMaxSteps = 20;
 

@@ -47,13 +47,13 @@ class ForceFeedback final : public ForceBoard {
     reading.buttons = effects_->buttons();
     return LinkFault::kNone;
   }
-  /// Done by the thread that makes the updates.
+  /// Does nothing: the thread that makes the updates recovers from faults.
   void recover() noexcept override {}
   /// The centring spring stays off in the next close(), for a hand that still holds the stick.
   void expect_reopening() noexcept override { reopening_ = true; }
   void close() noexcept override { effects_->close(reopening_); }
   std::vector<LastWill> last_wills() const override { return effects_->last_wills(); }
-  /// Includes one sentence on what the device lacks.
+  /// Includes what the device lacks.
   std::string description() const override {
     const ff::Description& found = effects_->description();
     std::string text = found.name.data();

@@ -97,8 +97,8 @@ class ForceGrip final : public Grip {
       reading_.motion.reset();
     }
   }
-  /// Jumps of a stick count for nothing: it snaps back when it is let go, and its driver reports
-  /// seldom.
+  /// Jumps of a stick are no faults: it snaps back when it is let go, and its driver seldom
+  /// reports.
   PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double way_m = (answer.position_m - reading_.pose.position_m).norm();

@@ -17,7 +17,7 @@
 namespace spidar::boards {
 
 /// One force and one state in each cycle: the service answers every message. A force is sent only
-/// when the one before has been answered, so that none can arrive late.
+/// when the previous one has been answered, so that none can arrive late.
 class Inverse3 final : public OnTransport<ForceBoard> {
  public:
   /// `id` is the device's number in the service ("049D"); empty: the first one.
@@ -124,7 +124,8 @@ class Inverse3 final : public OnTransport<ForceBoard> {
     }
     return text.u8(text.size - 1) == '}' ? LinkFault::kWrongReply : LinkFault::kShort;
   }
-  /// After it was lost, the same device is looked for: another hand may hold another one.
+  /// The device to look for. After a loss it is the same device, because another hand may hold
+  /// another one.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
   [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
                            SourceLocation location = SourceLocation::here()) const {
@@ -132,7 +133,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
   }
 
   const std::string id_;
-  inverse3::State device_;  ///< as it was when it was opened
+  inverse3::State device_;  ///< as it was when opened
   inverse3::State now_;
   bool opened_ = false;
   std::array<uint8_t, inverse3::kCommandSize> text_{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What all boards share while they are open: the thread of their link, their guardians, and the
-/// ramp to zero.
+/// The common part of all open boards: the thread of their link, their guardians, and the ramp to
+/// zero.
 #pragma once
 
 #include <array>
@@ -28,15 +28,15 @@ namespace spidar::boards {
 /// A later reply is used in the next tick. Outputs that arrive during an exchange are queued, so
 /// that the link never idles.
 ///
-/// Motors pull only as long as every connection has its guardian. Without it, they are set to zero
-/// at once, and the device is lost until it is opened again with a new guardian.
+/// Motors pull only as long as every connection has its guardian. Without one, the motors are set
+/// to zero at once, and the device is lost until it is reopened with a new guardian.
 ///
-/// `Output` has a function pulls(output), whether it differs from rest, and scaled(output,
-/// fraction). `BoardType` derives from BoardOf<Output, Reading>.
+/// For `Output` there are the functions pulls(output), which tells whether it differs from rest,
+/// and scaled(output, fraction). `BoardType` derives from BoardOf<Output, Reading>.
 template <typename BoardType, typename Output, typename Reading>
 class LinkThread final : public DeviceOf<Output, Reading> {
  public:
-  /// Fraction of a tick of 1 ms; the loop uses the rest.
+  /// The longest wait for a reply in a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
   /// Time after which an exchange counts as failed.
   static constexpr int64_t kTransfer_ns = 5'000'000;
@@ -44,9 +44,9 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   /// before.
   static constexpr int kRamp_ms = 20;
 
-  /// CountZero::kByProfile is for make_grip(); here it means kFirstOpen.
+  /// Here, CountZero::kByProfile means kFirstOpen; make_grip() resolves it.
   LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
-  /// Boards of which `open` opens and returns one; what it throws leaves none open.
+  /// Several boards, of which `open` opens and returns one. If it throws, it leaves none open.
   LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
              const Settings& settings);
   ~LinkThread() override;
@@ -58,7 +58,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
   LinkHealth health() const noexcept override;
-  /// The one that was opened last; before that, the first.
+  /// The board that was opened last; before any was opened, the first.
   const BoardType& board() const noexcept { return *board_; }
 
  private:
@@ -88,7 +88,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
 
   const std::vector<std::unique_ptr<BoardType>> boards_;
   const std::function<BoardType&()> open_board_;
-  BoardType* board_;  ///< that was opened last
+  BoardType* board_;  ///< the one that was opened last
   const Settings settings_;
   bool zeroed_ = false;  ///< the counts have been zeroed once
   std::vector<std::unique_ptr<Guardian>> guardians_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What fast exchanges know of a device whose updates are slow: where it is, and whether it
+/// What fast exchanges know of a device whose updates are slow: its position, and whether it still
 /// follows.
 #pragma once
 
@@ -25,7 +25,7 @@ namespace spidar::boards {
 /// exchanges.
 class StickPosition {
  public:
-  /// The slowest that a position moves to a new reading.
+  /// The longest time in which the position moves to a new reading.
   static constexpr int64_t kLongest_ns = 100'000'000;
 
   /// Before update() is called for the first time.
@@ -75,11 +75,11 @@ class StickPosition {
 };
 
 /// Exchanges are faster than updates. A failed update is reported to one exchange only, because the
-/// haptic loop gives a device up after 20 faults in a row, which would be a single one of a slow
-/// driver. Every exchange gets a fault when nothing shows that the device still follows: kFailures
-/// updates have failed in a row, or none has ended for kPatience_ns, because the driver does not
-/// return. The device holds its last force meanwhile, so the loop must not take it for a healthy
-/// one.
+/// haptic loop gives up a device after 20 faults in a row, and a single failed update of a slow
+/// driver would last that long. Every exchange gets a fault when nothing shows that the device
+/// still follows: kFailures updates have failed in a row, or none has ended for kPatience_ns,
+/// because the driver does not return. The device holds its last force meanwhile, so the loop must
+/// not take it for a healthy one.
 ///
 /// finish() is called by the thread that makes the updates, everything else by the one that
 /// exchanges.
@@ -111,7 +111,7 @@ class UpdateWatch {
     newest_.store(updates_);
   }
 
-  /// For one exchange.
+  /// The result that one exchange is to return.
   LinkFault report(int64_t now_ns) noexcept {
     newest_.try_load(last_);  // keeps the previous one while a new one is being written
     const bool is_new = last_.failed != reported_;

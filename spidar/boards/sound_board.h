@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What vibrates behind a sound card: up to four directions of force, no position.
+/// Vibrating actuators behind a sound card: up to four directions of force, no position.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace spidar::boards {
 
 /// Needs no guardian: the card stops by itself. The kernel stops it when this process ends, and
-/// what is written ends within the buffer of the card when it is stopped (SoundTransport).
+/// when this process is stopped, the card falls silent after its buffer (SoundTransport).
 class Sound final : public OnTransport<ForceBoard> {
  public:
   Sound(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})

@@ -42,10 +42,10 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   static constexpr int kHang_ms = 300;
 
   struct Options {
-    /// The fraction of the device's strength that is used, at most 1; 0: kDefaultGain, or all of a
-    /// device that only rumbles.
+    /// The fraction of the device's strength that is used, at most 1; 0: kDefaultGain, or all of it
+    /// for a device that only rumbles.
     double gain = 0;
-    /// The driver turns the force to the other side: right and up.
+    /// Whether the driver reverses the force, to the right and up.
     std::array<bool, 2> flipped{};
   };
 
@@ -74,7 +74,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   uint32_t buttons() const noexcept { return position_.buttons(); }
 
   std::vector<LastWill> last_wills() const;
-  /// What the open device can do.
+  /// The capabilities of the open device.
   const ff::Description& description() const noexcept { return description_; }
   size_t effects() const noexcept { return effect_count_; }
   double gain() const noexcept {
@@ -84,7 +84,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
  private:
   struct Effect {
     int16_t number = ff::kNewEffect;
-    int level = 0;       ///< that is set; for a rumble effect its strength
+    int level = 0;       ///< the level that is set; the strength of a rumble effect
     bool known = false;  ///< the level is known to be set
     int64_t played_ns = 0;
   };
@@ -98,21 +98,21 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// which earlier programs or the driver may have left otherwise, and which would scale the force
   /// or add to it. Until both have been accepted, no level is set.
   LinkFault take_settings() noexcept;
-  /// What makes the settings what they were: gain to full and, if the driver had turned it on,
-  /// autocentre by a ramp. Events that are kUpdate_ms apart.
+  /// The events that restore the settings: gain to full and, if the driver had turned it on,
+  /// autocentre by a ramp. They are to be sent kUpdate_ms apart.
   std::vector<ff::EventBytes> former_settings() const;
   void return_settings() noexcept;
-  /// Those of a device that was closed to be reopened, and was not.
+  /// Returns the settings of a device that was closed to be reopened, and was not.
   void return_settings_later() noexcept;
   bool thread_runs() const;
   int wanted_level(size_t effect) const noexcept;
-  /// Reads the position, sets one level, starts effects again, and notes how it ended.
+  /// Reads the position, sets one level, restarts effects, and notes the result.
   void update() noexcept;
   LinkFault read_and_set() noexcept;
   LinkFault set_one_level() noexcept;
   LinkFault refresh() noexcept;
   void end_effects() noexcept;
-  /// The time; in emulations that of the cycles, which need not take a millisecond.
+  /// The time; in emulations, that of the cycles, which need not take a millisecond each.
   int64_t now_ns() const noexcept;
   void run() noexcept;
 

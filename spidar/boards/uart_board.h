@@ -60,7 +60,7 @@ class Uart final : public Board {
   const std::vector<std::unique_ptr<Transport>> lines_;
   std::vector<Station> stations_;
   size_t motors_ = 0;
-  std::string first_description_;  ///< when it was opened first
+  std::string first_description_;  ///< from the first opening
   EncoderCounts counts_{16};
   std::array<uint8_t, uart_motor::kMaxCycleLength> out_{};
   std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};

@@ -64,10 +64,10 @@ inline constexpr double kMaxSd_m = 50e-6;
 inline constexpr int kMinSamples = 20;
 
 /// Calibrates from a grip that is moved and turned about. A sample has eight lengths and its pose
-/// six unknowns, which leaves two equations for the parameters that all samples share. Uses
-/// bundle adjustment of poses and shared parameters, robust (Huber) on the samples. The first
-/// sample is one near the centre, to some 2 cm and 20 degrees; where the counters were cleared does
-/// not matter.
+/// six unknowns, which leaves two equations for the parameters that all samples share. Uses bundle
+/// adjustment of poses and shared parameters, robust (Huber) on the samples. The first sample must
+/// be within some 2 cm and 20 degrees of the centre; where the counters were cleared does not
+/// matter.
 ///
 /// Throws std::invalid_argument when the profile has fewer than seven strings, or a count is not
 /// finite, or there are fewer than kMinSamples, or not as many columns as strings.

@@ -73,7 +73,8 @@ void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, dou
 /// freedom in units of σ².
 inline constexpr double kHuber = 2.448;
 
-/// A start: takes the first sample for one at the centre, and follows the grip from there.
+/// A starting bundle: assumes that the first sample is at the centre, and follows the grip from
+/// there.
 Bundle from_the_centre(const Model& model, const std::vector<StringVector>& paid_out_m);
 
 }  // namespace spidar::calibration

@@ -47,8 +47,8 @@ CountSamples record_counts(StringDevice& device, const Profile& profile, double 
                            const std::function<bool(double time_s)>& next_tick);
 
 /// Moves and rotates in all six directions at once, with incommensurable periods of about two to
-/// four seconds: by up to 0.4 of the frame's half-width and 0.45 rad in each direction. At the
-/// centre up to `time_s` = 0. Another `phase_rad` gives another motion.
+/// four seconds: by up to 0.4 of the frame's half-width and 0.45 rad in each direction. The grip is
+/// at the centre up to `time_s` = 0. Another `phase_rad` gives another motion.
 inline Pose hand_in_motion(const StringGeometry& geometry, double time_s, double phase_rad = 0) {
   constexpr double kFraction = 0.4, kTurn_rad = 0.45, kFadeIn_s = 1.0;
   constexpr double kRate_Hz[6] = {0.437, 0.361, 0.281, 0.251, 0.319, 0.397};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is to be known of a kind of device, from which its names, lists, errors, simulation and
-/// tests are made.
+/// The description of a kind of device, from which its names, lists, errors, simulation and tests
+/// are made.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,7 @@ struct DeviceInfo {
   /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
   /// no force until one is named (see profile_choice.h).
   std::string profile;
-  std::string memory_error;  ///< why what was confirmed cannot be read; may be empty
+  std::string memory_error;  ///< why confirmed profiles cannot be read; may be empty
   /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
   /// no strings.
   std::string profile_board;
@@ -47,24 +47,24 @@ struct DeviceKind {
   const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
   /// Profile::board of profiles for it; empty for one without strings.
   const char* profile_board = "";
-  UsbId usb;  ///< nothing for one that is not on USB
-  /// The board at the other end of this transport. Throws DeviceError when it cannot drive the
+  UsbId usb;  ///< vendor 0 for one that is not on USB
+  /// Makes the board at the other end of a transport. Throws DeviceError when it cannot drive the
   /// profile.
   boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
                              std::unique_ptr<Transport> transport) = nullptr;
   const char* board = "";  ///< "sh4", for sim:sh4; that of the real device if there is one only
   const char* names = "";  ///< how a real one may be named, separated by ", "
-  /// With which it is driven if none is named: its simulation, and the real one, too, if it has no
-  /// strings.
+  /// The profile with which its simulation is driven if none is named, and the real device, too, if
+  /// it has no strings.
   const char* profile = kDefaultProfile;
-  /// What device=auto says that it has chosen, of a device without strings: "a Novint Falcon".
-  /// Empty: it is used only if it is named.
+  /// What device=auto calls a device without strings that it has chosen: "a Novint Falcon". Empty:
+  /// such a device is used only if it is named.
   const char* chosen_as = "";
   /// How far the driver has been tested: "emulated", on a board that follows the published
-  /// description, or "inferred", in parts of it, which an emulation cannot confirm.
+  /// description, or "inferred", if parts of that are inferred, which an emulation cannot confirm.
   const char* evidence = "emulated";
   const char* note = "";  ///< what is inferred
-  boards::Traits traits;  ///< of a board with strings: what profiles have to fit
+  boards::Traits traits;  ///< of a board with strings; profiles have to fit them
   /// The emulation of the board, connected to these motors; null when there is none.
   std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
   /// The motors of the simulation, and the hand that holds them.
@@ -77,7 +77,7 @@ struct DeviceKind {
   /// Throws DeviceError when `rest` is wrong.
   boards::AnyBoard (*make)(const std::string& name, const std::string& rest,
                            const Profile& profile) = nullptr;
-  /// What is plugged in, as far as the system tells: the name, and what the kind does not say.
+  /// Lists what is plugged in, as far as the system tells: names, and what the kind does not say.
   std::vector<DeviceInfo> (*list)() = nullptr;
 
   bool has_strings() const noexcept { return *profile_board != '\0'; }

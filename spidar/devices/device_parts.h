@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the members of a DeviceKind are made of.
+/// Functions for the members of a DeviceKind.
 #pragma once
 
 #include <memory>
@@ -39,7 +39,7 @@ std::unique_ptr<emulated::Board> emulate(std::shared_ptr<emulated::Motors> motor
 
 // For DeviceKind::simulated_motors:
 
-/// What the board puts out has no effect.
+/// Motors on which the output of the board has no effect.
 inline std::shared_ptr<emulated::Motors> unconnected_motors(const Profile&,
                                                             const emulated::SimulatedMechanics&) {
   return std::make_shared<emulated::Motors>();

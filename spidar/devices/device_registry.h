@@ -13,8 +13,8 @@
 
 namespace spidar {
 
-/// In the order in which they are listed, and device=auto tries them: those with strings, then the
-/// others.
+/// All kinds, in the order in which they are listed and device=auto tries them: those with strings,
+/// then the others.
 const std::vector<DeviceKind>& devices();
 
 /// A device's name, split at its first colon.
@@ -29,11 +29,12 @@ struct DeviceName {
 /// The kinds that `device`, the part of a name before the colon, may mean.
 std::vector<const DeviceKind*> kinds_called(const std::string& device);
 
-/// Of "sim:sh4". Null when there is no such board, and for "sim".
+/// The kind that a name like "sim:sh4" simulates. Null if there is no such board, and for "sim".
 const DeviceKind* simulated_kind(const DeviceName& name);
 
-/// The board that its emulation answers, which needs no thread and no guardian. Throws DeviceError
-/// when the board cannot drive the profile, and std::invalid_argument as SimulatedDevice does.
+/// The driver of a board with its emulation behind it, which needs no thread and no guardian.
+/// Throws DeviceError when the board cannot drive the profile, and std::invalid_argument as
+/// SimulatedDevice does.
 boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
                                  const Profile& profile,
                                  const emulated::SimulatedMechanics& mechanics = {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A board on USB, which is looked for in every open(): the one that is plugged in and meant.
+/// Finds the board on USB that is plugged in and meant, in every open().
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class UsbSearch {
   UsbSearch(std::vector<const DeviceKind*> kinds, std::string name, std::string id);
 
   /// Opens the device that is meant. `open` opens a candidate and returns its rotary switch, −1
-  /// without one; `close` closes one that is another, or did not open. Throws DeviceError, which
+  /// without one; `close` closes one that is not meant, or did not open. Throws DeviceError, which
   /// lists what there is.
   void open(const std::function<int(const Candidate&)>& open, const std::function<void()>& close);
   /// Throws as open() would before it opens anything.
@@ -59,10 +59,10 @@ class UsbSearch {
   int first_rotary_ = -1;
 };
 
-/// Makes a board of each of `kinds`, all of which are of this type, and returns what LinkThread
-/// opens one of them with, see UsbSearch. Throws DeviceError when the boards cannot drive the
-/// profile; so does the result when the profile is for another kind of board than the one that is
-/// found.
+/// Makes a board of each of `kinds`, all of which are of this type, and returns the function with
+/// which LinkThread opens one of them, see UsbSearch. Throws DeviceError when the boards cannot
+/// drive the profile; so does the result when the profile is for another kind of board than the one
+/// that is found.
 template <typename BoardType>
 std::function<BoardType&()> usb_opener(const std::string& name, const std::string& id,
                                        const Profile& profile,

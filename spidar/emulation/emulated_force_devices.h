@@ -101,9 +101,9 @@ class Falcon final : public Board {
   Eigen::Vector3d angles_rad_ = Eigen::Vector3d::Constant(falcon::kAngleAtZero_rad);
   bool loader_ = false;  ///< started by toggling DTR, until the line is fast
   bool takes_firmware_ = false;
-  falcon::Packet packet_{};  ///< that is being received
+  falcon::Packet packet_{};  ///< the one that is being received
   size_t taken_ = 0;
-  std::array<uint8_t, 256> answer_{};  ///< that has not been read yet
+  std::array<uint8_t, 256> answer_{};  ///< bytes that have not been read yet
   size_t due_ = 0;
   bool timer_first_ = false;  ///< the next packet has only status bytes
 };

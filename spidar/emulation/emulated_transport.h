@@ -47,10 +47,10 @@ class Board {
   /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
   /// too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
-  /// Begins with what is in there, and keeps it there; it must outlive the board. Without it, the
-  /// board is one that was used before.
+  /// Starts with the given memory and keeps its state there; the memory must outlive the board.
+  /// Without it, the board is one that was used before.
   virtual void remember(Memory&) noexcept {}
-  /// Takes a request of the vendor; false where there is no such request.
+  /// Takes a vendor request; returns false if there is no such request.
   virtual bool control(const VendorRequest&) noexcept { return false; }
 
  protected:
@@ -60,7 +60,7 @@ class Board {
 /// No time passes: a reply is available at once or not at all.
 class Transport final : public spidar::Transport {
  public:
-  /// `fault` is that of every exchange. With kStall and kGone packets do not arrive; kBabble,
+  /// `fault` is the result of every exchange. With kStall and kGone packets do not arrive; kBabble,
   /// kShort and kWrongReply spoil the reply.
   explicit Transport(std::unique_ptr<Board> board,
                      std::shared_ptr<const std::atomic<LinkFault>> fault =

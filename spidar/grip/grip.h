@@ -30,7 +30,7 @@ struct GripAbilities {
   /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
   std::array<double, 3> half_room_m{};
 
-  /// Whether the grip can touch a picture, of which the depth is rendered.
+  /// Whether the grip can touch a picture, whose depth is rendered along the third axis.
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
@@ -50,19 +50,19 @@ struct SafetyLimits {
   double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
 };
 
-/// What does not change while a grip is open.
+/// The properties of a grip that do not change while it is open.
 struct GripTraits {
-  bool has_strings = true;  ///< those of a profile, which pull
+  bool has_strings = true;  ///< it has the strings of a profile, which pull
   bool can_fly = true;      ///< the wrench can throw a grip that nobody holds
   double radius_m = 0;      ///< at which a torque counts as a force; 0: torques do not count
   double drive_lag_s = 0;   ///< from a command to the force that follows
 };
 
-/// What a grip receives in a tick.
+/// The command that a grip receives in a tick.
 struct GripCommand {
-  Wrench wrench;  ///< on the hand: within the limits, and except by the brake no faster
-  /// The grip is faster than a hand: what throws it ends at once, and a damper begins at once. What
-  /// pushes it comes no faster than ever.
+  Wrench wrench;  ///< on the hand, within the limits; except by the brake, it changes no faster
+  /// The brake acts, see GripBrake: a force that throws the grip ends at once, and a damper begins
+  /// at once. A force that accelerates the grip rises no faster than otherwise.
   bool brakes = false;
   /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
   bool fresh = false;
@@ -74,25 +74,26 @@ struct GripCommand {
   int64_t now_ns = 0;
 };
 
-/// What is known of a grip after a tick. All but `pose` and what follows it is of the last command.
+/// The state of a grip after a tick, as far as it is known. The members before `pose` result from
+/// the last command.
 struct GripReport {
-  /// The wrench that the hand gets. Computed for `pose`, even if that is not known any more.
+  /// The wrench that the hand gets. Computed for `pose`, even if the pose is no longer known.
   Wrench delivered;
   StringVector tension_N = StringVector::Zero();  ///< commanded; zero for a grip without strings
   bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
 
   Pose pose;             ///< from the newest good reading
-  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
+  uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
   PoseFault pose_fault = PoseFault::kNotYet;
   double pose_residual_m = 0;
   int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
   double motor_heat = 0;   ///< of the warmest motor, see MotorHeat
 };
 
-/// The same, with what the loop alone needs.
+/// A GripReport, with what only the loop needs.
 struct GripReading : GripReport {
-  Wrench at_rest;              ///< what the strings exert of `delivered` without a command
-  double stored_J = 0;         ///< what the strings at rest give back on the way home
+  Wrench at_rest;              ///< the part of `delivered` that strings exert without a command
+  double stored_J = 0;         ///< the energy that the strings at rest give back on the way home
   GripMotion motion;           ///< of the poses; at rest while the pose is not known
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
   int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it
@@ -101,14 +102,14 @@ struct GripReading : GripReport {
   bool knows_pose() const noexcept { return pose_fault == PoseFault::kNone; }
 };
 
-/// What a hand holds, with the device behind it. It protects the device and what is between device
-/// and hand; what protects the hand is above it, in HapticLoop (docs/safety.md).
+/// The grip that a hand holds, with the device behind it. It protects the device and everything
+/// between device and hand; HapticLoop, above it, protects the hand (docs/safety.md).
 class Grip : public Openable {
  public:
   /// `device` outlives the grip, or belongs to it.
   explicit Grip(Openable& device) : Openable(device.name()), device_(device) {}
 
-  /// Time passes, also while the device is lost.
+  /// The given time, s, has passed; also while the device is lost.
   virtual void advance(double) noexcept {}
 
   /// To be called before the wrench of a tick is found: forgets a pose that is too old.
@@ -119,7 +120,7 @@ class Grip : public Openable {
   /// the last one that was answered. The pose can become known only while `command.wrench` is zero.
   virtual LinkFault exchange(const GripCommand& command) noexcept = 0;
 
-  /// What the last call has read.
+  /// What is known after the last call.
   virtual const GripReading& reading() const noexcept = 0;
 
   void close() noexcept final { device_.close(); }
@@ -128,9 +129,9 @@ class Grip : public Openable {
 
   virtual const GripTraits& traits() const noexcept = 0;
 
-  /// Until open(), those of most devices of its kind. Any thread.
+  /// Until open(), the abilities of most devices of this kind. Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
-  /// What a person should know of a device that works, but not as it should; empty if it does. Any
+  /// A message for the user about a device that works, but not as it should; empty if it does. Any
   /// thread.
   virtual std::string warning() const { return {}; }
 

@@ -15,7 +15,8 @@
 namespace spidar {
 
 /// 1 − exp(−x) for x = `dt_s` / `time_s`: the fraction of the way that a first-order low-pass goes.
-/// By a series of the third order, because a tick needs five of them; at x = 0.5 it is 0.3 % less.
+/// Computed with a series of third order, because a tick needs five of them; at x = 0.5 it is 0.3 %
+/// too small.
 inline double fraction_passed(double dt_s, double time_s) noexcept {
   if (!(time_s > 0)) return 1;
   const double x = dt_s / time_s;
@@ -34,9 +35,9 @@ struct GripVelocity {
 /// behind the newest pose. A coordinate with independent errors of standard deviation σ has a
 /// velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm) gives 1.5 mm/s.
 ///
-/// velocity_in() fits a parabola to the poses of the last kFitted_ns by least squares. No interval
-/// alone decides: one of 0.05 ms follows a tick that was late. How far poses can be wrong, and how
-/// much a grip accelerates, bound what few or crowded poses say; without any, the fit is
+/// velocity_in() fits a parabola to the poses of the last kFitted_ns by least squares. No single
+/// interval decides, because one of 0.05 ms follows a late tick. The error of poses and the
+/// acceleration of a grip bound what few or crowded poses can say; without poses, the result is
 /// velocity().
 class GripMotion {
  public:
@@ -115,17 +116,16 @@ class GripMotion {
 
   static constexpr int64_t kFitted_ns = 6'500'000;  ///< seven poses, if all ticks are in time
   static constexpr int64_t kApart_ns =
-      500'000;  ///< of any pose and the next but one: kPoses suffice
+      500'000;  ///< between a pose and the next but one, so that kPoses suffice
   static constexpr size_t kPoses = 2 * kFitted_ns / kApart_ns;
-  /// Two steps of the encoders, or what a hand at 0.5 m/s moves in 0.1 ms, by which a time of
-  /// reading is wrong.
+  /// Two encoder steps, or the way of a hand at 0.5 m/s in 0.1 ms, the error of a time of reading.
   static constexpr double kPoseError_m = 50e-6;
-  /// What a grip does: 3 N on the lightest, kLightestGrip_kg; and from velocity() within its lag.
-  /// Turns have the same proportions at the radius of a grip.
+  /// The largest acceleration, by 3 N on kLightestGrip_kg, and how far the velocity gets from
+  /// velocity() within its lag. Turns have the same proportions at the radius of a grip.
   static constexpr double kMost_m_s2 = 90;
   static constexpr double kMost_m_s = 0.3;
 
-  /// For the small angles of some ticks the rotation vector is twice the vector part.
+  /// The rotation vector: for the small angles of a few ticks, twice the vector part.
   static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {
     const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
     return (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();

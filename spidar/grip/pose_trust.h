@@ -53,7 +53,7 @@ class PoseTrust {
  public:
   /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
   static constexpr int kMaxMisses = 5;
-  /// Limit of the same in time, in case the ticks themselves are late.
+  /// The same limit as a time, in case the ticks themselves are late.
   static constexpr int64_t kPoseTimeout_ns = 50'000'000;
   /// Good poses in a row before the pose is trusted again.
   static constexpr int kGoodPoses = 20;
@@ -62,13 +62,13 @@ class PoseTrust {
   /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
   static constexpr double kJumpMargin_m = 2e-3;
 
-  /// Whether a grip that is so far from its newest pose has moved faster than a hand can.
+  /// Whether a grip at `way_m` from its newest pose has moved faster than a hand can.
   bool is_jump(double way_m, int64_t read_ns) const noexcept {
     const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
     return located_ && way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
-  /// When a pose was read in the tick of `now_ns`, if the device says `read_ns`. Where that is no
-  /// time of this clock, or older than any pose that is trusted, it is the tick's.
+  /// When a pose was read in the tick of `now_ns`, if the device says `read_ns`. If that is no time
+  /// of this clock, or older than any trusted pose can be, the time of the tick counts.
   static int64_t time_of(int64_t read_ns, int64_t now_ns) noexcept {
     return std::abs(read_ns - now_ns) < kPoseTimeout_ns ? read_ns : now_ns;
   }
@@ -84,7 +84,8 @@ class PoseTrust {
     good_poses_ = std::min(good_poses_ + 1, kGoodPoses);
     if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
   }
-  /// There is no good pose. `at_once`: nor is the previous one the present one.
+  /// There is no good pose. `at_once`: trust ends now, because the previous pose is not the present
+  /// one either.
   void fail(PoseFault fault, bool at_once = false) noexcept {
     if (at_once) misses_ = kMaxMisses;
     good_poses_ = 0;

@@ -24,13 +24,14 @@ namespace spidar {
 /// nor throws after construction.
 class GripWatch {
  public:
-  /// At this rotation, strings from all sides have tangled long before.
+  /// Largest accepted rotation: strings from all sides would have tangled long before.
   static constexpr double kMaxTurn_rad = 2.1;
   /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and by more than a
-  /// tenth when by the least that it feels, kFeltForce_N; it trembles by as much. A count is some
-  /// hundredths of a millimetre. If no counter has moved while the force was another one for
-  /// kFrozenAfter_s, or for as much longer as the change is smaller, the counters do not work.
-  /// Friction may hold a grip against a change that no hand feels, which therefore tells nothing.
+  /// tenth of one when it changes by kFeltForce_N, the least that a hand feels; a hand trembles by
+  /// as much. A count is some hundredths of a millimetre. If no counter has moved for
+  /// kFrozenAfter_s since the force changed, or longer in proportion after a smaller change, the
+  /// counters do not work. Friction may hold a grip against a change that no hand feels, which
+  /// therefore tells nothing.
   static constexpr double kFrozenForce_N = 0.5;
   static constexpr double kFrozenAfter_s = 0.5;
 
@@ -51,9 +52,9 @@ class GripWatch {
   bool trusted() const noexcept { return trust_.trusted(); }
   /// kNone while trusted.
   PoseFault fault() const noexcept { return trust_.fault(); }
-  /// The newest good one, trusted or not.
+  /// The newest good pose, trusted or not.
   const Pose& pose() const noexcept { return pose_; }
-  /// When it was read.
+  /// When that pose was read.
   int64_t located_ns() const noexcept { return trust_.located_ns(); }
   double residual_m() const noexcept { return residual_m_; }
   /// See PoseResult.
@@ -87,9 +88,9 @@ class GripWatch {
   double pushed_s_ = 0;    ///< for how long the command has differed from it by kFrozenForce_N
 };
 
-/// A wrench becomes tensions, tensions become volts; counts become lengths, lengths a pose. It
-/// keeps the strings taut, limits their tensions, the rate of these and the heat of the motors,
-/// leaves out a string that is slack or broken, and notices encoders that are dead.
+/// Converts a wrench to tensions, and these to volts; counts to lengths, and these to a pose. Keeps
+/// the strings taut, limits their tensions, how fast these change, and the heat of the motors,
+/// leaves out a string that is slack or broken, and notices dead encoders.
 class StringGrip final : public Grip {
  public:
   /// `device` outlives the grip. Throws std::invalid_argument when the profile has fewer than six

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the commanded wrench to the volts of each motor: tensions, their steps and the heat of the
-/// windings. None of it allocates, locks or throws.
+/// Converts the commanded wrench to the volts of each motor: tensions, the bound of their change,
+/// and the heat of the windings. None of it allocates, locks or throws.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class MotorHeat {
   static constexpr double kLimitFrom = 0.8;
 
   explicit MotorHeat(const Profile& profile) : profile_(profile) {
-    // A profile that was not read from a file may lack it.
+    // A profile that was not read from a file may lack the continuous tension.
     for (StringDrive& drive : profile_.drives) {
       if (!(drive.continuous_tension_N > 0)) drive.continuous_tension_N = drive.max_tension_N / 2;
     }
@@ -69,9 +69,9 @@ class TensionSlew {
  public:
   /// Shortest time in which a string passes through its whole range, …
   static constexpr double kRange_s = 0.02;
-  /// … unless the range is so small that a wrench, which may change as fast as by SafetyLimits,
-  /// would be held up: weak motors need all of it for a few newtons, and a force that a brake takes
-  /// away would go on accelerating the grip.
+  /// … unless the range is so small that it would hold up a wrench, which may change as fast as
+  /// SafetyLimits permit: weak motors need all of their range for a few newtons, and a force that a
+  /// brake takes away would go on accelerating the grip.
   static constexpr double kLeast_N_s = 300;
 
   static double pace_N_s(const StringDrive& drive) noexcept {
@@ -114,12 +114,12 @@ class TensionCommand {
   /// (docs/strings.md).
   static constexpr double kTensionPerForce = 4;
 
-  /// Two ticks: until the next exchange, and one that is late.
+  /// Two ticks: the one until the next exchange, and one more if that is late.
   static constexpr double kAhead_s = 2e-3;
-  /// Where the strings cannot give a force alone, least squares leaves a torque beside it: within
-  /// 2 cm and 20° that of a lever of 0.3 to 0.6 of the grip's radius. A torque up to this
-  /// lever times the limit of the force never exceeds the limit of the torque, because only a
-  /// smaller force would lower it.
+  /// Lever, as a fraction of the grip's radius, of the torque that least squares leaves beside a
+  /// force that the strings cannot give alone: 0.3 to 0.6 within 2 cm and 20°. A torque up to this
+  /// lever times the force limit never counts as above the torque limit, because only a smaller
+  /// force would lower it.
   static constexpr double kStrayLever = 0.5;
 
   /// The pace of fade() when the pose is lost: a string may have broken, and the others pull with
@@ -134,7 +134,7 @@ class TensionCommand {
   ///
   /// Away from the centre the tensions at rest pull the grip back a little. That wrench stays as it
   /// is, and `wrench` comes on top of it, because it generates no energy only while nothing removes
-  /// it and restores it elsewhere. None is kept while a string is left out.
+  /// it and restores it elsewhere. No such wrench is kept while a string is left out.
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
@@ -150,9 +150,9 @@ class TensionCommand {
   StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                      const GripMotion& motion) noexcept;
 
-  /// Without a wrench that is wanted or a pose that is known: takes `wrench`, which is ramping to
-  /// zero, as a fraction of the wrench of the last solve(), and returns the tensions to rest by the
-  /// same fraction, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
+  /// For a tick without a wanted wrench or a known pose: takes `wrench`, which is ramping to zero,
+  /// as a fraction of the wrench of the last solve(), and returns the tensions to rest by the same
+  /// fraction, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the

@@ -21,9 +21,9 @@ struct LastWill {
     kInput,     ///< an input device: each packet is an InputEvent
     kSocket,    ///< a stream socket, to which packets are written
   };
-  /// An event of the type EV_FF. The guardian makes the kernel's structure of it, which has another
-  /// size in a 32-bit program than in a 64-bit one, while a host and its guardian may differ in
-  /// that (Multi-Arch).
+  /// An event of the type EV_FF. The guardian converts it to the kernel's structure, whose size
+  /// differs between 32-bit and 64-bit programs, because a host and its guardian may differ in that
+  /// (Multi-Arch).
   struct InputEvent {
     uint32_t code = 0;
     int32_t value = 0;
@@ -41,8 +41,8 @@ struct LastWill {
   uint32_t settings = 0;
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
-  /// Of an input device: what makes its settings what they were before it was driven, one event
-  /// every kSetting_ms. Sent after the packets when the host has ended and its motors had pulled.
+  /// For an input device: the events that restore its settings from before it was driven, one every
+  /// kSetting_ms. Sent after the packets when the host has ended and its motors had pulled.
   std::array<InputEvent, kMaxSettings> setting{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
   /// open file, so that the host's claim is also valid for the guardian. The number of the
@@ -68,14 +68,14 @@ constexpr int kAnswer_ms = 80;
 #endif
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
-/// the last, which shows the host that its guardian is running.
+/// kDismissed; the answers show the host that its guardian is running.
 enum class HostWord : char {
   kPulling = 'p',    ///< the motors pull: the next message must follow soon
   kResting = 'r',    ///< they are at zero: the host may be silent
   kDismissed = 'q',  ///< the guardian is to end without sending the packets
 };
 
-/// Answers of the guardian; the first one is that it is ready.
+/// Answers of the guardian; the first one says that it is ready.
 enum class GuardianWord : char {
   kWatching = 'w',
   /// The host sent no message in time, and the guardian has sent the zeros. It sends them again
@@ -95,8 +95,8 @@ enum class GuardianWord : char {
 class Guardian {
  public:
   /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does
-  /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one. It has a session of its
-  /// own, and where systemd runs a scope of its own, so that it survives what ends or freezes the
+  /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one. It has a session of its own
+  /// and, where systemd runs, a scope of its own, so that it survives what ends or freezes the
   /// control group of this process. If $SPIDAR_GUARDIAN is a socket (SOCK_SEQPACKET), a service
   /// behind it starts the guardian.
   Guardian(const std::string& device, const LastWill& will);
@@ -139,7 +139,7 @@ class Guardian {
   bool pulling_ = false;  ///< as the guardian knows it
   bool zeroed_ = false;   ///< the motors, by the guardian
   int64_t said_ns_ = 0;
-  int64_t unanswered_ns_ = 0;  ///< since when; 0: all is answered
+  int64_t unanswered_ns_ = 0;  ///< time since which no answer has come; 0: all is answered
 };
 
 }  // namespace spidar

@@ -11,24 +11,24 @@
 
 namespace spidar {
 
-/// Owns the limits of a loop, which everything in it reads: what was set, what is in effect, and
-/// how one that was lowered comes down. One that is raised takes effect at once; the force
-/// approaches it at the slew limit. One that is lowered falls at the slew limit from what the hand
-/// gets, the larger one of what is commanded and delivered, until it is as low as it was set. It
-/// does not stop at what the strings exert at rest, which is a part of what is delivered that no
-/// limit lowers.
+/// Owns the limits of a loop, which everything in it reads: those that were set, and those in
+/// effect. A raised limit takes effect at once; the force approaches it at the slew limit. A
+/// lowered limit falls at the slew limit, from the larger one of the commanded and the delivered
+/// force, to the value that was set. It does not stop at the force of the strings at rest, a part
+/// of the delivered force that no limit lowers. The same holds for the torque.
 class ForceLimits {
  public:
-  /// However high the limit of the force is set, it is no higher than `most_N`.
+  /// `most_N` bounds the force limit, however high it is set.
   ForceLimits(const SafetyLimits& limits, double most_N) noexcept
       : most_N_(most_N), shared_(limits), set_(bounded(limits)), now_(set_), before_(set_) {}
 
-  /// Holds from the next fall() or restart() on. Any thread, one caller at a time.
+  /// Takes effect with the next fall() or restart(). Any thread, one caller at a time.
   void set(const SafetyLimits& limits) noexcept { shared_.store(limits); }
 
   // --- loop thread
 
-  /// A tick begins, `dt_s` after the last one, of which these are the wrenches.
+  /// A tick begins, `dt_s` after the last one, in which the wrenches were `commanded` and
+  /// `delivered`.
   void fall(const Wrench& commanded, const Wrench& delivered, double dt_s) noexcept {
     take();
     now_ = set_;
@@ -58,7 +58,7 @@ class ForceLimits {
     limits.max_force_N = std::min(limits.max_force_N, most_N_);
     return limits;
   }
-  /// Keeps those of the last tick while others are being written.
+  /// Keeps the limits of the last tick while new ones are being written.
   void take() noexcept {
     before_ = now_;
     if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Keeps a grip slow that nobody holds.
+/// Slows down a grip that nobody holds.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// The speeds between which a force along the motion fades out, and what slows the grip down above
-/// the lower one.
+/// The speeds between which a force along the motion fades out, and the damping above the lower
+/// one.
 struct FadeBand {
   double from_m_s = 0, to_m_s = 0;
   double damping_N_s_m = 0;
@@ -19,44 +19,46 @@ struct FadeBand {
 
 /// Measures against a force that accelerates a released grip:
 ///
-/// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, a torque in the
-///   same way, with the speed of the strings' ends. With the speed of the grip, the whole torque
-///   fades out, because the damper needs the strings. Both speeds are lower for a grip to which the
-///   strings have given more energy than a light one has at them: it is heavy, or in a hand; and
-///   for one in a hand that swings back after a film has bent it. They are those of the time at
-///   which the force acts, foreseen by the present acceleration. Above kNoRise_m_s, a force along
-///   the velocity does not rise.
-/// - A damper acts above the lower speed. Its damping follows the mass, which is twice that energy
-///   by the square of the speed. There is none while the strings have given less than the lightest
-///   grip has at its speed: then a hand moves it, and is not to feel it.
+/// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, and a torque with
+///   the speed of the strings' ends. The whole torque also fades out with the speed of the grip,
+///   because the damper needs the strings. Both limits are lower for a grip to which the strings
+///   have given more energy than a light one has at these speeds, because it is heavy or in a hand;
+///   and for a grip in a hand that swings back after a film has bent it. The speed is that of the
+///   time at which the force acts, extrapolated with the present acceleration. Above kNoRise_m_s, a
+///   force along the velocity does not rise.
+/// - A damper acts above the lower speed. Its damping is proportional to the mass, which is twice
+///   that energy divided by the square of the speed. There is none while the strings have given
+///   less energy than the lightest grip has at its speed: then a hand moves the grip, and must not
+///   feel the damper.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
 ///   faster than kFastest_rad_s, or moves as the strings alone would move an unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
 ///   still is no hand.
-/// - It also goes to rest again if the grip yields to the force that returns as only a loose hand
-///   lets it yield, or none. Such a grip follows slowly, so that its speed does not give it away,
+/// - It also goes to rest again if the grip yields to the returning force as far as only a loose
+///   hand, or none, lets it. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
-///   film reverses its force. So does one that has followed a force to where the strings at rest
-///   balance it; its wrench fades out until they store little. Until a hand has withstood a force,
-///   a fast grip that has gone far along the force is one that yields, too. With a slow one, and
-///   with one that comes back from a swing as far as that, fading and damping begin kEarlier_m_s
-///   below their speeds: what the hand and the strings at rest have stored comes on top of a force
-///   that is reversed.
-/// - Until a hand has withstood a force, what the strings at rest have stored is taken off
-///   kReleased_J, and the speeds are lower accordingly. Else a film pushes a heavy grip to where no
-///   string can brake it, and those at rest throw it back. For the same reason, a force outwards
-///   fades to kProbes_N while they store the last of kReleased_J.
+///   film reverses its force. A grip that has followed a force to where the strings at rest balance
+///   it stores energy, too; its wrench fades out until they store little. Until a hand has
+///   withstood a force, a fast grip that has gone far along the force counts as yielding, too. For
+///   a slow one that has gone as far, and for one that swings back from there, fading and damping
+///   begin kEarlier_m_s below their speeds: what the hand and the strings at rest have stored adds
+///   to a reversed force.
+/// - Until a hand has withstood a force, the energy that the strings at rest have stored is
+///   subtracted from kReleased_J, and the speeds are lower accordingly. Otherwise a film would push
+///   a heavy grip to where no string can brake it, and the strings at rest would throw it back. For
+///   the same reason, an outward force fades to kProbes_N as that energy rises from kFarOut of
+///   kReleased_J to all of it.
 ///
-/// What fades out ends at once, at no slew limit: 10 N that fell by 300 N/s would throw a grip of
-/// 50 g at 3.5 m/s. It returns at the slew limit.
+/// A fading force falls at once, without a slew limit: 10 N that fell at 300 N/s would throw a grip
+/// of 50 g at 3.5 m/s. It returns at the slew limit.
 ///
 /// The speeds, times and fractions are in brake_table.h, with their sources.
 ///
-/// A hand that follows the force of a film notices none of them: with 300 N/m and 8 N s/m it moves
-/// at no more than 0.45 m/s when a force of 3 N is reversed.
+/// A hand that follows the force of a film notices none of these measures: with 300 N/m and 8 N s/m
+/// it moves at no more than 0.45 m/s when a force of 3 N is reversed.
 class GripBrake {
  public:
-  /// `radius_m` is where a torque acts as a force.
+  /// `radius_m` is the lever at which a torque counts as a force.
   GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
 
   /// The pose is not known, or the device was opened: forgets the motion. A grip that was released
@@ -65,23 +67,24 @@ class GripBrake {
   /// Nobody holds the grip.
   void release() noexcept;
 
-  /// Position and velocity after an exchange, `dt_s` after the last call, and what the strings at
-  /// rest have stored there.
+  /// Takes position and motion after an exchange, `dt_s` after the last call, and the energy that
+  /// the strings at rest have stored there.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
            double dt_s) noexcept;
-  /// The wrench that is commanded to the strings until the next exchange, and the one of their
-  /// rest, which is a part of it.
+  /// Takes the wrench that the strings are to exert until the next exchange, and the part of it
+  /// that they exert at rest.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
-  /// What is left of the wrench that is wanted.
+  /// Returns what the brake leaves of the wanted wrench.
   Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
 
   /// After apply(): whether cut() and damper() may change anything.
   bool acts() const noexcept;
-  /// What is left of `slewed`, which follows the last apply() at the slew limit: along the motion
-  /// no more than that. If it is not `fresh`, it is on its way to rest, and all of it fades.
+  /// Returns what the brake leaves of `slewed`, which follows the result of the last apply() at the
+  /// slew limit: along the motion, no more than that result. If not `fresh`, `slewed` is on its way
+  /// to rest, and all of it fades.
   Wrench cut(const Wrench& slewed, bool fresh) const noexcept;
-  /// What slows the grip down, to be added to that.
+  /// The wrench that slows the grip down, to be added to the result of cut().
   const Wrench& damper() const noexcept { return damper_; }
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
@@ -105,9 +108,9 @@ class GripBrake {
   const double drive_lag_s_;
   // What the strings gave an unheld grip in the last kMemory_s, and what was seen.
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded
-  Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();     ///< what of it pulls to the centre
-  Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
-  Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();     ///< as late as the velocity is
+  Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();  ///< the part of it that strings at rest exert
+  Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();  ///< after the drive's lag
+  Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();    ///< as late as the velocity is
   Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d seen_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_m_s_ = Eigen::Vector3d::Zero();
@@ -122,15 +125,15 @@ class GripBrake {
   double swung_J_ = 0;  ///< what a hand that gave way to the film gives back, fading
   double work_J_ = 0;   ///< what the strings have given the grip since it was last at rest
   // Of the last apply().
-  GripVelocity then_;  ///< when its force will act
+  GripVelocity then_;  ///< at the time when the force acts
   FadeBand band_;
   Wrench left_;
   Wrench damper_;
-  bool balanced_ = false;   ///< whether the strings at rest balance what has brought it there
+  bool balanced_ = false;   ///< whether the strings at rest balance the force on the grip
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
   double loose_s_ = 0;      ///< for how long the grip still counts as one that has stored energy
-  double fraction_ = 1;     ///< of the wrench
-  double resting_s_ = 0;    ///< until it begins to return
+  double fraction_ = 1;     ///< of the wanted wrench that is passed on
+  double resting_s_ = 0;    ///< time until the wrench begins to return
 };
 
 }  // namespace spidar

@@ -57,7 +57,7 @@ class HapticLoop {
  public:
   /// Time in which tensions rise from zero to rest after the device is opened.
   static constexpr double kEnergise_s = 0.2;
-  /// Time in which they fall to zero before it is closed.
+  /// Time in which tensions fall to zero before the device is closed.
   static constexpr double kRelease_s = 0.05;
   /// Number of failed exchanges in a row after which a device is lost.
   static constexpr int kMaxErrors = 20;
@@ -91,8 +91,8 @@ class HapticLoop {
     touch_mailbox_.store(touch, std::memory_order_release);
   }
 
-  /// Asked for a wrench in every tick in which the pose is known; it is added to the wanted wrench,
-  /// before every safety step.
+  /// The callback is asked for a wrench in every tick in which the pose is known. Its wrench is
+  /// added to the wanted one, before every safety step.
   WrenchCallback& callback() noexcept { return callback_; }
   const WrenchCallback& callback() const noexcept { return callback_; }
 
@@ -101,8 +101,8 @@ class HapticLoop {
 
   /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
-  /// One caller at a time. From the next tick on, the force approaches another total limit at the
-  /// slew limit. No more than released_force_N() is given to a grip that can fly.
+  /// One caller at a time. From the next tick on, the force approaches a new total limit at the
+  /// slew limit. A grip that can fly gets at most released_force_N().
   void set_limits(const SafetyLimits& limits) noexcept { limits_.set(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
@@ -110,10 +110,11 @@ class HapticLoop {
   /// Time from when each frame was due on the screen until its wrench was reached.
   const LatencyHistogram& skew() const noexcept { return schedule_.skew(); }
 
-  /// Returns every tick in order, for one reader. Ticks are dropped if they are not read.
+  /// Takes the oldest tick that was not read, for one reader. Ticks are dropped if they are not
+  /// read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
-  /// Takes the oldest tick's force alone, for another reader. kForces are kept; later ones are
-  /// dropped until some are taken.
+  /// Takes only the forces of the oldest tick, for another reader. Those of kForces ticks are kept;
+  /// later ones are dropped until some are taken.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Why a lost device cannot be opened again although something is there, such as another device
@@ -121,7 +122,7 @@ class HapticLoop {
   /// because the first may pass: udev needs a moment to permit what is plugged in.
   std::string refusal() const;
 
-  /// Its description, name and health.
+  /// The grip, for its description, name and health.
   const Grip& grip() const noexcept { return *grip_; }
 
   /// From the next tick on, all that pulls ramps to zero; see released().
@@ -129,10 +130,10 @@ class HapticLoop {
 
   // --- loop thread, or while there is none
 
-  /// What is left for this hand, to be taken over from and by other loops.
+  /// The vibration budget of the hand, which one loop takes over from another.
   VibrationBudget& vibration() noexcept { return vibration_; }
 
-  /// Opens the grip. The following ticks switch on what pulls. Throws DeviceError.
+  /// Opens the grip. The following ticks energise it. Throws DeviceError.
   void open();
 
   /// Runs one cycle at `now_ns` for the given deadline (both CLOCK_MONOTONIC). Neither allocates,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is to be rendered at which running time: from the streaming thread to the loop.
+/// The wrenches to render, by running time: the streaming thread pushes them, the loop finds them.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace spidar {
 
-/// A wrench is sent earlier by the delay of the device, as far as the film is known ahead: where it
-/// is known for less time, the device renders it late, and evenly so.
+/// Sends a wrench earlier by the delay of the device, as far as the film is known ahead. Where it
+/// is known for less time than that, the device renders the wrench late, by an even delay.
 class LookAhead {
  public:
   /// The time to ask for at `running_ns`, with wrenches known up to `known_ns`. It hardly ever goes
-  /// back, and does not pass what is known before `running_ns` does: then the film has stopped, and
-  /// the wrench expires.
+  /// back, and passes `known_ns` only after `running_ns` has: then the film has stopped, and the
+  /// wrench expires.
   int64_t ask_for(int64_t running_ns, int64_t lag_ns, int64_t known_ns) noexcept {
     const int64_t passed_ns = std::clamp<int64_t>(running_ns - before_ns_, 0, kLongest_ns);
     before_ns_ = running_ns;
@@ -39,16 +39,16 @@ class LookAhead {
   int64_t late_ns() const noexcept { return late_ns_; }
 
  private:
-  /// Between two frames, the film is known for less and less time, and the least of these counts.
-  /// After it has become more, wrenches follow one another faster by this part of their time, 10 %,
-  /// until the delay is made up for.
+  /// Between two frames, the time for which the film is known ahead shrinks, and its minimum
+  /// counts. When it has grown, wrenches follow one another faster by 1/kCatchUp, 10 %, until the
+  /// delay is made up for.
   static constexpr int64_t kCatchUp = 10;
-  /// Of a step of time that counts, so that a jump does not.
+  /// The longest step of time that counts, so that a jump counts as no more.
   static constexpr int64_t kLongest_ns = 10'000'000;
   static constexpr int64_t kFarAhead_ns = INT64_MAX / 2;
 
   int64_t before_ns_ = 0;
-  int64_t ahead_ns_ = kFarAhead_ns;  ///< for which the film is known in any case
+  int64_t ahead_ns_ = kFarAhead_ns;  ///< for which the film is always known ahead
   int64_t late_ns_ = 0;
 };
 
@@ -93,11 +93,12 @@ class LoopSchedule {
 
   /// How much later than its frame the device renders what was found last.
   int64_t late_ns() const noexcept { return look_ahead_.late_ns(); }
-  /// How much later than its motion the wrench of the frame reached last was met, because the frame
+  /// How much later than its motion the wrench of the frame reached last came, because the frame
   /// became known too late.
   int64_t motion_late_ns() const noexcept { return motion_late_ns_; }
 
-  /// Wrenches whose time was not later than that of the previous one, since the last call.
+  /// Number of wrenches, since the last call, whose time was not later than that of the previous
+  /// one.
   uint64_t take_refused() noexcept;
 
  private:

@@ -50,7 +50,7 @@ class LoopThread {
     thread_ = start_thread("spidar-haptic", std::move(body));
     scheduling_ = scheduling.get();
   }
-  /// stop()
+  /// Calls stop().
   ~LoopThread() { stop(); }
 
   /// Ramps to zero, closes the device, ends the thread. Safe to call twice.
@@ -78,7 +78,7 @@ class LoopThread {
       if (loop_.lost() && end >= next_try) {
         loop_.reopen();
         next_try = monotonic_now_ns() + kRetry_ns;
-        // The duration of this says nothing about the scheduler.
+        // The duration of reopen() says nothing about the scheduler.
         deadline = monotonic_now_ns() + kTick_ns;
       }
     }

@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// The largest stiffness for drives whose lag nobody has measured, N/m, and the lag to assume for
-/// them. With both, no contact gave out more than 0.1 µJ, with lags from 2 to 5 ms, grips of 0.05
+/// them. With both, no contact released more than 0.1 µJ, with lags from 2 to 5 ms, grips of 0.05
 /// to 0.3 kg, and hands of 0.05 to 2 N s/m (bench_touch_strings).
 constexpr double kUnmeasuredStiffness_N_m = 200;
 constexpr double kUnmeasuredLag_s = 0.005;

@@ -61,8 +61,8 @@ constexpr const char* to_string(Found found) noexcept {
   return "unknown";
 }
 
-/// One tick. Also the row of the haptic trace. Of a tick in which the device was lost, the report
-/// of the grip has its last pose, and neither wrench nor tensions.
+/// One tick. Also the row of the haptic trace. In a tick in which the device was lost, the report
+/// of the grip has the last pose, and neither wrench nor tensions.
 struct TickRecord : GripReport {
   uint64_t tick = 0;             ///< 1 for the first after open()
   int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at which it began
@@ -70,15 +70,16 @@ struct TickRecord : GripReport {
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
   int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
   Found found = Found::kNothing;
-  /// From the timeline, plus the contact force and the callback's wrench; zero without any of them.
+  /// The wrench from the timeline, plus the contact force and the callback's wrench; zero without
+  /// any of them.
   Wrench wanted;
-  /// After the four steps of wrench_limits.h. If not acknowledged, the one of the last acknowledged
-  /// tick, within the limits of this one.
+  /// The wrench after the four steps of wrench_limits.h. If not acknowledged, the one of the last
+  /// acknowledged tick, within the limits of this one.
   Wrench commanded;
   bool acknowledged = true;  ///< the device has answered
-  GripVelocity velocity;     ///< GripMotion::kLag_s behind `pose`; zero while that is not trusted
-  bool brakes = false;       ///< see GripCommand
-  bool held = true;  ///< false: nobody holds the grip, and the wrench is at rest or returning
+  GripVelocity velocity;  ///< GripMotion::kLag_s behind `pose`; zero while the pose is not trusted
+  bool brakes = false;    ///< see GripCommand
+  bool held = true;       ///< false: nobody holds the grip, and the wrench is at rest or returning
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
   bool called_back = false;  ///< the application's callback was asked
@@ -87,7 +88,7 @@ struct TickRecord : GripReport {
   touch::Contact contact;  ///< with the touched surface; its force is part of `wanted`
 };
 
-/// What a plot shows of one tick.
+/// The forces of one tick, for a plot.
 struct ForceTick {
   int64_t monotonic_ns = 0;
   Eigen::Vector3d wanted_N = Eigen::Vector3d::Zero();
@@ -106,7 +107,7 @@ struct LoopCounters {
   uint64_t pose_errors = 0;
   uint64_t string_faults = 0;      ///< how often a string became faulty, or a different one did
   uint64_t rejected_wrenches = 0;  ///< not finite
-  uint64_t refused_wrenches = 0;   ///< their time is not later than that of the previous one
+  uint64_t refused_wrenches = 0;   ///< whose time is not later than that of the previous one
   uint64_t times_lost = 0;
   uint64_t held_back_ticks = 0;  ///< in which the strings got less than was wanted, see GripReport
 };

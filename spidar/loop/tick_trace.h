@@ -29,7 +29,7 @@ std::string trace_header();
 /// means no frame, becomes −1.
 void append_row(const TickRecord& record, std::string& csv);
 
-/// The file. One thread at a time, which does not wait for the file (LineWriter).
+/// The trace file. Used by one thread at a time, which does not wait for the file (LineWriter).
 class TickTrace {
  public:
   /// Creates or empties the file. Throws TraceError.
@@ -37,11 +37,11 @@ class TickTrace {
 
   void add(const TickRecord& record) noexcept;
 
-  /// Returns when all rows are written, or what they go to stands still.
+  /// Returns when all rows are written, or the other end of the file stands still.
   void flush() noexcept;
 
-  /// Of the rows. Ticks that are missing count as dropped, and after a failure, which ends the
-  /// trace, all rows.
+  /// The status of the rows. Missing ticks count as dropped, as do all rows after a failure, which
+  /// ends the trace.
   LineWriter::Status status() const noexcept;
 
  private:
@@ -63,7 +63,7 @@ class TraceThread {
   /// Writes all records so far, as far as they are taken.
   void drain() noexcept;
 
-  /// As of the last time that records were taken; without waiting for the file.
+  /// The status when records were last taken. Does not wait for the file.
   LineWriter::Status status() const noexcept;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// What a callback is given.
+/// The input of a callback.
 struct CallbackInput {
   Pose pose;
   GripVelocity velocity;  ///< GripMotion::kLag_s behind the pose
@@ -30,16 +30,16 @@ class WrenchCallback {
   using Function = std::function<Wrench(const CallbackInput&)>;
 
   static constexpr int64_t kLongest_ns = 500'000;
-  static constexpr int kSlowInARow = 20;  ///< fewer can be the scheduler's
+  static constexpr int kSlowInARow = 20;  ///< fewer may be due to the scheduler
 
   enum class State { kNone, kRuns, kThrew, kTooSlow };
 
   ~WrenchCallback() { set({}); }
 
-  /// Replaces the function; an empty one removes it. When this returns, the one before does not
-  /// run any more. Not from within the function. May allocate. `passive`: the hand gets no more
-  /// energy than it has put in since the function last returned no force, and there is no torque;
-  /// `drive_lag_s` ≥ 0 is that of the device, for this.
+  /// Replaces the function; an empty one removes it. When this returns, the previous function no
+  /// longer runs. Not to be called from within the function. May allocate. `passive`: the hand gets
+  /// no more energy than it has put in since the function last returned no force, and there is no
+  /// torque; this needs `drive_lag_s` ≥ 0, the lag of the device.
   void set(Function function, bool passive = true, double drive_lag_s = 0.005);
 
   State state() const noexcept { return state_.load(std::memory_order_acquire); }
@@ -50,12 +50,12 @@ class WrenchCallback {
 
   bool is_set() const noexcept { return called_.load(std::memory_order_relaxed) != nullptr; }
 
-  /// The wrench of this tick, in which the safety chain applies these limits to it and to
-  /// `beside_N`, the other force.
+  /// Returns the wrench of this tick. The safety chain applies `limits` to its sum with `beside_N`,
+  /// the other force of the tick.
   Wrench call(const CallbackInput& input, const Eigen::Vector3d& beside_N,
               const SafetyLimits& limits) noexcept;
 
-  /// A tick in which the pose is not known.
+  /// To be called in a tick in which the pose is not known or the loop is closing.
   void rest() noexcept {
     budget_ = {};
     has_position_ = false;
@@ -75,9 +75,9 @@ class WrenchCallback {
   void stop(State why) noexcept;
 
   std::unique_ptr<Called> owned_;
-  uint64_t set_ = 0;  ///< so many functions
+  uint64_t set_ = 0;  ///< number of functions so far
   std::atomic<Called*> called_{nullptr};
-  std::atomic<Called*> running_{nullptr};  ///< its call has not returned
+  std::atomic<Called*> running_{nullptr};  ///< whose call has not returned; null if none
   std::atomic<State> state_{State::kNone};
   std::array<char, 160> thrown_{};
   // Loop thread only.

@@ -19,9 +19,9 @@ namespace spidar {
 /// not finite becomes zero.
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
-/// Returns the wrench `dt_s` after `last`, with a bounded change of force and torque per second.
-/// What exceeds the total limits, because they were lowered, comes straight down to them before it
-/// turns to what is wanted: on a way aside, it would fall by less than each step. There is no step
+/// Returns the wrench `dt_s` after `last`, with a bounded change of force and torque per second. A
+/// wrench above the total limits, because they were lowered, comes straight down to them before it
+/// turns towards `wanted`: on a way aside, it would fall by less than each step. There is no step
 /// towards `wanted` if it is not finite, or if `dt_s` is zero, negative or not a number.
 Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
                   const SafetyLimits& limits) noexcept;
@@ -97,7 +97,7 @@ class VibrationBudget {
   struct State {
     /// Fraction of the wanted wrench, within its limits, that may be exerted, 0 … 1.
     double fraction = 1;
-    /// What is left in the store, 0 … 1.
+    /// Fraction of the store that is left, 0 … 1.
     double left = 1;
 
     /// A hand notices that the force is lowered: a force must change by 7 % for that.
@@ -138,7 +138,7 @@ class VibrationBudget {
   void restore(int64_t full_at_ns) noexcept {
     restored_ns_.store(full_at_ns, std::memory_order_relaxed);
   }
-  /// What all vibration has taken, as the time in which it is refilled. Any thread.
+  /// What all vibration so far has taken, as the time that refilling it takes. Any thread.
   int64_t taken_ns() const noexcept { return taken_ns_.load(std::memory_order_relaxed); }
 
  private:
@@ -155,9 +155,9 @@ class VibrationBudget {
   };
 
   Six to_acceleration_;
-  Section transition_;  ///< of acceleration to velocity, ISO 5349-1
+  Section transition_;  ///< from acceleration to velocity, ISO 5349-1
   Section high_pass_;
-  double due_s_ = 0;       ///< that has passed since the filters' last step
+  double due_s_ = 0;       ///< time since the filters' last step
   double mean_m2_s4_ = 0;  ///< of the unlowered vibration, at present
   double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
   State state_;

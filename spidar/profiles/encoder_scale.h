@@ -23,7 +23,7 @@ class EncoderScale {
     }
   }
 
-  /// From an exit to the grip, in metres; zero for strings that the device does not have.
+  /// The lengths from the exits to the grip, m; zero for strings that the device does not have.
   StringVector lengths_m(const Counts& counts) const noexcept {
     StringVector lengths_m = StringVector::Zero();
     for (int i = 0; i < count_; ++i) {

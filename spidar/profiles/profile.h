@@ -26,7 +26,7 @@ class ProfileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Profile::board when its source names none: it may be any.
+/// Profile::board of a profile whose source names no board: it may be any.
 constexpr const char* kUnknownBoard = "unknown";
 
 /// Motor, encoder and force range of one string.
@@ -76,7 +76,7 @@ struct CalibrationRecord {
 };
 
 struct Profile {
-  /// Where nothing is known, as everywhere: no public source states a drive's lag.
+  /// Assumed if a profile states no lag: no public source states that of a drive.
   static constexpr double kDriveLag_s = 0.002;
 
   std::string name;         ///< file name without ending
@@ -86,7 +86,8 @@ struct Profile {
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
   double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
-  /// From a command to the tension that follows, s: amplifier, motor and what the board holds back.
+  /// Lag from a command to the tension that follows, s: amplifier, motor and what the board holds
+  /// back.
   double drive_lag_s = kDriveLag_s;
   bool drive_lag_known = false;  ///< stated by the file, or that of a simulation
   std::optional<CalibrationRecord> calibration;
@@ -98,7 +99,7 @@ struct Profile {
   }
   StringVector min_tension_N() const { return per_string<&StringDrive::min_tension_N>(); }
   StringVector max_tension_N() const { return per_string<&StringDrive::max_tension_N>(); }
-  /// The largest residual (root mean square) of a right pose, for PoseSolver: one step of the
+  /// The largest residual (root mean square) of a correct pose, for PoseSolver: one step of the
   /// coarsest encoder. Counts are off by at most half a step; the other half allows for errors of
   /// the geometry.
   double max_pose_residual_m() const {
@@ -125,9 +126,9 @@ std::vector<std::string> list_profiles();
 /// Default profile: the desktop SPIDAR-G most common in public sources.
 inline constexpr const char* kDefaultProfile = "spidar-gcc";
 
-/// How far the sum of these pulls, each from none to full, reaches in its weakest direction. What
-/// they reach is a sum of segments, whose nearest face is parallel to two of them. −1 when they all
-/// lie in one line.
+/// How far the sum of `count` pulls, each from none to full, reaches in its weakest direction. The
+/// reachable set is a sum of segments, whose nearest face is parallel to two of them. −1 if all
+/// pulls lie in one line.
 inline double least_reach(const Eigen::Matrix<double, 3, kMaxStrings>& pulls, int count) {
   double least = -1;
   for (int i = 0; i < count; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From a profile file's text to a Profile, and back; looking files up is in profile.h.
+/// Converts the text of a profile file to a Profile, and back; profile.h finds the files.
 ///
-/// A profile is TOML. All keys but `source` and `note` must be there, others must not:
+/// A profile is TOML. All keys but `source` and `note` are required, others are not allowed:
 ///
 ///     description = "…"           one line
 ///     board = "uart"              DeviceKind::profile_board, or "unknown"
@@ -48,7 +48,7 @@ std::string profile_text(const Profile& profile);
 /// Writes profile_text() to `path` with replace_file().
 void save_profile(const Profile& profile, const std::string& path);
 
-/// TOML by the name of the file without its ending.
+/// The shipped profiles: TOML by file name, without its ending.
 const std::map<std::string, const char*>& shipped_profiles();
 
 }  // namespace spidar

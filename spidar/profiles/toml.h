@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// toml++, which is included only here: its parser calls assert() where the name of a table begins
-/// with a wrong character, as "[~]" (3.0 to 3.3), and assumes without it that none does. A file
-/// ends no program, so std::logic_error is thrown, beside toml::parse_error. What is noexcept there
-/// ends the program, as with assert(), of which GCC warns.
+/// Includes toml++, which is included only here. Its parser (3.0 to 3.3) calls assert() where the
+/// name of a table begins with a wrong character, as in "[~]", and without assert() assumes that
+/// none does. A file must not end the program, so std::logic_error is thrown, beside
+/// toml::parse_error. Within noexcept functions of toml++ that still ends the program, as assert()
+/// would; GCC warns of this.
 #pragma once
 
 #include <algorithm>

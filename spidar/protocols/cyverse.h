@@ -17,10 +17,10 @@
 
 namespace spidar {
 
-/// For the D/A converters of either board.
+/// Digits of the D/A converters of either board.
 using CyverseDigits = std::array<uint16_t, 8>;
 
-/// What both boards report.
+/// The reading that both boards report.
 struct CyverseReading {
   std::array<uint32_t, 8> counter{};  ///< only the bits that the board has
   uint16_t inputs = 0;  ///< bits 4–7: rotary switch; of the Simple board, eight bits

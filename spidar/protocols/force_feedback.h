@@ -56,7 +56,7 @@ struct Position {
   static constexpr int kFull = 10'000;
   int16_t right = 0;  ///< −kFull … kFull; 0 without that axis
   int16_t up = 0;
-  uint32_t buttons = 0;  ///< those that are pressed; the first one is the lowest bit
+  uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
 };
 
 constexpr size_t kDescribeSize = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What of an FTDI serial chip a driver needs: a few requests without data, and the status bytes in
-/// front of what it receives.
+/// The parts of an FTDI serial chip that a driver needs: a few requests without data, and the
+/// status bytes in front of what it receives.
 ///
 /// Source: the kernel's drivers/usb/serial/ftdi_sio.h, and libnifalcon, which names the values that
 /// its device needs.
@@ -12,7 +12,7 @@
 
 namespace spidar {
 
-/// A request of the vendor to a USB device, on the control pipe, to the device and without data.
+/// A vendor request on the control pipe of a USB device, addressed to the device, without data.
 struct VendorRequest {
   uint8_t request = 0;
   uint16_t value = 0;
@@ -20,7 +20,7 @@ struct VendorRequest {
 
 namespace ftdi {
 
-/// bmRequestType of all of them.
+/// bmRequestType of all requests below.
 constexpr uint8_t kRequestType = 0x40;
 /// The chip puts this many bytes in front of each packet, and sends a packet of only these when its
 /// latency timer ends before anything was received.

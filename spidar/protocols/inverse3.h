@@ -42,7 +42,7 @@ enum class Version {
   k35,  ///< the force is "vector", and a preset puts the origin into the middle of the workspace
 };
 
-/// What one message reports about a device. Device frame: right, up, towards the viewer.
+/// The state of a device in one message. Device frame: right, up, towards the viewer.
 struct State {
   std::string id;
   Version version = Version::k31;
@@ -55,17 +55,18 @@ struct State {
 enum class Answer {
   kState,
   kAbsent,  ///< the service does not list the device
-  kBroken,  ///< no JSON, a field is missing, or a number is none or cannot be
+  kBroken,  ///< no JSON, a missing field, or a number that is none or is impossible
 };
 
 /// Finds the device `id`, or the first if that is empty.
 Answer decode_state(ByteView message, std::string_view id, State& state) noexcept;
 
-/// All three return the length, or 0 if the message is larger than `bytes`. The first asks for all
-/// that the service knows; the second names this program and, for k35, chooses the preset.
+/// All three encoders return the length, or 0 if the message is larger than `bytes`. encode_query()
+/// asks for all that the service knows; encode_start() names this program and, for k35, chooses the
+/// preset.
 size_t encode_query(MutableBytes bytes) noexcept;
 size_t encode_start(const State& device, MutableBytes bytes) noexcept;
-/// Shortened to kLargestForce_N; a force that is not a number counts as zero.
+/// The force is shortened to kLargestForce_N; a force that is not a number counts as zero.
 size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
                     MutableBytes bytes) noexcept;
 

@@ -26,8 +26,8 @@ constexpr uint8_t kEndpointIn = 0x81;
 // --- Loading the firmware, which the device forgets without power.
 
 constexpr uint16_t kHelloBaud = 0x4138;  ///< divisor of 9600 baud
-constexpr uint16_t kLoadBaud = 0x0015;   ///< of 143 kbaud
-constexpr uint16_t kRunBaud = 0x0002;    ///< of 1.5 Mbaud
+constexpr uint16_t kLoadBaud = 0x0015;   ///< divisor of 143 kbaud
+constexpr uint16_t kRunBaud = 0x0002;    ///< divisor of 1.5 Mbaud
 
 /// Requests before saying hello. Toggling DTR starts the loader.
 inline constexpr std::array kHelloLine{
@@ -35,7 +35,7 @@ inline constexpr std::array kHelloLine{
     ftdi::kEightBits,    ftdi::kNoFlowControl, ftdi::kRtsLow,        ftdi::kDtrLow,
     ftdi::kDtrHigh};
 inline constexpr std::array<uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
-/// A zero may come first.
+/// A zero byte may precede it.
 inline constexpr std::array<uint8_t, 4> kHelloAnswer{0x0A, 0x44, 0x2C, 0x0D};
 
 /// Requests between hello and firmware; then kLoad is echoed, and so is every piece.
@@ -76,7 +76,7 @@ struct Reading {
   bool all_homed() const noexcept { return homed == 7; }
 };
 
-/// Digits beyond kMostDigit are shortened.
+/// Digits are clamped to ±kMostDigit.
 void encode_command(const Command& command, Packet& packet) noexcept;
 /// Returns false when it is no command.
 bool decode_command(ByteView packet, Command& command) noexcept;

@@ -21,7 +21,7 @@ namespace spidar::sound {
 
 constexpr size_t kMostChannels = 4;
 constexpr int kRate_Hz = 48'000;
-/// What is written at once.
+/// Length of a block, which is written at once.
 constexpr int kBlock_ms = 10;
 constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
 /// A level that is not renewed for this time is followed by silence, as with guardians
@@ -29,10 +29,11 @@ constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
 constexpr int kSilence_ms = 50;
 /// The force for full level, as for sticks: amplifiers do not report how strong they are.
 constexpr double kFullForce_N = kDefaultForce_N;
-/// What bass shakers and voice coils can do, and a hand or a back feels as one vibration.
+/// The range that bass shakers and voice coils can play, and that a hand or a back feels as one
+/// vibration.
 constexpr int kLowest_Hz = 20, kHighest_Hz = 120;
 
-/// What follows "sound:".
+/// The settings that follow "sound:" in a name.
 struct Settings {
   std::string card;
   /// The force that a channel plays is the one along this unit vector; zero: silence.
@@ -54,14 +55,15 @@ struct Settings {
 struct Levels {
   std::array<float, kMostChannels> level{};
 };
-/// The amount of the force, whose sign is not felt. No level for a force that is not a number.
+/// The levels for the size of the force; its sign is not felt. None for a force that is not a
+/// number.
 Levels levels_of(const Settings& settings, const Eigen::Vector3d& force_N) noexcept;
 
 /// The answer to a packet.
 struct State {
   int64_t lag_ns = 0;     ///< from a level to its sound, as the card reports it
   int32_t underruns = 0;  ///< how often the card had nothing to play, since it was opened
-  int32_t period_ms = 0;  ///< in which the card takes sound
+  int32_t period_ms = 0;  ///< interval at which the card takes sound
 };
 
 template <typename Packet>

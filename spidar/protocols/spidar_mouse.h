@@ -36,7 +36,7 @@ enum class Command : uint8_t {
 };
 
 void encode_query(Report& report) noexcept;
-/// With the published constants from force to duty.
+/// Contains the published constants from force to duty.
 void encode_start(Report& report) noexcept;
 /// Force on the hand, x right, y away from the user (its sign is inferred). Shortened to
 /// kMaxForce_N; NaN counts as zero. The position of the grip is sent as the centre.

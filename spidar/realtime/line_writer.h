@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lines that go into a file, a pipe or a device, whose other end may stand still.
+/// Writes lines to a file, a pipe or a device whose other end may stand still.
 #pragma once
 
 #include <chrono>
@@ -15,21 +15,22 @@
 
 namespace spidar {
 
-/// Writes lines in a thread of its own, so that whoever adds them does not wait for an other end
-/// that stands still: a reader that has stopped reading, or a network folder. What that does not
-/// take is dropped, in whole lines, and counted. One that is slow loses nothing. Also when the
-/// process is killed, the last line that is there is complete, and what was added more than kPeriod
+/// Writes lines in a thread of its own, so that the caller does not wait for an other end that
+/// stands still: a reader that has stopped reading, or a network folder. Lines that it does not
+/// take are dropped as a whole, and counted. One that is only slow loses nothing. Even when the
+/// process is killed, the last line of the output is complete, and what was added more than kPeriod
 /// ago is there.
 ///
 /// All methods are called by one thread at a time.
 class LineWriter {
  public:
   static constexpr std::chrono::milliseconds kPeriod{50};
-  /// So much may wait: ten seconds of a haptic trace, which has 0.4 MB a second.
+  /// The most that may wait to be written: ten seconds of a haptic trace, which has 0.4 MB a
+  /// second.
   static constexpr size_t kMostWaiting_bytes = size_t{4} << 20;
-  /// Where nothing was taken for so long, the other end stands still.
+  /// The other end counts as standing still when it has taken nothing for this time.
   static constexpr std::chrono::milliseconds kStandstill{500};
-  /// How long a call waits for an other end that is slow.
+  /// The longest wait of a call for an other end that is slow.
   static constexpr std::chrono::milliseconds kLongestWait{5000};
 
   struct Status {
@@ -40,26 +41,26 @@ class LineWriter {
   };
 
   LineWriter() = default;
-  /// close()
+  /// Calls close().
   ~LineWriter() { close(); }
   LineWriter(const LineWriter&) = delete;
   LineWriter& operator=(const LineWriter&) = delete;
 
-  /// As open_own_output(), with a pipe that nobody reads as an error. Returns empty, or why the
-  /// file cannot be written.
+  /// Opens `path` as open_own_output() does; a pipe that nobody reads is an error. Returns empty,
+  /// or why the file cannot be written.
   std::string open(const std::string& path, std::string_view begin);
   bool is_open() const { return output_ != nullptr; }
 
-  /// Whole lines, each with its end. Waits only if more than kMostWaiting_bytes wait, and once for
-  /// each standstill.
+  /// Adds whole lines, each with its line end. Waits only if more than kMostWaiting_bytes wait, and
+  /// once for each standstill.
   void add(std::string_view lines);
   /// Returns when all lines are written, or the other end stands still.
   void flush();
-  /// flush(); what has not been taken by then is dropped. Where the system does not return from
-  /// writing, the thread is left behind, and ends when it does.
+  /// Calls flush(), and drops what has not been taken by then. If the system does not return from a
+  /// write, the thread is left behind, and ends when it returns.
   Status close();
 
-  /// So far, or until close().
+  /// The counts so far or, after close(), until then.
   Status status() const;
 
  private:

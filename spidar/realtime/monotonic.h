@@ -11,7 +11,7 @@ namespace spidar {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
-/// Nanoseconds.
+/// The time on `clock`, ns.
 inline int64_t clock_ns(clockid_t clock) noexcept {
   timespec now{};
   clock_gettime(clock, &now);

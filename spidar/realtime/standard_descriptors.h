@@ -48,8 +48,9 @@ inline bool is_standard_output(int descriptor, int standard) noexcept {
          one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/// Of a link: a device or pipe, as /dev/stdout may be; or the file that the standard output or the
-/// standard error goes into, which is continued where that is. −1 with ELOOP in errno for others.
+/// Opens what a link leads to: a device or pipe, as /dev/stdout may be; or the file of the standard
+/// output or the standard error, which is continued at its position. Returns −1 with ELOOP in errno
+/// for other files.
 inline int open_linked_output(const char* path) noexcept {
   const int followed = open(path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (followed < 0) return -1;
@@ -66,11 +67,11 @@ inline int open_linked_output(const char* path) noexcept {
   return found;
 }
 
-/// Opens a file for writing that the user has named, and makes it if it is not there. `flags` are
+/// Opens a file that the user has named for writing, and creates it if it is not there. `flags` are
 /// O_TRUNC or O_APPEND, and O_NONBLOCK where writing is not to wait either; opening never does. A
 /// link to another file is not followed, so that nobody who may write into the folder can have that
-/// file overwritten; others are (open_linked_output()). Returns the descriptor, or −1 with the
-/// reason in errno: ELOOP for such a link, EPIPE for a pipe that nobody reads.
+/// file overwritten; other links are followed (open_linked_output()). Returns the descriptor, or −1
+/// with the reason in errno: ELOOP for such a link, EPIPE for a pipe that nobody reads.
 inline int open_output(const char* path, int flags) noexcept {
   int opened = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0666);
   if (opened < 0 && errno == ELOOP) opened = open_linked_output(path);
@@ -86,7 +87,7 @@ inline int open_output(const char* path, int flags) noexcept {
   return opened;
 }
 
-/// For messages, `error` as open_output() leaves it in errno.
+/// The reason, for messages; `error` is what open_output() leaves in errno.
 inline std::string output_reason(int error) {
   return error == ELOOP   ? "it is a link, and what it leads to is not overwritten"
          : error == EPIPE ? "it is a pipe that nobody reads; start the reader first"
@@ -106,7 +107,8 @@ inline bool is_empty_or_begins(const char* path, std::string_view begin) {
 /// As open_output() with O_NONBLOCK, but the file is emptied and locked until it is closed, so that
 /// two traces do not overwrite each other. Devices, pipes and the standard output may have several
 /// writers, and some network file systems have no locks. A file is emptied only if it begins with
-/// `begin`, as all do that the caller writes: a film is not. Returns −1 with the reason in words.
+/// `begin`, as all files of the caller do, so that a film is never emptied. Returns −1 with the
+/// reason in words.
 inline int open_own_output(const char* path, std::string_view begin, std::string& reason) {
   const int opened = open_output(path, O_NONBLOCK);
   struct stat status {};

@@ -33,8 +33,8 @@ constexpr int kRealTimePriority = 80;
 /// Asks for SCHED_FIFO for the calling thread, with kRealTimePriority or as much as is allowed.
 Scheduling request_real_time();
 
-/// Timers of the calling thread fire when they are due. The kernel's default is up to 50 µs later,
-/// so that processors sleep longer. A real-time thread has no slack anyway.
+/// Makes timers of the calling thread fire when they are due. By default, the kernel fires them up
+/// to 50 µs later, so that processors sleep longer. A real-time thread has no slack anyway.
 void request_exact_timers() noexcept;
 
 /// Gives the calling thread a low priority.

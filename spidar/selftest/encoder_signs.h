@@ -34,16 +34,16 @@ enum class EncoderSign {
   kAsProfile,
   kReversed,
   kStill,    ///< it did not count
-  kUnclear,  ///< it counted now up and now down where its string was always paid out
+  kUnclear,  ///< it counted up and down although its string was always paid out
 };
 
-/// For each string of the profile. Only positions count to which a string is paid out, by at least
-/// 0.4 of the distance: without motors, a string that was paid out stays slack, and is not wound up
-/// again. An encoder has counted if its string is longer or shorter there than at the centre by
-/// half of that.
+/// The sign for each string of the profile. Only positions to which a string is paid out by at
+/// least 0.4 of the distance count: without motors, a string that was paid out stays slack, and is
+/// not wound up again. An encoder has counted if its string is longer or shorter there than at the
+/// centre by half of that.
 std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const HandMoves& moves);
 
-/// All strings are kAsProfile.
+/// Whether all strings are kAsProfile.
 bool encoders_agree(const Profile& profile, const HandMoves& moves);
 
 }  // namespace spidar::selftest

@@ -24,19 +24,19 @@ namespace spidar::selftest {
 using Pace = std::function<bool()>;
 
 /// This program got no processor time, or was stopped, for so long that the guardian has set the
-/// motors to zero. What was begun can be repeated, see repeated().
+/// motors to zero. The part of the test that was begun can be repeated, see repeated().
 class StoodStill : public DeviceError {
  public:
   using DeviceError::DeviceError;
 };
 
 /// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
-/// or its guardian ended, that is what the text names. `late_ns`: since the exchange before; 0: not
-/// known.
+/// or its guardian ended, that is what the text names. `late_ns`: time since the previous exchange;
+/// 0: not known.
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
 
-/// Does `part` of a test, less than a second that begins at rest, and again when this program stood
-/// still meanwhile, after it has opened the device of `hold` and begun anew by `begin`. Throws
+/// Runs `part` of a test, which begins at rest and takes less than a second. If this program stood
+/// still meanwhile, opens the device of `hold` again, calls `begin`, and repeats the part. Throws
 /// StoodStill when that happens each time: nothing can be measured on such a machine.
 template <typename AnyHold, typename Begin, typename Part>
 bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
@@ -101,7 +101,7 @@ class Hold {
     return fault == LinkFault::kNone;
   }
 
-  /// Nothing is put out since.
+  /// Forgets what was put out: the value is zero.
   void reset() {
     value_ = Value::Zero();
     errors_in_a_row_ = 0;
@@ -126,7 +126,7 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(StringDevice& device, const Profile& profile, Pace pace);
 
-  /// Again, after it was lost.
+  /// Opens the device again after it was lost.
   void open();
 
   /// Ramps to zero; does not end early.
@@ -150,7 +150,7 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
   /// Opens the grip with forces switched off. Throws DeviceError.
   ForceHold(Grip& grip, Pace pace);
 
-  /// Again, after it was lost: with forces switched off.
+  /// Opens the grip again after it was lost, with forces switched off.
   void open();
   /// Ramps to zero.
   void release();

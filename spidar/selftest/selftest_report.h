@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidarctl selftest` found: for people, and for programs.
+/// The report of `spidarctl selftest`, for people and for programs.
 #pragma once
 
 #include <iosfwd>
@@ -11,14 +11,14 @@
 
 namespace spidar::selftest {
 
-/// On standard error: what to do with the hand before unclear motors are pulled again.
+/// Prints, on standard error, what to do with the hand before unclear motors are pulled again.
 void tell_to_hold_still(const WiringReport& report);
 
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
                   const WiringReport& report);
 Json wiring_json(const Profile& profile, const WiringAnswers& answers, const WiringReport& report);
 
-/// `verdict` is that of the test if it has a result.
+/// `verdict` is that of the test, if the test has a result.
 void print_lag(std::ostream& out, const Profile& profile, const DelayTest& test,
                const LagVerdict& verdict);
 Json lag_json(const DelayTest& test, const LagVerdict& verdict);

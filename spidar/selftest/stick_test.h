@@ -15,16 +15,17 @@
 namespace spidar::selftest {
 
 struct StickTest {
-  /// Less is no answer: a hand holds it, the force does not overcome friction, or it has no motor.
+  /// A smaller motion is no answer: a hand holds the stick, the force does not overcome friction,
+  /// or there is no motor.
   static constexpr double kLeast_m = 0.5e-3;
 
-  /// How far it moved along the force, as a grip, in metres: right, up, towards the viewer. A
-  /// positive axis is right; a negative one answers against the force.
+  /// How far it moved along the force, as a grip, in metres: right, up, towards the viewer.
+  /// Positive values are correct; on an axis with a negative one, it moved against the force.
   std::array<double, 3> moved_m{};
   /// Force of a spring that pulls it back, at the place to which the push moves it from its middle,
   /// as a fraction of the push. 0: none was found. Friction of the stick makes it look weaker.
   std::array<double, 3> spring{};
-  /// The weakest one that would have been found, because it moves the stick back by kLeast_m.
+  /// The weakest spring that would have been found, because it moves the stick back by kLeast_m.
   std::array<double, 3> least_spring{};
   std::string description;  ///< of the open device
   bool complete = false;    ///< false: ended early by the pace

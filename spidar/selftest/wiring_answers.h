@@ -14,7 +14,7 @@
 
 namespace spidar::selftest {
 
-/// A motor that has been pulled, for who waits for the others.
+/// A motor that has been pulled, to be shown while others are pulled.
 struct PulledMotor {
   int motor = 0;
   double own_length_m = 0;  ///< change of the length that its own encoder reads
@@ -28,16 +28,16 @@ struct WiringSettings {
   double average_s = 0.1;
   /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
   bool try_reversed = false;
-  /// Gets each motor as soon as it has been pulled, if not null. Holds more than are pulled in all
-  /// tries.
+  /// If not null, receives each motor as soon as it has been pulled. It has room for the pulls of
+  /// all tries.
   SpscRing<PulledMotor, 64>* pulled = nullptr;
 };
 
 struct WiringAnswers {
-  /// Of encoder (row) for a pull of motor (column).
+  /// Answer of an encoder (row) to the pull of a motor (column).
   Eigen::Matrix<double, kMaxStrings, kMaxStrings> counts = decltype(counts)::Zero();
   StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
-  std::array<bool, kMaxStrings> reversed{};  ///< it did so with the other sign than the profile's
+  std::array<bool, kMaxStrings> reversed{};  ///< it pulled with the other sign than the profile's
   /// The answers to its pulls differed at every attempt, because the hand moved.
   std::array<bool, kMaxStrings> unsteady{};
   bool complete = false;  ///< false: ended early by the pace
@@ -48,8 +48,8 @@ struct WiringAnswers {
 /// both are repeated, up to three times. Takes a second a string with the default settings, and as
 /// much again where pulls are repeated or a motor is tried with the other sign.
 ///
-/// Throws DeviceError when the device is lost, or when a string runs away: 30 mm are more than a
-/// hand gives way, the motor unwinds the string or nobody holds the grip.
+/// Throws DeviceError when the device is lost, or when a string runs away by 30 mm, further than a
+/// hand gives way: the motor unwinds the string, or nobody holds the grip.
 WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                          const WiringSettings& settings = {});
 

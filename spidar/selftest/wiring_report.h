@@ -46,23 +46,25 @@ struct WiringReport {
 ///
 /// A grip that a hand holds with compliance C moves by C W e_i ΔT when motor i pulls ΔT more, and
 /// the strings get longer by −Wᵀ times that (W: structure matrix at the centre). The change of
-/// lengths is known but for C: it is taken to be the same in all directions, with a fraction of
-/// rotation that is tried out. The wiring whose expected answers correlate best with those measured
-/// is looked for by exchanging two motors, two encoders or both, from the profile's on.
+/// lengths is known except for C, which is assumed to be the same in all directions, with a
+/// fraction of rotation that is tried out. The search for the wiring whose expected answers
+/// correlate best with those measured starts at the profile's, and exchanges two motors, two
+/// encoders or both.
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 
-/// The profile with what was found: signs, and strings in the order of the channels. Counts of a
-/// calibrated profile are not those of the new one: it is to be calibrated again. `how` is for the
-/// provenance. Throws std::invalid_argument when the report is not fixable().
+/// The profile with the signs that were found, and with its strings in the order of the channels.
+/// Where strings or encoder signs change, the new profile loses the calibration, and is to be
+/// calibrated again. `how` is for the provenance. Throws std::invalid_argument when the report is
+/// not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
-/// How often test_wiring() asks: a hand that moves is unclear in other strings each time, a wrong
-/// wire in the same ones.
+/// How often test_wiring() asks: a moving hand makes other strings unclear each time, a wrong wire
+/// the same ones.
 constexpr int kWiringTries = 3;
 
-/// ask_wiring() and judge_wiring(); the report is not valid if the answers are not complete. As
-/// long as it is not understood, up to kWiringTries times in all, and something has moved, calls
-/// `repeat`, when all tensions are zero, and asks the motors again that are unclear, or all if none
+/// Runs ask_wiring() and judge_wiring(); the report is not valid if the answers are not complete.
+/// As long as it is not understood and something has moved, up to kWiringTries times in all, calls
+/// `repeat` while all tensions are zero, and asks again the motors that are unclear, or all if none
 /// is. Throws DeviceError like ask_wiring().
 std::pair<WiringAnswers, WiringReport> test_wiring(
     StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,

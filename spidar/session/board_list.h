@@ -26,7 +26,7 @@ std::string default_profile(const std::string& device);
 /// empty.
 DeviceInfo board_info(const std::string& device);
 
-/// What the device "auto" may be.
+/// The device name that stands for the first usable one of auto_devices().
 constexpr const char* kAutoDevice = "auto";
 
 struct AutoDevice {
@@ -35,13 +35,13 @@ struct AutoDevice {
   std::string why_not;  ///< why it must not be used, and what would be right; empty: it may be
 };
 
-/// What is plugged in and gives a force, in the order in which it is to be tried: a SPIDAR whose
-/// profile somebody has confirmed, the others in the order of devices(), and what only rumbles.
-/// `profile` is one that is named now, or empty: then it is only for the board for which it was
-/// confirmed or, if it is the only board with strings, the one that is there. Boards whose profile
-/// nobody has named come after the others with strings, with `why_not`, and so do devices on USB
-/// that are used only if they are named. Opens nothing, so that what is listed may still be in use,
-/// or not be permitted.
+/// The devices that are plugged in and give a force, in the order in which they are to be tried: a
+/// SPIDAR whose profile somebody has confirmed, the others in the order of devices(), and those
+/// that only rumble. `profile` is one that is named now, or empty: then it is only for the board
+/// for which it was confirmed or, if it is the only board with strings, the one that is there.
+/// Boards whose profile nobody has named come after the others with strings, with `why_not`, and so
+/// do devices on USB that are used only if they are named. Opens nothing, so that a listed device
+/// may still be in use, or not be permitted.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
 }  // namespace spidar

@@ -41,8 +41,8 @@ std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
 std::unique_ptr<StringDevice> make_device(const std::string& spec, const Profile& profile,
                                           const boards::Settings& settings = {});
 
-/// Those of a board behind which everything is simulated: no thread and no guardian. The simulated
-/// user begins at the centre, from which the profile's home offsets are counted.
+/// The settings of a board behind which everything is simulated: no thread and no guardian. The
+/// simulated user begins at the centre, from which the profile's home offsets are counted.
 boards::Settings settings_of_simulation();
 
 }  // namespace spidar

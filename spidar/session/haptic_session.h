@@ -52,7 +52,7 @@ class HapticSession {
   /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
   /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
-  /// Of the trace, if there is one. Does not wait for what it is written to.
+  /// The status of the trace, if there is one. Does not wait for the file.
   LineWriter::Status trace_status() const noexcept;
 
   /// Why VibrationMemory::of_user() cannot be used; empty if it can.

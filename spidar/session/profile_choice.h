@@ -27,8 +27,8 @@ std::filesystem::path remembered_profiles_file();
 /// number; empty if nothing. Throws ProfileError when the file cannot be read.
 std::string remembered_profile(const std::string& usb_id, const std::string& serial);
 
-/// A path is kept as an absolute one. Throws ProfileError if the file cannot be read, and as
-/// replace_file().
+/// Stores the profile for the board with this USB ID and serial number; a path is kept as an
+/// absolute one. Throws ProfileError if the file cannot be read, and as replace_file() does.
 void store_profile(const std::string& usb_id, const std::string& serial,
                    const std::string& profile);
 
@@ -39,7 +39,7 @@ std::string without_profile(const DeviceInfo& board);
 /// its kind or none. Profiles that cannot be read are left out. Opens nothing.
 std::vector<std::string> fitting_profiles(const DeviceInfo& board);
 
-/// A sentence, without its full stop, that lists them.
+/// A sentence, without its full stop, that lists the fitting profiles.
 std::string fitting_text(const DeviceInfo& board);
 
 /// Whether make_device() accepts the profile for this device. Opens nothing.
@@ -54,8 +54,8 @@ Profile profile_for(const std::string& device, const std::string& named);
 /// its `profile` could be remembered.
 void require_serial(const DeviceInfo& board, const std::string& profile);
 
-/// `profile` is a name or a path as for load_profile(). Throws as require_serial() and
-/// store_profile().
+/// Stores `profile`, a name or a path as for load_profile(), for this board. Throws as
+/// require_serial() and store_profile() do.
 void remember_profile(const DeviceInfo& board, const std::string& profile);
 
 }  // namespace spidar

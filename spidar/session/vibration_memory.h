@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is left of the user's VibrationBudget: in a file, for the next program and for one that
-/// runs at the same time.
+/// Keeps what is left of the user's VibrationBudget in a file, for the next program and for those
+/// that run at the same time.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// On clocks of the kernel. Only the first of them cannot be set.
+/// A time on two clocks of the kernel, of which only the first cannot be set.
 struct Moment {
   int64_t since_boot_ns = 0;  ///< CLOCK_BOOTTIME, which goes on while the computer sleeps
   std::string boot;           ///< which start of the computer that is; empty: not known
@@ -24,27 +24,27 @@ struct Moment {
   static Moment now();
 };
 
-/// How much time has passed for certain between the two: never negative. Across a start of the
-/// computer it is at least the time since that, and as much as the clock on the wall says.
+/// The time that has certainly passed between the two, never negative. Across a restart of the
+/// computer, the larger one of the time since the restart and the difference in UTC.
 int64_t passed_ns(const Moment& then, const Moment& now) noexcept;
 
 /// Any thread.
 class VibrationMemory {
  public:
-  /// Until a store that is half empty is full again, which is assumed where the file cannot be used
-  /// and nothing is known.
+  /// Time until a half-empty store is full again, which is assumed if the file cannot be used and
+  /// nothing is known.
   static constexpr auto kUnknown_ns = static_cast<int64_t>(1e9 * VibrationBudget::kStore_m2_s3 / 2 /
                                                            VibrationBudget::kRefill_m2_s4);
 
   /// Without a file, nothing is kept beyond this object.
   explicit VibrationMemory(std::string file) : file_(std::move(file)) {}
 
-  /// That of the user, in $XDG_STATE_HOME/gst-spidar. Where SPIDAR_STATE is set, in that folder; if
-  /// that is empty, of this process only.
+  /// The memory of the user, in $XDG_STATE_HOME/gst-spidar or, if SPIDAR_STATE is set, in that
+  /// folder; if SPIDAR_STATE is empty, a memory of this process only.
   static VibrationMemory& of_user();
 
-  /// Adds what was taken since the last call, as the time in which it is refilled, and returns in
-  /// how long the store is full again.
+  /// Adds what was taken since the last call, as the time that refilling it takes, and returns the
+  /// time until the store is full again.
   int64_t add(int64_t taken_ns, const Moment& now = Moment::now());
   /// Why the file was not used, and what is assumed instead; empty if it was.
   std::string error() const;

@@ -56,7 +56,8 @@ class SimulatedDevice final : public StringDevice {
   /// set.
   void open() override;
 
-  /// kGone when not open. Voltages that are not finite or have the wrong sign count as zero.
+  /// Returns kGone when not open. Voltages that are not finite or have the wrong sign count as
+  /// zero.
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
   /// Continues the simulation at zero volts until the motor lag has decayed, for at most 50 ms.
@@ -73,7 +74,7 @@ class SimulatedDevice final : public StringDevice {
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
   /// Makes every exchange return this fault until it is called with kNone. Time goes on meanwhile.
-  /// With kTimeout the volts do not reach the motors, with other faults they do; one with which it
+  /// With kTimeout the volts do not reach the motors, with other faults they do; a fault that
   /// is_lost() closes the device. Any thread.
   void set_fault(LinkFault fault) noexcept;
 

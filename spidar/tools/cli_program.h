@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the programs that are called as PROGRAM COMMAND ARGUMENTS have in common.
+/// Common parts of the programs that are called as PROGRAM COMMAND ARGUMENTS.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,7 @@
 
 namespace spidar::tools {
 
-/// A finite number; CLI::Range takes NaN, too. `unit` is for the message: " s".
+/// Accepts finite numbers in a range; CLI::Range accepts NaN, too. `unit` is for the message: " s".
 inline CLI::Validator number(double least, double most, const std::string& unit = "") {
   const std::string range = "a number from " + as_text(least) + " to " + as_text(most) + unit;
   const auto check = [least, most, range](const std::string& text) {

@@ -23,9 +23,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The exit status of a program that has printed to the standard output: `status`, or kFailed in
-/// the place of kDone when that has not arrived, on a full disk for example. It says so, unless
-/// a reader has gone that had enough.
+/// The exit status of a program that has printed to the standard output: `status`, or kFailed
+/// instead of kDone if the output has not arrived, on a full disk for example. Says so, unless the
+/// reader of a pipe has left.
 inline int status_after_printing(const std::string& program, int status) {
   errno = 0;
   std::cout.flush();

@@ -56,9 +56,9 @@ struct DeviceOptions {
 /// Adds DEVICE and --profile.
 void add_device(CLI::App& app, DeviceOptions& options);
 void add_json(CLI::App& app, bool& json);
-/// --yes, for commands that pull or push.
+/// Adds --yes, for commands that pull or push.
 void add_yes(CLI::App& app, bool& yes);
-/// --seconds, for commands that otherwise run until they are interrupted.
+/// Adds --seconds, for commands that otherwise run until they are interrupted.
 void add_seconds(CLI::App& app, double& seconds);
 /// A file that a command writes.
 struct OutputFile {
@@ -66,14 +66,14 @@ struct OutputFile {
   bool force = false;
 
   explicit operator bool() const noexcept { return !path.empty(); }
-  /// Throws ProfileError when it cannot be written, or exists and may not be replaced. To be called
-  /// before the device moves in vain.
+  /// Throws ProfileError when the file cannot be written, or exists and may not be replaced. To be
+  /// called before the device moves, so that it does not move in vain.
   void check() const;
 };
-/// An option whose value is its name, and --force.
+/// Adds an option whose value is the file's name, and --force.
 CLI::Option* add_output(CLI::App& app, const std::string& name, OutputFile& file,
                         const std::string& description);
-/// The same for a profile.
+/// The same as add_output(), for a profile.
 void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
                       const std::string& description);
 
@@ -86,12 +86,12 @@ enum class Motors {
 
 struct ChosenDevice {
   DeviceInfo board;
-  /// Without a name if nobody has named one: then it only says how many strings can be read, and
-  /// allows no tension.
+  /// A profile without a name if nobody has named one: it only says how many strings can be read,
+  /// and allows no tension.
   Profile profile;
   // One of these, not open yet.
-  std::unique_ptr<StringDevice> device;  ///< that has strings
-  std::unique_ptr<Grip> grip;            ///< that has none
+  std::unique_ptr<StringDevice> device;  ///< one that has strings
+  std::unique_ptr<Grip> grip;            ///< one that has none
 
   const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };
@@ -116,8 +116,9 @@ bool interrupted();
 /// when interrupted.
 selftest::Pace every_millisecond();
 
-/// What `work` returns or throws, which moves a device: it runs as the haptic loop does, with
-/// real-time priority where that is permitted. A guardian allows no pause of more than kSilence_ms.
+/// Runs `work`, which moves a device, as the haptic loop runs, with real-time priority where that
+/// is permitted. Returns or throws what `work` does. A guardian allows no pause of more than
+/// kSilence_ms.
 template <typename Work>
 auto in_real_time(const Work& work) {
   std::packaged_task<decltype(work())()> task([&work] {
@@ -130,8 +131,8 @@ auto in_real_time(const Work& work) {
   return result.get();
 }
 
-/// Call it before a question is printed: what was typed on a terminal before is no answer to it.
-/// What comes through a pipe is not typed, and stays.
+/// To be called before a question is printed: discards what was typed on a terminal before, which
+/// is no answer to it. Input from a pipe is not typed, and stays.
 void forget_typed_ahead();
 
 /// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.

@@ -14,8 +14,8 @@
 
 namespace spidar::tools {
 
-/// Prints what each pull has moved as soon as it has, in a thread of its own: that which pulls does
-/// not wait for a terminal.
+/// Prints what each pull has moved as soon as it is over, in a thread of its own, so that the
+/// thread that pulls does not wait for a terminal.
 class PullRows {
  public:
   explicit PullRows(int strings) : thread_([this, strings] { print(strings); }) {}
@@ -47,7 +47,7 @@ class PullRows {
 
   SpscRing<selftest::PulledMotor, 64> pulled_;
   std::atomic<bool> ends_{false};
-  std::thread thread_;  ///< begins when all else is there
+  std::thread thread_;  ///< starts when all other members exist
 };
 
 }  // namespace spidar::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Renders the contact of the grip with the frame that is on the screen, and how a frame gets here.
+/// Renders the contact of the grip with the frame on the screen, and the mailbox that brings
+/// frames.
 #pragma once
 
 #include <algorithm>
@@ -95,9 +96,9 @@ class ShakeWatch {
   /// kg as fast at 30 Hz; the steps of an encoder give errors of 1.5 mm/s.
   static constexpr double kLeast_m_s = 0.008;
   static constexpr double kStroke_m_s = 0.05;
-  /// So many intervals are shaking.
+  /// This many even intervals in a row count as shaking.
   static constexpr int kIntervals = 8;
-  /// Each time, so much of the stiffness is left.
+  /// The fraction of the stiffness that is left after each shaking.
   static constexpr double kLeft = 0.7;
   static constexpr double kLeastFraction = 0.1;
 
@@ -121,15 +122,15 @@ class ShakeWatch {
     fraction_ = std::max(kLeastFraction, kLeft * fraction_);
   }
 
-  /// What is left of the stiffness: 1 until the grip was shaken. It does not rise again, because
-  /// the lag is that of the device.
+  /// The fraction of the stiffness that is left: 1 until the grip was shaken. It does not rise
+  /// again, because the lag is that of the device.
   double fraction() const noexcept { return fraction_; }
 
  private:
   static constexpr double kSlow_s = 0.02;  ///< 8 Hz
 
   double slow_m_s_ = 0;
-  double most_m_s_ = 0;  ///< since the sign changed
+  double most_m_s_ = 0;  ///< largest since the sign changed
   double since_s_ = 0;
   bool rises_ = false;
   int intervals_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which device it is that a name means, so that a lost one comes back only as itself.
+/// The identity of a device behind a name, so that only the same device replaces a lost one.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace spidar {
 
-/// As far as the system tells. All texts are printable().
+/// The identity of a device, as far as the system knows it. All texts are printable().
 struct DeviceIdentity {
   std::string model;   ///< name, vendor and product: "Logitech G29 (046d:c24f)"
   std::string serial;  ///< empty if it has none
   std::string place;   ///< where it is connected: a port, or an address; empty if nobody knows
 
-  /// The same model and serial number or, without one, in the same place. What has neither cannot
-  /// be told from others, and is never the same.
+  /// The same model and serial number or, without one, in the same place. A device with neither
+  /// cannot be told from others, and is never the same.
   bool operator==(const DeviceIdentity& other) const {
     if (model != other.model || serial != other.serial) return false;
     return !serial.empty() || (!place.empty() && place == other.place);
@@ -30,16 +30,17 @@ struct DeviceIdentity {
   }
 };
 
-/// The device that was opened first. A name may mean another one later, to which the system has
-/// given the number or the port: one with another strength and another profile, perhaps in another
-/// hand. It gets no force before somebody starts again, which asks all that is asked at the start.
+/// The device that was opened first. Later, the name may mean another device, to which the system
+/// has given the same number or port: one with another strength and another profile, perhaps in
+/// another hand. That device gets no force until somebody starts again, which repeats all checks of
+/// the start.
 class FirstDevice {
  public:
   bool known() const noexcept { return first_.has_value(); }
   bool is(const DeviceIdentity& found) const { return first_ && *first_ == found; }
   std::string text() const { return first_ ? first_->text() : ""; }
 
-  /// To be called when a device has been opened: throws other() for another one than at first.
+  /// To be called when a device has been opened: throws other() unless it is the first one.
   void require(const std::string& name, const DeviceIdentity& found) {
     if (!first_) {
       first_ = found;
@@ -48,7 +49,7 @@ class FirstDevice {
     }
   }
 
-  /// What is there instead.
+  /// The error for `found`, another device than the first one.
   DeviceError other(const std::string& name, const DeviceIdentity& found) const {
     const bool unknown = found.serial.empty() && found.place.empty();
     const std::string why = unknown ? " may be another device than the one that was lost"

@@ -16,7 +16,7 @@
 
 namespace spidar {
 
-/// Makes a call again that a signal has interrupted.
+/// Repeats a call that a signal has interrupted.
 template <typename Call>
 auto uninterrupted(const Call& call) noexcept {
   auto result = call();
@@ -37,7 +37,7 @@ bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
   return bits[bit / 8] >> bit % 8 & 1;
 }
 
-/// Codes of an event type that the device supports; none when it does not report them.
+/// The codes of an event type that the device supports; none if it does not report them.
 template <size_t Bits>
 BitSet<Bits> codes(int file, unsigned type) noexcept {
   BitSet<Bits> bits{};
@@ -62,10 +62,10 @@ struct EvdevInfo {
 /// the kernel's description in /sys/class/input; opens no device.
 std::vector<EvdevInfo> list_force_feedback();
 
-/// The same of an open one.
+/// The identity of an open device.
 DeviceIdentity evdev_identity(int file);
 
-/// Without links; unchanged where there is no such file.
+/// `path` with all links resolved; unchanged if there is no such file.
 std::string without_links(const std::string& path);
 
 /// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
@@ -83,7 +83,7 @@ struct EvdevTraits {
 
 EvdevTraits evdev_traits(int file);
 
-/// How many axes have a force, where the USB ID says so: 1 for a wheel, 2 for a joystick; else 0.
+/// How many axes have a force, if the USB ID tells: 1 for a wheel, 2 for a joystick; otherwise 0.
 int axes_by_id(const EvdevTraits& traits) noexcept;
 
 /// True when the second axis of the device is a pedal or a lever, not the other direction of a

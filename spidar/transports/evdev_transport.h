@@ -20,8 +20,8 @@ namespace spidar {
 class EvdevTransport final : public Transport {
  public:
   /// `name` is for messages. An empty `path` means the first device of list_force_feedback(). Later
-  /// openings look for the one that was opened first, under whatever number it is now. `axes` is 1
-  /// for a wheel, 2 for a joystick, and 0 if is_wheel() is to tell.
+  /// openings look for the device that was opened first, whatever its number is by then. `axes` is
+  /// 1 for a wheel, 2 for a joystick, and 0 if is_wheel() is to tell.
   EvdevTransport(std::string name, std::string path, int axes = 0);
   ~EvdevTransport() override;
 

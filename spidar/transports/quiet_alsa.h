@@ -8,7 +8,7 @@
 
 namespace spidar {
 
-/// ALSA's header declares it as a function of C++, which its library does not have.
+/// snd_lib_error_set_local(): ALSA's header declares it as a C++ function, which its library lacks.
 extern "C" snd_local_error_handler_t set_alsa_error_handler(
     snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
 

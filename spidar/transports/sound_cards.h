@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What ALSA can play on.
+/// The sound cards and devices on which ALSA can play.
 #pragma once
 
 #include <optional>
@@ -20,11 +20,11 @@ struct SoundCard {
   DeviceIdentity identity() const { return {name, "", place}; }
 };
 
-/// What could be played on: sound cards, and PCMs of the ALSA configuration, without those that
-/// only lead to another one. Opens no PCM.
+/// Lists sound cards and the PCMs of the ALSA configuration, without those that only lead to
+/// another one. Opens no PCM.
 std::vector<SoundCard> list_sound_cards();
 
-/// ALSA's number of a card; nothing for what its configuration names.
+/// ALSA's number of a card; nothing for a device that its configuration names.
 std::optional<int> card_number(const std::string& id);
 
 /// The card with this id or, if `first` knows a card, that same card under the id that it has by
@@ -36,7 +36,7 @@ SoundCard resolve_card(const std::string& device, const std::string& id, const F
 /// "there are sound:Controller, sound:shaker"
 std::string names_of(const std::vector<SoundCard>& cards);
 
-/// Whether a PCM of ALSA's configuration plays somewhere else: on what a server or a setting
+/// Whether a PCM of ALSA's configuration plays elsewhere: on whatever a server or a setting
 /// chooses.
 bool plays_elsewhere(const std::string& id);
 

@@ -16,8 +16,8 @@
 namespace spidar {
 
 /// A packet is sound::Levels, its answer sound::State. Exchanges do not wait; a thread writes the
-/// sound. It plays silence when no packet has come for sound::kSilence_ms. The card has at most
-/// what it takes at once, its period, and kAhead_ms, and stops when it has played them: also when
+/// sound. It plays silence when no packet has come for sound::kSilence_ms. The card holds at most
+/// its period, which it takes at once, and kAhead_ms. It stops when it has played them, also when
 /// this process is stopped or killed.
 ///
 /// Only the card itself is opened, never a server that may choose other speakers.
@@ -25,9 +25,10 @@ class SoundTransport final : public Transport {
  public:
   /// The thread is woken for each block, and may be late by another one.
   static constexpr int kAhead_ms = 2 * sound::kBlock_ms;
-  /// Of a card that can take sound in short periods.
+  /// The buffer of a card that can take sound in short periods.
   static constexpr int kBuffer_ms = kAhead_ms + sound::kBlock_ms;
-  /// Beside the time that what it has lasts: then the card is taken to stand still.
+  /// A card counts as standing still when it takes nothing for this time beyond the playing time of
+  /// what it holds.
   static constexpr int kPatience_ms = 100;
   /// A card that takes nothing for this time is opened again.
   static constexpr int kHopeless_ms = 1000;

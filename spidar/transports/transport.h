@@ -45,8 +45,8 @@ class Transport {
   virtual Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                             int64_t deadline_ns) noexcept = 0;
 
-  /// Sends a request of the vendor that has no data; kRefused where there is no such pipe. Blocks
-  /// as exchange() does.
+  /// Sends a vendor request without data; kRefused if there is no such pipe. Blocks as exchange()
+  /// does.
   virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
   /// To be called after a fault: clears stalls and discards pending replies. May block for some

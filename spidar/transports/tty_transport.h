@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Serial lines: which there are, and the transport over one.
+/// Serial lines: their list, and the transport over one.
 #pragma once
 
 #include <string>

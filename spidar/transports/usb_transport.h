@@ -41,14 +41,14 @@ UsbContext make_usb_context();
 /// nothing is sent to a device. Throws DeviceError when there is no access to the bus.
 std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
 
-/// How a board is known on the bus, and its endpoints, all on interface 0.
+/// The USB ID of a board and its endpoints, all on interface 0.
 struct UsbId {
   uint16_t vendor = 0;  ///< 0: it is not on USB
   uint16_t product = 0;
   uint8_t out = 0;
   uint8_t in = 0;
   bool interrupt = false;   ///< otherwise bulk
-  bool shared = false;      ///< other devices have this id, too, so each that has it is asked
+  bool shared = false;      ///< other devices have this id, too, so that each of them is asked
   bool full_speed = false;  ///< 12 Mbit/s, packets of 64 bytes; otherwise 480 and 512
 
   /// "0cec:0205"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Exchange with a service of this computer that answers each message on a WebSocket with one.
+/// Exchanges with a service on this computer that answers each message on a WebSocket with one.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// Whether a program listens at this TCP port of the loopback, to which it connects for a moment.
+/// Whether a program listens at this TCP port of the loopback. Connects to it for a moment.
 inline bool is_listening(uint16_t port) {
   constexpr timeval kPatience{0, 100'000};  // if the queue of the listener is full
   sockaddr_in address{};
@@ -34,8 +34,9 @@ inline bool is_listening(uint16_t port) {
 /// functions. It was preferred to libsoup, which aborts the process if the player has loaded
 /// libsoup 2.4 as well.
 ///
-/// A message is sent only when the one before has been answered. After a timeout the next exchange
-/// waits for that answer first, and drops it, so that messages never queue up in the service.
+/// A message is sent only when the previous one has been answered. After a timeout the next
+/// exchange waits for that answer first, and drops it, so that messages never queue up in the
+/// service.
 class WebSocketTransport final : public Transport {
  public:
   /// `name` is for messages, `cure` what to do when nothing answers at the port.

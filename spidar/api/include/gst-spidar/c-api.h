@@ -101,7 +101,8 @@ typedef struct {
 
 /*! A relief that the grip touches from the front. The values that suit most are in brackets. */
 typedef struct {
-  /*! How near each position is: 255 is nearest. It covers the width and height of the workspace. */
+  /*! How near each position is: 255 is nearest. The picture covers the width and height of the
+   * workspace. */
   GstSpidarPicture picture;
   double relief_m; /*!< from 0 to 255, m, at most 0.03 [0.008]; its middle is the workspace's */
   double stiffness_N_m; /*!< N/m, above 0, at most that of the capabilities [200] */
@@ -158,16 +159,16 @@ GST_SPIDAR_API bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpi
 /*! Forgets all wrenches: the device ramps to rest, which takes 40 ms. */
 GST_SPIDAR_API void gst_spidar_device_rest(GstSpidarDevice* device);
 
-/*! The wrench of a tick, found in it. `wrench` is zero at first. False ends the calls:
- * gst_spidar_device_callback_error() then says so. It must not throw. */
+/*! Computes the wrench of a tick, within that tick. `wrench` is zero at first. False ends the
+ * calls: gst_spidar_device_callback_error() then says so. It must not throw. */
 typedef bool (*GstSpidarCallback)(const GstSpidarGripState* grip, GstSpidarWrench* wrench,
                                   void* user_data);
 
 /*! Calls `callback` once a millisecond in the thread that drives the device, whenever the pose is
  * known, and adds its wrench to what is pushed. It must return within 0.5 ms, and neither allocate,
- * lock nor wait. A wrench that is not finite counts as none. One that returns false, or late twenty
- * times in a row, is not called again; NULL ends the calls. When this returns, the callback before
- * has ended. False when that fails: the callback before remains. */
+ * lock nor wait. A wrench that is not finite counts as none. A callback that returns false, or
+ * returns late twenty times in a row, is not called again; NULL ends the calls. When this returns,
+ * the previous callback has ended. False when that fails: the previous callback remains. */
 GST_SPIDAR_API bool gst_spidar_device_set_callback(GstSpidarDevice* device,
                                                    GstSpidarCallback callback, void* user_data,
                                                    GstSpidarEnergy energy, GstSpidarError* error);
@@ -193,7 +194,7 @@ GST_SPIDAR_API bool gst_spidar_device_set_surface(GstSpidarDevice* device,
                                                   const GstSpidarSurface* surface,
                                                   GstSpidarError* error);
 
-/*! Nothing is touched any more. */
+/*! Removes the surface: nothing is touched any more. */
 GST_SPIDAR_API void gst_spidar_device_clear_surface(GstSpidarDevice* device);
 
 /*! Where the grip is. False, and `pose` is left as it is, while that is not known. */
@@ -205,7 +206,7 @@ GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
                                                GstSpidarVector3* velocity_m_s);
 
 /*! The buttons that are pressed: the lowest bit is the first button, in the order of the kernel's
- * joystick driver. None of a device without buttons, nor while it is lost. */
+ * joystick driver. None for a device without buttons, or while it is lost. */
 GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device);
 
 /*! False while the force fades, rests or returns because nobody seems to hold the grip. */
@@ -221,7 +222,7 @@ GST_SPIDAR_API void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpi
 /*! What the device is doing. */
 GST_SPIDAR_API GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device);
 
-/*! Waits until the state is GST_SPIDAR_RUNNING and the pose is known, for `timeout_ms` at most.
+/*! Waits until the state is GST_SPIDAR_RUNNING and the pose is known, for at most `timeout_ms`.
  * False when that is over. */
 GST_SPIDAR_API bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device,
                                                          int64_t timeout_ms);
@@ -297,31 +298,32 @@ typedef struct {
 } GstSpidarMotionResult;
 
 /*! Measures the motion of a picture and says what is to be felt of it: gst_spidar::MotionToWrench.
- * All functions are for any thread; only freeing is not. After fork(), the child makes one of its
- * own: those of a copy fail. */
+ * All functions are for any thread; only freeing is not. After fork(), the child must make an
+ * object of its own: functions on a copy fail. */
 typedef struct GstSpidarMotion GstSpidarMotion;
 
 /*! The settings that a motion has at first, to change some of them. */
 GST_SPIDAR_API void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings);
 
-/*! With the settings that gst_spidar_motion_settings_init() gives. NULL when memory is short. */
+/*! Makes an object with the settings that gst_spidar_motion_settings_init() gives. NULL when memory
+ * is short. */
 GST_SPIDAR_API GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error);
 
-/*! Frees it. NULL does nothing. */
+/*! Frees the object. NULL does nothing. */
 GST_SPIDAR_API void gst_spidar_motion_free(GstSpidarMotion* motion);
 
-/*! The next picture, shown at `time_ns` on a clock of the caller's. A time that is not after the
- * one before, and a cut, start anew: the wrench is zero. False for a picture without data, smaller
- * than 16 × 16, or with rows that overlap; `result` is then left as it is. */
+/*! Analyses the next picture, shown at `time_ns` on a clock of the caller's. A time that is not
+ * after the previous one, and a cut, start anew: the wrench is zero. False for a picture without
+ * data, smaller than 16 × 16, or with rows that overlap; `result` is then left as it is. */
 GST_SPIDAR_API bool gst_spidar_motion_analyze(GstSpidarMotion* motion,
                                               const GstSpidarPicture* picture, int64_t time_ns,
                                               GstSpidarMotionResult* result, GstSpidarError* error);
 
-/*! The next picture has nothing to do with the one before: after a seek. */
+/*! To be called after a seek: the next picture has nothing to do with the previous one. */
 GST_SPIDAR_API void gst_spidar_motion_reset(GstSpidarMotion* motion);
 
-/*! From the next picture on. False, and nothing has changed, when one of the settings is out of
- * range. */
+/*! Changes the settings from the next picture on. False, and nothing has changed, when one of the
+ * settings is out of range. */
 GST_SPIDAR_API bool gst_spidar_motion_configure(GstSpidarMotion* motion,
                                                 const GstSpidarMotionSettings* settings,
                                                 GstSpidarError* error);

@@ -54,13 +54,13 @@ struct Capabilities {
 
 /// A relief that the grip touches from the front: the element's property `touch`.
 struct Surface {
-  /// How near each position is: 255 is nearest. It covers the width and height of the workspace
-  /// (Capabilities::workspace_m), whatever its proportions are.
+  /// How near each position is: 255 is nearest. The picture covers the width and height of the
+  /// workspace (Capabilities::workspace_m), whatever its proportions are.
   GreyPicture picture;
-  /// From 0 to 255, m, at most 0.03. Its middle, 127.5, is in the middle of the workspace. Slopes
-  /// are limited to 1.5.
+  /// Height of the relief from 0 to 255, m, at most 0.03. Its middle, 127.5, is in the middle of
+  /// the workspace. Slopes are limited to 1.5.
   double relief_m = 0.008;
-  /// N/m, above 0 and at most Capabilities::largest_stiffness_N_m.
+  /// Stiffness, N/m, above 0 and at most Capabilities::largest_stiffness_N_m.
   double stiffness_N_m = 200;
   double friction = 0.3;  ///< coefficient of static friction; that of kinetic friction is 0.8 of it
   double texture = 0;  ///< how strongly the finest detail is rendered as force to the side; 0: not
@@ -126,17 +126,17 @@ class GST_SPIDAR_API Device {
   /// std::invalid_argument when a number is not finite.
   bool push(const Wrench& wrench);
 
-  /// The wrench of a tick, found in it.
+  /// Computes the wrench of a tick, within that tick.
   using Callback = std::function<Wrench(const GripState&)>;
 
   /// Calls `callback` once a millisecond in the thread that drives the device, whenever pose() is
   /// known, and adds its wrench to what is pushed: for walls and springs, which must follow the
   /// hand without delay. It must return within 0.5 ms, and neither allocate, lock nor wait. A
-  /// wrench that is not finite counts as none. One that throws, or is late twenty times in a row,
-  /// is not called again, and callback_error() says why. An empty one removes the one before. If
-  /// one never returns, the guardian sets a real board to rest after 50 ms.
+  /// wrench that is not finite counts as none. A callback that throws, or is late twenty times in a
+  /// row, is not called again, and callback_error() says why. An empty one removes the previous
+  /// one. If a callback never returns, the guardian sets a real board to rest after 50 ms.
   ///
-  /// When this returns, the callback before has ended.
+  /// When this returns, the previous callback has ended.
   void set_callback(Callback callback, Energy energy = Energy::kPassive);
 
   /// Why the callback is not called any more; empty while it is, and when there is none.
@@ -149,7 +149,7 @@ class GST_SPIDAR_API Device {
   /// pushed. From the next millisecond on, what exceeds them falls by 300 N and 10 N m a second.
   /// Throws std::invalid_argument unless both are finite and not negative, and the profile's
   /// strings can give them in every direction and about every axis without throwing a grip that a
-  /// hand lets go of, or they are at most what they are at first.
+  /// hand lets go of, or they are at most the initial limits.
   void set_limits(double max_force_N, double max_torque_Nm);
 
   /// Lets the grip touch a surface, until another one or clear_surface(). Its force is added to
@@ -162,7 +162,7 @@ class GST_SPIDAR_API Device {
   /// viewer.
   bool set_surface(const Surface& surface);
 
-  /// Nothing is touched any more.
+  /// Removes the surface: nothing is touched any more.
   void clear_surface();
 
   /// Where the grip is. Nothing while that is not known: just after opening, and while the readings
@@ -170,7 +170,7 @@ class GST_SPIDAR_API Device {
   std::optional<Pose> pose() const;
 
   /// The buttons that are pressed: the lowest bit is the first button, in the order of the kernel's
-  /// joystick driver. None of a device without buttons, nor while it is lost.
+  /// joystick driver. None for a device without buttons, or while it is lost.
   std::uint32_t buttons() const;
 
   /// How fast the grip moves, m/s, about 3 ms ago. Nothing while pose() is not known.
@@ -194,16 +194,16 @@ class GST_SPIDAR_API Device {
   /// What the device is doing.
   DeviceState state() const;
 
-  /// Waits until the state is kRunning and the pose is known, for a `timeout` at most. False when
+  /// Waits until the state is kRunning and the pose is known, for at most `timeout`. False when
   /// that is over.
   bool wait_until_running(std::chrono::milliseconds timeout) const;
 
   /// The last fault of the link to the device, for people, for example "unplugged"; empty when
-  /// there has been none. While the state is kLost, it is why.
+  /// there has been none. While the state is kLost, it is the reason.
   std::string last_fault() const;
 
   /// What is not as it should be although the device works, for people; empty if all is well. For
-  /// example that what this user's hand was shaken today is not known, so that half of what is
+  /// example, how much this user's hand was shaken today is not known, so that half of what is
   /// allowed counts as used.
   std::string warning() const;
 

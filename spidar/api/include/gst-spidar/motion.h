@@ -29,7 +29,7 @@ enum class FeltMotion {
   kObjects,  ///< of all objects, weighted by area and nearness to the pointer
 };
 
-/// What is felt, and how strongly. At first as the GStreamer element has it.
+/// What is felt, and how strongly. The defaults are those of the GStreamer element.
 struct MotionSettings {
   Controller controller = Controller::kNonlinear;  ///< how speed becomes force
   FeltMotion motion = FeltMotion::kObject;         ///< whose motion is felt
@@ -61,13 +61,13 @@ struct MotionResult {
       false;  ///< false: nothing to compare with, and everything above is zero
 };
 
-/// Measures the motion of a picture and computes its wrench, with the defaults of the
-/// GStreamer element. All functions are for any thread: the library makes one call after another.
-/// Moving and destroying the object are not. After fork(), the child makes one of its own:
-/// analyze() and configure() of a copy throw std::runtime_error.
+/// Measures the motion of a picture and computes its wrench, with the defaults of the GStreamer
+/// element. All functions are for any thread: the library makes one call after another. Moving and
+/// destroying the object are not. After fork(), the child must make an object of its own: analyze()
+/// and configure() of a copy throw std::runtime_error.
 class GST_SPIDAR_API MotionToWrench {
  public:
-  /// With the settings that a MotionSettings has at first.
+  /// Starts with the defaults of MotionSettings.
   MotionToWrench();
   ~MotionToWrench();
   /// `other` may only be destroyed or assigned to afterwards.
@@ -75,16 +75,17 @@ class GST_SPIDAR_API MotionToWrench {
   /// `other` may only be destroyed or assigned to afterwards.
   MotionToWrench& operator=(MotionToWrench&& other) noexcept;
 
-  /// The next picture, shown at `time` on a clock of the caller's. A time that is not after the one
-  /// before, and a cut, start anew: the wrench is zero. Throws std::invalid_argument for a picture
-  /// without data, smaller than 16 × 16, or with rows that overlap.
+  /// Analyses the next picture, shown at `time` on a clock of the caller's. A time that is not
+  /// after the previous one, and a cut, start anew: the wrench is zero. Throws
+  /// std::invalid_argument for a picture without data, smaller than 16 × 16, or with rows that
+  /// overlap.
   MotionResult analyze(const GreyPicture& picture, std::chrono::nanoseconds time);
 
-  /// The next picture has nothing to do with the one before: after a seek.
+  /// To be called after a seek: the next picture has nothing to do with the previous one.
   void reset();
 
-  /// From the next picture on. Throws std::invalid_argument, and changes nothing, when one of the
-  /// settings is out of range.
+  /// Changes the settings from the next picture on. Throws std::invalid_argument, and changes
+  /// nothing, when one of the settings is out of range.
   void configure(const MotionSettings& settings);
 
  private:
