@@ -19,6 +19,6 @@ G_END_DECLS
 /// The environment variable with properties of spidarmotion, a line NAME=VALUE each.
 #define SPIDAR_FEEL_VARIABLE "SPIDAR_FEEL"
 
-/// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Nullptr when an
-/// element is missing, which is printed. A floating reference.
+/// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Returns a
+/// floating reference, or nullptr when an element is missing, which is printed.
 GstElement* gst_spidar_feel_bin_new(const char* properties);

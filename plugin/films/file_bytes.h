@@ -28,7 +28,7 @@ inline bool has_at(const std::string& bytes, size_t at, std::string_view text) {
   return bytes.size() >= at + text.size() && bytes.compare(at, text.size(), text) == 0;
 }
 
-/// Empty when it cannot be read.
+/// A file that is read at any position; empty when it cannot be read.
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path)
@@ -36,7 +36,7 @@ class FileBytes {
         size_(stream_ ? static_cast<uint64_t>(stream_.tellg()) : 0) {}
 
   uint64_t size() const { return size_; }
-  /// Fewer bytes at the end of the file.
+  /// Returns `count` bytes from `at` on; fewer at the end of the file.
   std::string read(uint64_t at, size_t count) {
     std::string bytes(count, '\0');
     stream_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the end of a file is there, and how long its sound is: by its head and its last bytes,
-/// without decoding.
+/// Whether the end of a file is there, and how long its sound is: as its header and its last bytes
+/// say, without decoding.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ enum class FilmEnd {
   kUnknown,   ///< the file does not state it
 };
 
-/// By what AVI, Matroska, WebM, MP4, QuickTime and Ogg say of their length. The demuxers of
-/// GStreamer take such a film that is cut off for a shorter one that is whole. What cameras and
-/// taggers append is no part of the film.
+/// Judges by the length that AVI, Matroska, WebM, MP4, QuickTime and Ogg state. The demuxers of
+/// GStreamer take such a film, when it is cut off, for a shorter one that is whole. What cameras
+/// and taggers append is no part of the film.
 FilmEnd film_end(const std::string& path);
 
 struct FileLength {

@@ -31,7 +31,7 @@ class FilePipeline {
   /// Adds a sink that discards what it gets as fast as it comes. Owned by the pipeline.
   GstElement* add_fakesink() const;
 
-  /// Of a parsebin "parse": links each stream when it begins to flow, to the element that `take`
+  /// Links each stream of a parsebin "parse" when it begins to flow, to the element that `take`
   /// returns, or to a sink that discards it if that is null. A stream may be found while others
   /// flow; linked only now, its parser leaves the data as they are in the file. Streaming threads.
   void link_streams(std::function<GstElement*(GstPad*)> take);
@@ -43,19 +43,19 @@ class FilePipeline {
   /// Calls `take` with the text of each error, in the thread of what reports it. Before
   /// play_until().
   void hear_errors(std::function<void(const std::string&)> take);
-  /// How a thread that waits for what is read remembers what it has seen.
+  /// What a thread that waits for data remembers between two calls of check().
   struct Progress {
     uint64_t read = 0;
     GstClockTime silent = 0;
   };
-  /// How often such a thread looks whether it is to stop.
+  /// The period in which such a thread checks whether it has to stop.
   static constexpr GstClockTime kLook = 20 * GST_MSECOND;
   /// To be called once in kLook. Throws std::runtime_error as play_until() does when nothing comes.
   void check(Progress& progress) const;
   /// Holds the streams where they are, until play_until(), and forgets messages that have come: an
   /// EOS that follows a seek is then that of the seek.
   void pause() const;
-  /// No callback runs any more.
+  /// Stops the pipeline; afterwards no callback runs.
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
  private:
@@ -74,7 +74,7 @@ class FilePipeline {
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
 
-/// "1.250 s".
+/// The time as text, such as "1.250 s".
 std::string seconds_text(int64_t ns);
 
 }  // namespace spidar

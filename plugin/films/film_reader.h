@@ -22,7 +22,7 @@ struct PacketFraming {
   size_t length_bytes = 4;  ///< of the length before each unit, for kLengths
 };
 
-/// From the caps of a parsed stream.
+/// The framing that the caps of a parsed stream state.
 PacketFraming framing_of(const GstCaps* caps);
 
 /// Hashes the end of the last unit of a packet: between one half of it and the whole, because what
@@ -51,7 +51,7 @@ FilmFingerprint fingerprint_of(const std::vector<FilmPacket>& packets);
 
 /// One word, for the metadata of a track.
 std::string to_text(const FilmFingerprint& fingerprint);
-/// An empty one when `text` is none.
+/// Empty when `text` is no fingerprint.
 FilmFingerprint parse_fingerprint(const std::string& text);
 
 /// How much later the picture of the fingerprint comes in the film that begins with `packets`;
@@ -68,7 +68,7 @@ struct Film {
   int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not state it
   int64_t frame_ns = 0;     ///< longest time between two pictures at the beginning
   bool has_track = false;   ///< a haptic track is inside the film
-  bool is_still = false;    ///< one picture is all that there is of it, as in a cover
+  bool is_still = false;    ///< it has a single picture, as a cover does
 };
 
 /// Reads the beginning and the end of the first video stream of `path`: some megabytes, a short

@@ -20,22 +20,23 @@ void mark_written(int file, const std::string& maker);
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
 bool is_as_written(const std::string& path, const std::string& maker);
 
-/// A file in the folder of the file that it becomes, called `.part-`, a number that follows from
-/// the name of that, and the same extension: however long the name of a film is, this one fits. One
-/// owner at a time, among all threads and processes: it is locked for as long as the object exists.
-/// What a killed process left is removed, never written into, and a link of that name is not
-/// followed: nobody else has the file open. It is removed with the object. A target that is a link
-/// stays one, and the file that it leads to is replaced, whose permissions the new one gets.
+/// A file in the folder of the file that it becomes, its target. Its name is `.part-`, a number
+/// that follows from the name of the target, and the same extension: however long the name of a
+/// film is, this one fits. One owner at a time, among all threads and processes: it is locked for
+/// as long as the object exists. What a killed process left is removed, never written into, and a
+/// link of that name is not followed: nobody else has the file open. It is removed with the object.
+/// A target that is a link stays one, and the file that it leads to is replaced, whose permissions
+/// the new one gets.
 class PartFile {
  public:
-  /// What is replaced if it is there.
+  /// Which existing files are replaced.
   struct Replaces {
     bool any = false;   ///< every regular file
-    std::string maker;  ///< what this command has written and nobody changed; empty: nothing
+    std::string maker;  ///< those that this command has written and nobody changed; empty: none
   };
 
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
-  /// thread or process is writing the same file, or when there is a file that is not replaced.
+  /// thread or process is writing the same file, or when the target exists and is not replaced.
   PartFile(const std::filesystem::path& target, const Replaces& replaces);
   /// The part file of `target` that another process owns, which has given this one the descriptor.
   PartFile(const std::filesystem::path& target, int descriptor);
@@ -43,8 +44,8 @@ class PartFile {
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// Null when another thread or process is writing the same file. What is there shows only when
-  /// it is published.
+  /// Null when another thread or process is writing the same file. Only publish() checks whether
+  /// there is a file that is not replaced.
   static std::unique_ptr<PartFile> claim(const std::filesystem::path& target,
                                          const Replaces& replaces);
 
@@ -63,7 +64,7 @@ class PartFile {
   void check_in_place() const;
 
   /// Gives the file its name; afterwards there is no part file. Throws std::runtime_error if there
-  /// is a file by now that is not replaced. Returns what else is to be known; usually empty.
+  /// is a file by now that is not replaced. Returns a remark for the user; usually empty.
   std::string publish();
 
  private:
@@ -72,7 +73,7 @@ class PartFile {
   bool may_replace() const;
 
   std::string path_, target_;
-  std::string place_;  ///< the target, or what it leads to
+  std::string place_;  ///< the target, or the file that it links to
   Replaces replaces_;
   int descriptor_ = -1;
   uint64_t written_ = 0;  ///< bytes

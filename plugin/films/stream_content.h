@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is in a stream of a film: pictures, sound for ears, or a haptic track.
+/// The content of a stream of a film: pictures, sound for ears, or a haptic track.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace spidar {
 
-/// A line of the comment of a track, which FLAC, Matroska and WAV keep, and a tag of its own where
-/// there are such. Whatever writes tracks writes it.
+/// The mark of a track: a line of its comment, which FLAC, Matroska and WAV keep, and a tag of its
+/// own where there are such. Every writer of tracks writes it.
 extern const char* const kTrackMark;
 
 /// Whether tags of a stream contain the mark. Those of a container apply to all of its streams, and
@@ -47,12 +47,13 @@ enum class StreamContent {
   kOther,
 };
 
-/// Of the caps of a parsed or decoded stream.
+/// The content of a parsed or decoded stream with these caps.
 StreamContent content_of(const GstCaps* caps);
-/// Of the stream at a pad, by its caps and by the tags that have come to it.
+/// The content of the stream at a pad, by its caps and by the tags that have come to it.
 StreamContent content_of(GstPad* pad);
 
-/// Whether a stream is of pictures that are files otherwise, as a cover is: image/jpeg, image/png.
+/// Whether a stream consists of pictures in a format of still images, as a cover does: image/jpeg,
+/// image/png.
 bool is_picture(const GstCaps* caps);
 
 /// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty
@@ -62,7 +63,7 @@ std::string why_missing(GstElement* bin);
 /// Stream time of a buffer that passes the pad; GST_CLOCK_TIME_NONE when it has none.
 GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer);
 
-/// Current caps, else what the pad could have. Owned by the caller.
+/// The current caps of a pad, else those that it could have. Owned by the caller.
 GstCaps* caps_of(GstPad* pad);
 
 }  // namespace spidar

@@ -9,7 +9,7 @@ namespace spidar::filter {
 ///
 /// A player may call exit() while its pipeline plays. That destroys the static objects of OpenCV,
 /// and a streaming thread that uses them crashes the player. So exit() waits until the frames of
-/// all elements are analysed, for one second at most, and from then on there is no permit.
+/// all elements are analysed, for one second at most, and from then on no permit is given.
 class AnalysisPermit {
  public:
   AnalysisPermit();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the element reports on the bus when something is wrong that does not stop the video.
+/// Reports on the bus when something is wrong that does not stop the video.
 #pragma once
 
 #include <gst/gst.h>
@@ -17,9 +17,9 @@ class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
 
-  /// The element begins: everything may be reported again.
+  /// The element starts: everything may be reported again.
   void start();
-  /// Another stream: what is wrong with its frames may be.
+  /// Another stream begins: faults of frames may be reported again.
   void begin_stream() {
     frame_faults_ = 0;
     touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
@@ -28,11 +28,11 @@ class BusWarnings {
   /// Looks at the bins around the element, which may have a running time of their own.
   void check_bins();
   void check_frame(const FrameReport& report);
-  /// Once: the trace cannot be written any more, errno or 0.
+  /// Reports once that the trace can no longer be written. `error`: errno, or 0 when it can.
   void check_trace(int error);
   void check_touch(const HapticOutput& output, const FrameReport& report,
                    const TouchProperties& wanted);
-  /// The grip is to point: does the device know where it is?
+  /// Called when the grip is to point: warns if the device does not measure its position.
   void check_pointer(const HapticSession* session);
   DeviceWarnings& device() { return device_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a spidarmotion consists of.
+/// The state of an element spidarmotion.
 #pragma once
 
 #include <mutex>
@@ -36,21 +36,21 @@ struct MotionState {
 
   // --- state changes
 
-  /// Opens the device. Throws ProfileError, DeviceError, std::runtime_error. Empty, or why the
-  /// haptic trace cannot be written: the device works without it.
+  /// Opens the device. Returns an empty string, or why the haptic trace cannot be written: the
+  /// device works without it. Throws ProfileError, DeviceError, std::runtime_error.
   std::string open(const MotionProperties& properties);
-  /// Motors to rest, device closed.
+  /// Brings the motors to rest and closes the device.
   void close();
 
   // --- any thread
 
   /// The force ramps to rest at once and stays there until frames come after set_muted(false).
   void set_muted(bool muted);
-  /// What was scheduled is forgotten at once, and so is what can be touched.
+  /// Discards at once what was scheduled, and the surface that can be touched.
   void clear();
-  /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
+  /// From now on, the sink shows frames `multiplier` times as fast, see InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
+  /// The sink has stepped over `duration` of running time and shows later frames that much earlier.
   void skip(GstClockTime duration);
   /// Running time begins anew: after a flush, and before a stream. Streaming thread.
   void reset();
@@ -58,20 +58,20 @@ struct MotionState {
 
   // --- streaming thread
 
-  /// A frame with the settings `frame_settings`; what was found of it.
+  /// Processes a frame with `frame_settings`. Returns report().
   const FrameReport& process(const GstVideoFrame& frame, const GstSegment& segment);
-  /// Of the newest frame.
+  /// The report of the newest frame.
   const FrameReport& report() const { return report_; }
-  /// The next frame does not follow the one before: a seek, another film, another rate.
+  /// The next frame does not continue the previous one: a seek, another film, another rate.
   void begin_epoch() { ++epoch_; }
-  /// In place of a frame that has no picture.
+  /// Called instead of process() for a frame without a picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
 
   std::mutex setting;         ///< what is set reaches the parts in the order it was set
   MotionProperties settings;  ///< object lock
   bool opened = false;        ///< object lock: READY or above
-  gint unread_messages = 0;   ///< atomic: that an application has not read
-  gint window_changes = 0;    ///< atomic: how many the window has still to follow
+  gint unread_messages = 0;   ///< atomic; posted, and not read by an application
+  gint window_changes = 0;    ///< atomic; to which the window has not yet responded
 
   // Any thread. These outlive the output's thread, which forwards what waits.
   WrenchBacklog schedule;
@@ -98,13 +98,13 @@ struct MotionState {
   FrameReport report_of(const GstVideoFrame& frame, const GstSegment& segment);
 
   std::mutex skip_mutex_;  ///< what is skipped reaches schedule and output in the same order
-  uint32_t epoch_ = 0;     ///< FrameStamp; streaming thread
+  uint32_t epoch_ = 0;     ///< FrameStamp::epoch; streaming thread
   FrameReport report_;
 };
 
 }  // namespace spidar::filter
 
-// What the files of the element share besides.
+// Also shared by the files of the element.
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 
 struct _GstSpidarMotionFilter {
@@ -113,5 +113,5 @@ struct _GstSpidarMotionFilter {
   spidar::filter::MotionState* state;
 };
 
-/// Class initialisation: frames and events on their way.
+/// Class initialisation: the functions that handle frames and events.
 void gst_spidar_motion_install_stream(GstSpidarMotionFilterClass* klass);

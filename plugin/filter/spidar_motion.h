@@ -19,5 +19,5 @@ namespace spidar::filter {
 struct MotionState;
 }  // namespace spidar::filter
 
-/// For tests that step the element by hand.
+/// The state of `self`, for tests that step the element by hand.
 spidar::filter::MotionState& gst_spidar_motion_state(GstSpidarMotionFilter* self);

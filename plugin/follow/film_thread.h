@@ -18,25 +18,25 @@
 
 namespace spidar::follow {
 
-/// Where a player is in which film.
+/// Which film a player plays, and where it is in it.
 struct FilmGoal {
   std::shared_ptr<const FilmPlan> plan;  ///< null: nothing is felt
   bool plays = false;                    ///< false: the force rests
   double rate = 1;
   int64_t at_ns = 0;                   ///< CLOCK_MONOTONIC
-  std::optional<int64_t> position_ns;  ///< at that time, if it is known
+  std::optional<int64_t> position_ns;  ///< at the time at_ns, if it is known
 };
 
 class FilmThread {
  public:
-  /// `properties` are of spidarmotion, NAME=VALUE.
+  /// `properties` are those of spidarmotion, NAME=VALUE.
   explicit FilmThread(std::vector<std::string> properties);
-  /// After end().
+  /// Only after end().
   ~FilmThread();
   FilmThread(const FilmThread&) = delete;
   FilmThread& operator=(const FilmThread&) = delete;
 
-  /// To be called every some ten milliseconds: the force rests when no goal has come for 0.3 s.
+  /// To be called every few tens of milliseconds: the force rests when no goal has come for 0.3 s.
   void aim(FilmGoal goal);
   /// Closes what is open. False if that takes longer than `limit`; the thread then still runs, and
   /// the process has to end without its destructor.

@@ -8,9 +8,9 @@
 
 namespace spidar::follow {
 
-/// Feels what a player plays that does not use GStreamer, until it is interrupted. `name` is that
-/// of a player in MPRIS, "vlc"; empty: the one that plays. `properties` are of spidarmotion,
-/// NAME=VALUE. Returns the exit status.
+/// Renders the force of the film that a player plays without GStreamer, until it is interrupted.
+/// `name` is that of a player in MPRIS, such as "vlc"; empty: the one that plays. `properties` are
+/// those of spidarmotion, NAME=VALUE. Returns the exit status.
 int run(const std::string& name, const std::vector<std::string>& properties);
 
 }  // namespace spidar::follow

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film that is felt and not shown, where another program is in it.
+/// A film that is felt and not shown, at the position at which another program plays it.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace spidar::follow {
 
-/// What is said to people; names and addresses in it are of other programs, which may tell
-/// megabytes. Any thread.
+/// Prints a text for people, shortened because its names and addresses come from other programs,
+/// which may send megabytes. Any thread.
 inline void tell(const std::string& text) {
   constexpr size_t kMost = 1000;
   const std::string shown = text.size() <= kMost ? text
@@ -29,22 +29,23 @@ inline void tell(const std::string& text) {
   g_printerr("spidar-feel: %s\n", printable(shown).c_str());
 }
 
-/// Its haptic track, or the film once more. One thread, which may be held up by files, networks and
-/// devices. Times are of CLOCK_MONOTONIC.
+/// Plays the haptic track of the film, or the film once more. One thread, which files, networks and
+/// devices may hold up. Times are of CLOCK_MONOTONIC.
 class FollowedFilm {
  public:
-  /// `properties` are of spidarmotion, NAME=VALUE. Opens the device, and begins at rest. Without a
-  /// device, the debug window shows what would be felt, where there is a display. Throws
+  /// `properties` are those of spidarmotion, NAME=VALUE. Opens the device, and begins at rest.
+  /// Without a device, the debug window shows what would be felt, where there is a display. Throws
   /// std::runtime_error, which says what is wrong.
   FollowedFilm(const FilmPlan& plan, const std::vector<std::string>& properties);
   ~FollowedFilm();
   FollowedFilm(const FollowedFilm&) = delete;
   FollowedFilm& operator=(const FollowedFilm&) = delete;
 
-  /// Prints what the pipeline has to say, once. False when it has failed.
+  /// Prints the messages of the pipeline, each text once. Returns false when the pipeline has
+  /// failed.
   bool check();
-  /// The player plays at `rate` and is at this position. Small errors are corrected slowly, large
-  /// ones by a seek.
+  /// The player plays at `rate` and is at this position, which the film is to follow. Small errors
+  /// are corrected slowly, large ones by a seek.
   void follow(int64_t now_ns, int64_t position_ns, double rate);
   /// The player rests, at this position if it is known.
   void rest(std::optional<int64_t> position_ns);
@@ -63,18 +64,18 @@ class FollowedFilm {
   void play(int64_t now_ns, int64_t position_ns);
   void set_base_time(int64_t base_ns);
   void read_segment();
-  /// Where this is, or was when it was paused.
+  /// The position of this film, or where it was paused.
   int64_t position_at(int64_t now_ns) const;
   int64_t running_at(int64_t position_ns) const;
 
   const FilmPlan plan_;
   const std::vector<std::string> properties_;
-  std::mutex mutex_;                ///< of what the streaming threads find
-  std::set<std::string> pictures_;  ///< streams of pictures that are files otherwise, as covers are
+  std::mutex mutex_;                ///< guards what the streaming threads find
+  std::set<std::string> pictures_;  ///< streams of pictures in still formats, as covers are
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
-  GstElement* sink_ = nullptr;  ///< that waits for the clock
-  std::string begins_;          ///< to be said when it plays for the first time
+  GstElement* sink_ = nullptr;  ///< the sink that waits for the clock
+  std::string begins_;          ///< to be printed when it plays for the first time
   std::set<std::string> said_;
   bool is_simulated_ = false;  ///< no device renders it
   double rate_ = 1;
@@ -83,7 +84,7 @@ class FollowedFilm {
   bool failed_ = false;
   int64_t base_ns_ = 0;
   int64_t paused_at_ns_ = 0;  ///< the position
-  int64_t checked_ns_ = 0;    ///< when follow() has last looked
+  int64_t checked_ns_ = 0;    ///< when follow() last checked the position
   int64_t settled_ns_ = 0;    ///< from when on the player's position is known well
   // The segment: a position and its running time.
   int64_t begin_position_ns_ = 0, begin_running_ns_ = 0;

@@ -18,28 +18,28 @@ namespace spidar::follow {
 struct PlayerState {
   PlayerStatus status = PlayerStatus::kStopped;
   double rate = 1;
-  std::string uri;  ///< of what it plays; empty if it does not say
+  std::string uri;  ///< of what it plays; empty if it does not state it
 };
 
-/// An answer takes a millisecond, and some tens of them where the machine is busy. Who has not
-/// answered by then is asked again.
+/// Deadline for an answer, which takes a millisecond, or some tens of them on a busy machine. A
+/// player that has not answered by then is asked again.
 constexpr int kAnswer_ms = 1000;
 
-/// What a player is called by people: "vlc" of org.mpris.MediaPlayer2.vlc.instance7.
+/// The name of a player for people: "vlc" for org.mpris.MediaPlayer2.vlc.instance7.
 std::string short_name(const std::string& bus_name);
 
-/// Asks for the bus names of the players that there are; of those called `name`, unless that is
-/// empty. `take` gets them in the main loop, or nothing when the bus does not answer, and nothing
-/// at all once `ended` is cancelled.
+/// Asks for the bus names of all players, or of those called `name` unless that is empty. `take`
+/// gets them in the main loop, or nothing when the bus does not answer, and nothing at all once
+/// `ended` is cancelled.
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
                   std::function<void(std::optional<std::vector<std::string>>)> take);
 
-/// One of them. Callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
+/// A player. Callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
 class Player {
  public:
   struct Told {
-    std::function<void(Player&)> state;  ///< it has told one
-    /// Of one that is watched.
+    std::function<void(Player&)> state;  ///< a state has come
+    /// Called for a player that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
   };
   Player(GDBusConnection* bus, const std::string& bus_name, Told told);
@@ -48,20 +48,20 @@ class Player {
   Player& operator=(const Player&) = delete;
 
   const std::string& bus_name() const { return bus_name_; }
-  /// Nothing before it has answered.
+  /// Nothing before the player has answered.
   const std::optional<PlayerState>& state() const { return state_; }
-  /// It has ended, or another program has its name.
+  /// Whether the player has ended, or another program has its name.
   bool is_gone() const { return is_gone_; }
-  /// Whether it is asked for its position.
+  /// Sets whether the player is asked for its position.
   void watch(bool wanted);
-  /// False when it has answered that it has none.
+  /// False when the player has answered that it has no position.
   bool has_position() const { return has_position_; }
-  /// For how long a question has waited for its answer.
+  /// How long a question has been waiting for its answer.
   int64_t silent_ns() const;
 
  private:
   static constexpr guint kPoll_ms = 20;
-  /// Some players do not tell of every change.
+  /// Period in which the state is asked for, because some players do not report every change.
   static constexpr int64_t kAskState_ns = 1'000'000'000;
 
   static gboolean poll(gpointer self);
@@ -85,7 +85,7 @@ class Player {
   bool is_gone_ = false;
   bool is_watched_ = false;
   bool has_position_ = true;
-  int64_t asked_ns_ = 0;  ///< the position; 0: no question waits
+  int64_t asked_ns_ = 0;  ///< when the position was asked for; 0: no question waits
   int64_t state_asked_ns_ = 0;
   bool state_waits_ = false;    ///< a question for the state has no answer yet
   bool state_changed_ = false;  ///< since it was asked

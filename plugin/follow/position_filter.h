@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where a player is, from what it tells of it: seldom, and nearly always late.
+/// Where a player is, estimated from the positions that it reports: seldom, and nearly always late.
 #pragma once
 
 #include <array>
@@ -9,34 +9,34 @@
 
 namespace spidar::follow {
 
-/// A player cannot tell a position before it has reached it, but may tell it late: mpv tells 24
-/// positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114 ms
-/// late. So the earliest of the last ones is trusted. Times are of CLOCK_MONOTONIC.
+/// A player cannot report a position before it has reached it, but may report it late: mpv reports
+/// 24 positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114
+/// ms late. So the earliest of the last ones is trusted. Times are of CLOCK_MONOTONIC.
 class PositionFilter {
  public:
-  /// VLC tells so many in 3 s.
+  /// The number of positions that VLC reports in 3 s.
   static constexpr size_t kKept = 8;
-  /// More than any player was seen to be late: such a position is one after a jump.
+  /// More than any player was seen to be late: a position that is later is one after a jump.
   static constexpr int64_t kLatest_ns = 150'000'000;
-  /// So many positions in a row, each before the last, are no jumps of a person's: VLC tells three
-  /// in a second.
+  /// This many positions in a row, each before the last, are no jumps that a person makes: VLC
+  /// reports three in a second.
   static constexpr int kBackward = 3;
 
-  /// It plays at `rate` from this position on; what it told before counts no more.
+  /// The player plays at `rate` from this position on; what it reported before no longer counts.
   void reset(int64_t now_ns, int64_t position_ns, double rate);
-  /// It goes on at another rate.
+  /// The player goes on at another rate.
   void change_rate(int64_t now_ns, double rate);
-  /// It tells this position, which is no news if it is the same as before.
+  /// The player reports this position, which is no news if it is the same as before.
   void add(int64_t now_ns, int64_t position_ns);
-  /// It says that it has jumped to this position. VLC also says so when it has not.
+  /// The player reports a jump to this position. VLC also does so when there was none.
   void tell_jump(int64_t now_ns, int64_t position_ns);
 
   bool has_begun() const { return count_ > 0; }
-  /// Whether each of the newest positions was before the one before, without a jump.
+  /// Whether each of the newest kBackward positions was before its predecessor, without a jump.
   bool runs_backwards() const { return backward_ >= kBackward; }
-  /// When it told the newest position; 0 before.
+  /// When the player reported the newest position; 0 before the first one.
   int64_t newest_ns() const { return newest_ns_; }
-  /// After reset().
+  /// The estimated position. To be called after reset().
   int64_t position_at(int64_t now_ns) const;
 
  private:
@@ -49,16 +49,16 @@ class PositionFilter {
   std::array<int64_t, kKept> begin_ns_{};
   size_t count_ = 0;  ///< since reset(); the last kKept are there
   double rate_ = 1;
-  int64_t position_ns_ = 0;  ///< the newest that it told
+  int64_t position_ns_ = 0;  ///< the newest that was reported
   int64_t newest_ns_ = 0;
   int backward_ = 0;      ///< positions in a row, each before the last
   bool jumped_ = false;   ///< the newest was too late for one of this playback
   bool is_goal_ = false;  ///< what is known counts until the next position
 };
 
-/// How far to shift what follows a player, which is `error_ns` behind it, after `passed_ns`: by at
-/// most 2 % of the time, which is not felt; in the first second after a jump, `is_settling`, by
-/// half of it, because little was felt yet of what it is to fit.
+/// By how much to shift, after `passed_ns`, a film that is `error_ns` behind the player: by at most
+/// 2 % of that time, which is not felt; while `is_settling`, in the first second after a jump, by
+/// at most half of it, because little has been felt yet that the force has to fit.
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 
 }  // namespace spidar::follow

@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-/// Caps that FrameLuma understands, for the pad templates: what is cheap to read first.
+/// Formats that FrameLuma reads, for the pad templates: the cheapest ones first.
 #define SPIDAR_VIDEO_FORMATS                                                      \
   "{ GRAY8, I420, YV12, NV12, NV21, Y42B, NV16, NV61, Y444, NV24, Y41B, A420, "   \
   "P010_10LE, P012_LE, P016_LE, I420_10LE, I420_12LE, I422_10LE, I422_12LE, "     \
@@ -22,13 +22,13 @@ namespace spidar {
   "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE, " \
   "BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
-/// Further ones that FrameLuma understands, by way of GStreamer's own unpacking: a conversion.
+/// Further formats that FrameLuma reads after GStreamer has unpacked them, which is a conversion.
 #define SPIDAR_UNPACKED_FORMATS                                          \
   "{ YUY2, UYVY, YVYU, VYUY, AYUV, VUYA, v308, ARGB, xRGB, ABGR, xBGR, " \
   "GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, "   \
   "v210, v216, BGR10A2_LE, RGB10A2_LE, r210 }"
 
-/// What becomes of each field of GstVideoInfo:
+/// How each field of GstVideoInfo is used:
 ///
 /// - finfo, stride, offset: FrameLuma reads every format above as its caps and video meta describe.
 /// - interlace_mode, field order: FrameLuma takes the first field.
@@ -36,14 +36,14 @@ namespace spidar {
 /// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePixelResampler).
 /// - multiview_mode, HALF_ASPECT of its flags: visible_part() and pixel_aspect(). Of two pictures
 ///   in one frame the first is analysed, since both show the same motion; of frames in turn, those
-///   that have the time of the one before are left out.
+///   that have the time of the previous one are left out.
 /// - other multiview flags say which eye a picture is for, and not where it is.
 /// - views counts pictures in planes or buffers of their own, of which the first one is mapped.
 /// - colorimetry: luma_levels() reads the range, black and white of touch=luma. Motion is where
 ///   pictures fit best, whatever their contrast: limited range has 0.86 of the other's. Matrix,
 ///   transfer and primaries are the same in all frames, and motion needs none of them.
 /// - chroma_site: chroma is not read.
-/// - fps_n, fps_d: nominal_duration(), where a frame has none of its own.
+/// - fps_n, fps_d: nominal_duration(), where a frame has no duration of its own.
 /// - size, flags: holds_picture() looks at the memory itself. The flags speak of rates that vary,
 ///   which the time stamps show, and of alpha, which is not read.
 
@@ -68,14 +68,14 @@ struct LumaLevels {
 LumaLevels luma_levels(const GstVideoInfo& info);
 
 /// Whether the mapped memory holds every line of every plane, one after the other from the top.
-/// GStreamer takes the word of a GstVideoMeta for that.
+/// GStreamer trusts a GstVideoMeta in that.
 bool holds_picture(const GstVideoFrame& frame);
 
-/// Reads plane 0 of planar and semi-planar formats in place, with its stride and of as many bits
-/// as it has; makes luma of packed RGB and of what has to be unpacked; honours a crop meta; of
-/// interlaced frames it takes the first field, because the two fields are two moments, and so it
-/// does of those that are interlaced and not flagged. With interlace-mode=mixed each frame says by
-/// its flags whether it is interlaced.
+/// Reads plane 0 of planar and semi-planar formats in place, with its stride and its depth in bits;
+/// computes luma from packed RGB and from formats that have to be unpacked; honours a crop meta;
+/// takes the first field of interlaced frames, even of those that are not flagged, because the two
+/// fields are of two moments. With interlace-mode=mixed each frame says by its flags whether it is
+/// interlaced.
 class FrameLuma {
  public:
   /// In pixels; a crop may leave less.

@@ -22,7 +22,8 @@ namespace spidar {
 /// The scene that a frame belongs to.
 struct FilmScene {
   std::shared_ptr<const std::string> path;  ///< of the film; null or empty: it is from no file
-  /// When it began, or what was seen of it: at a cut, or after a seek. −1: not known.
+  /// When the scene, or the part of it that was seen, began: at a cut, or after a seek. −1: not
+  /// known.
   int64_t begin_ns = -1;
   int64_t length_ns = 0;  ///< of the film; 0: not known
 
@@ -35,7 +36,8 @@ enum class PointOwner {
   kObject,
 };
 
-/// A point of the frame, in pixels of the whole of it, with (0, 0) at the centre of the first one.
+/// A point of the frame, in pixels of the whole frame, with (0, 0) at the centre of the first
+/// pixel.
 struct OwnedPoint {
   uint32_t id = 0;
   ImagePoint from, to;
@@ -44,13 +46,13 @@ struct OwnedPoint {
   bool is_new = false;  ///< not in the previous frame
 };
 
-/// What was found of a frame, and why nothing was: message, trace and warnings are made from it.
+/// What was found in a frame, or why nothing was: message, trace and warnings are made from it.
 struct FrameReport {
   enum class Fault {
     kNone,
     kNoTimestamp,       ///< no PTS, or no time in it or its segment: it cannot be rendered in time
-    kSameTimestamp,     ///< as the frame before, or nearly so: no Δt to divide by
-    kFallingTimestamp,  ///< before the frame before
+    kSameTimestamp,     ///< as the previous frame, or nearly so: no Δt to divide by
+    kFallingTimestamp,  ///< before the previous frame
     kTooSmall,          ///< less memory than the picture needs
     kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
     kWrongSize,         ///< more or less than FrameLuma takes
@@ -62,21 +64,21 @@ struct FrameReport {
   /// The file of the haptic track that is played; null: none. Then nothing of the frame is
   /// measured.
   std::shared_ptr<const std::string> track;
-  /// In pixels of the frame as it is stored, with its times at the element, and its wrench turned.
-  /// While a haptic track is played, only times and wrench.
+  /// In pixels of the frame as it is stored, with the times at the element, and the wrench turned
+  /// as the picture is shown. While a haptic track is played, only times and wrench are set.
   Frame frame;
-  Orientation turn;                                      ///< of the frame before it is shown
-  VisiblePart visible;                                   ///< of the frame, that was analysed
-  int64_t took_ns = 0;                                   ///< the analysis
-  NoForceReason no_force = NoForceReason::kNone;         ///< of this frame, in the film
+  Orientation turn;                               ///< of the frame before it is shown
+  VisiblePart visible;                            ///< the part of the frame that was analysed
+  int64_t took_ns = 0;                            ///< the analysis
+  NoForceReason no_force = NoForceReason::kNone;  ///< of this frame, in the film
   NoForceReason device_no_force = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchScene touch;
 
-  /// There is a wrench, be it of the analysis or of a haptic track.
+  /// Whether there is a wrench, be it of the analysis or of a haptic track.
   bool has_wrench() const { return analyzed || track; }
 };
 
-/// A frame with what is only shown of it, by overlay and window, or attached to it as metas.
+/// A report with what is needed only to show it, in overlay and window, or to attach it as metas.
 struct DrawnFrame : FrameReport {
   MotionKind motion = MotionKind::kObject;  ///< which motion is felt
   ControllerSettings controller;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element reports of a frame, or of a piece of a haptic track, on the bus.
+/// The report of a frame, or of a piece of a haptic track, as a message on the bus.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
 /// device-no-force-text (strings: a sentence, empty for "none").
 void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure);
 
-/// While so many messages of an element wait on its bus, it posts no more of them: nobody reads
+/// While this many messages of an element wait on its bus, it posts no more of them: nobody reads
 /// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an
 /// application that reads its bus has 40 s for it.
 constexpr gint kMostUnread = 1000;

@@ -18,24 +18,25 @@
 
 namespace spidar {
 
-/// In pixels of the frame that has it; it may lie partly outside.
+/// A box in pixels of the frame that has it; it may lie partly outside.
 struct ObjectBox {
-  std::string name;  ///< of what is in it, "face"
+  std::string name;  ///< of its content, such as "face"
   double x, y, width, height;
 };
 
-/// The name of our objects.
+/// The name of the objects that spidarmotion attaches.
 constexpr const char* kObjectName = "spidar-object";
 
-/// Regions (GstVideoRegionOfInterestMeta) and detections. Those without a size are left out. Ids of
-/// regions count them within a frame, so that they do not tell which is which in the next one.
+/// The regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a size are
+/// left out. Ids number the regions within a frame, and do not identify them in the next one.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
-/// Attaches the objects in sight to `buffer`, which is writable, as both. Regions that another
-/// spidarmotion has attached are replaced.
+/// Attaches the objects in sight to `buffer`, which is writable, as regions and as detections.
+/// Regions that another spidarmotion has attached are replaced.
 void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
-/// Null when the frame has none. Of a `packed` frame, the half that is the picture is meant.
+/// The boxes of a frame, in its picture as it is shown; null when there are none. The picture of a
+/// `packed` frame is one half of it.
 std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& frame,
                                                         std::optional<touch::DepthLayout> packed,
                                                         const Orientation& turn);

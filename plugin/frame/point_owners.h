@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a frame's points belong to, and which objects are felt, for those who show it.
+/// What a frame's points belong to, and which objects are felt, to be shown.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace spidar {
 
-/// Ids of the objects in sight whose motion is felt: one, or with MotionKind::kObjects all of which
-/// nobody chose one; none while only the surface is felt.
+/// Ids of the objects in sight whose motion is felt: one, or all with MotionKind::kObjects when
+/// none was chosen; none while only the surface is felt.
 std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 
 /// Where the arrow of the force begins, in pixels of the frame: on the one object that is

@@ -22,7 +22,7 @@ namespace spidar {
 /// picture before: (0, 0) is its top left corner, (1, 1) its bottom right one.
 class GripPointer {
  public:
-  /// Nothing is known of a device: everything is the middle.
+  /// Without a device: every position is the middle.
   GripPointer() = default;
   explicit GripPointer(const StringGeometry& geometry, const Orientation& turn = {});
   /// See half_size_m().
@@ -34,7 +34,7 @@ class GripPointer {
   /// The inverse: x and y in the device frame.
   Eigen::Vector2d position_m(const Eigen::Vector2d& position) const;
 
-  /// Of the box that maps to the picture, in x and y.
+  /// Half the size, in x and y, of the box that maps to the picture.
   const Eigen::Vector2d& half_size_m() const { return half_size_m_; }
   const Orientation& turn() const { return turn_; }
 
@@ -49,7 +49,7 @@ struct TouchScene {
   GripPointer pointer;
   double stiffness_N_m = 0;    ///< rendered stiffness
   double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
-  /// touch::HeightField::shading() of the picture as it is shown; empty: nobody looks at it.
+  /// touch::HeightField::shading() of the picture as it is shown; empty: it is not shown.
   std::string shading = {};
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What goes on the bus: an exception as an error, and information.
+/// Messages on the bus: an exception as an error or a warning, and information.
 #pragma once
 
 #include <exception>
@@ -32,9 +32,10 @@ inline GstResourceError resource_error(DeviceErrorCode code) {
 }
 
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
-/// A device that cannot be used is RESOURCE with the code of its code, a wrong profile or number
-/// RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of the
-/// source that found it, or `location` where the exception does not say, and ends with `details`.
+/// A device that cannot be used is RESOURCE with resource_error() of its code, a wrong profile or
+/// number RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of
+/// the source that found it, or `location` where the exception does not say, and ends with
+/// `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
                            const std::string& details, SourceLocation location) {
   const auto* const device = dynamic_cast<const DeviceError*>(&error);

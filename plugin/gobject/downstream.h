@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is around an element: the bins that contain it, their state, and what its frames come from
-/// and go on to.
+/// The surroundings of an element: the bins that contain it, their state, and the elements before
+/// and behind it.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace spidar {
 
-/// From the one that contains it to the pipeline.
+/// The bins around `object`, from the one that contains it to the pipeline.
 template <typename Object>
 std::vector<Ref<GstObject>> bins_around(Object* object) {
   std::vector<Ref<GstObject>> bins;
@@ -25,7 +25,7 @@ std::vector<Ref<GstObject>> bins_around(Object* object) {
   return bins;
 }
 
-/// The outermost of them, or the object itself when it is in none.
+/// The outermost bin around `object`, or the object itself when it is in none.
 template <typename Object>
 Ref<GstObject> root_of(Object* object) {
   std::vector<Ref<GstObject>> bins = bins_around(object);

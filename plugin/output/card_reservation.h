@@ -16,7 +16,7 @@ namespace spidar {
 /// Needs no main loop.
 class CardReservation {
  public:
-  /// How long the bus and whoever has the card may take in all to give it away.
+  /// The time that the bus and the owner of the card have in all to give it away.
   static constexpr int kPatience_ms = 3000;
 
   /// `card` is ALSA's number. Null, and why in `refused`, if the card was not given away; null
@@ -29,7 +29,7 @@ class CardReservation {
  private:
   explicit CardReservation(int card);
 
-  /// Of what is waited for.
+  /// The time left until until_us_; at least 1 ms.
   int left_ms() const;
   bool request_name(guint32 flags, std::string& refused) const;
   bool is_given_away(std::string& refused) const;

@@ -18,9 +18,9 @@ struct DeviceView {
   std::string name;
   bool has_hand = false;         ///< it is simulated, and lead_hand() moves its hand
   bool has_strings = true;       ///< otherwise only the size of the profile's frame matters
-  TickRecord last;               ///< tick
+  TickRecord last;               ///< the newest tick
   uint64_t overruns = 0;         ///< see LoopCounters
-  std::vector<ForceTick> ticks;  ///< since the last look, oldest first
+  std::vector<ForceTick> ticks;  ///< since the last look_at_device(), oldest first
   StringGeometry geometry;
   StringVector min_tension_N = StringVector::Zero();
   StringVector max_tension_N = StringVector::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an element reports on the bus when something is wrong with its device.
+/// Reports on the bus when something is wrong with an element's device.
 #pragma once
 
 #include <exception>
@@ -23,17 +23,19 @@ class DeviceWarnings {
   DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
-  /// Opens a device by `opens`, which returns why the haptic trace cannot be written, or nothing,
-  /// and reports the result. False when the stream is not to begin without `device`.
+  /// Opens a device by calling `opens`, which returns why the haptic trace cannot be written, or an
+  /// empty string; reports the result. Returns false when the stream must not begin without
+  /// `device`.
   bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
             const std::function<std::string()>& opens) const;
-  /// The element begins: everything may be reported again.
+  /// The element starts: everything may be reported again.
   void start();
-  /// Looks at the device. False when the stream is to end, and then reports why.
+  /// Checks the device. Returns false when the stream has to end, and then reports why.
   bool check(const HapticSession* session, OnDeviceError policy);
-  /// Once a device: the haptic trace cannot be written any more.
+  /// Reports, once for each device, that the haptic trace can no longer be written.
   void check_haptic_trace(const HapticSession* session);
-  /// The stream ends: the same of the last rows of the haptic trace, and how many are missing.
+  /// The stream ends: writes the last rows of the haptic trace, reports as check_haptic_trace()
+  /// does, or how many rows are missing.
   void end_haptic_trace(HapticSession* session);
 
  private:
@@ -67,7 +69,7 @@ class DeviceWarnings {
   uint64_t times_lost_ = 0;
 };
 
-/// Warns of rows that are missing in `trace`, "The trace", if there are any.
+/// Warns of the number of rows that are missing in `trace`, such as "The trace", unless it is 0.
 void warn_of_missing_rows(GstElement* element, const char* trace, uint64_t rows);
 
 }  // namespace spidar

@@ -24,7 +24,7 @@ class SimulatedDevice;
 /// state changes and the streaming thread.
 class HapticOutput {
  public:
-  /// `refreshed` is called each time after the haptic loop has received where playback is: a
+  /// `refreshed` is called each time after the haptic loop has received the playback clock: a
   /// hundred times a second while playing.
   HapticOutput(GstElement* element, std::function<void()> refreshed);
   ~HapticOutput();
@@ -33,37 +33,39 @@ class HapticOutput {
   /// each tick is a millisecond for the device "sim".
   void set_manual(std::function<int64_t()> now);
 
-  /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the one that
-  /// the device has without. Throws ProfileError, std::runtime_error, and DeviceError, also for
-  /// a board without a profile, whose motors may get no force; then it stays closed. Empty, or why
-  /// the haptic trace cannot be written: the device works without it. See set_max_force().
+  /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the default
+  /// one of the device. Throws ProfileError, std::runtime_error, and DeviceError, also for a board
+  /// without a profile, whose motors may get no force; then it stays closed. Returns an empty
+  /// string, or why the haptic trace cannot be written: the device works without it. See
+  /// set_max_force().
   std::string open(const std::string& device, const std::string& profile, double max_force_N,
                    const std::string& haptic_trace);
   /// Which device "auto" became, and why; empty when another one was asked for. State changes.
   const std::string& chosen() const { return chosen_; }
-  /// Motors to rest, device closed.
+  /// Brings the motors to rest and closes the device.
   void close();
 
-  /// Where playback is.
+  /// The source of the playback clock.
   PlaybackFollower& follower() { return follower_; }
-  /// Of the device that is open, from the next tick of the haptic loop on. No more than the device
-  /// can give in every direction, which is reported once for each device that is opened.
+  /// Limits the force of the open device from the next tick of the haptic loop on. More than the
+  /// device can give in every direction is lowered to that, and reported once for each device that
+  /// is opened.
   void set_max_force(double max_force_N);
 
   /// Null while closed. Opened and closed by state changes only.
   HapticSession* session() const { return session_.get(); }
   /// The device "sim"; null for other devices, and while closed. Opened and closed as session().
   SimulatedDevice* simulated() const { return simulated_; }
-  /// Of the device that is open, or was last.
+  /// The profile of the device that is open, or was open last.
   const Profile& profile() const { return profile_; }
   /// Nothing while closed.
   std::optional<LoopSnapshot> snapshot() const;
-  /// False while closed.
+  /// Fills in `view`. Returns false while closed.
   bool look_at_device(DeviceView& view);
   /// Leads the hand of the device "sim" to a position, see SimulatedDevice::lead_hand(). False for
   /// other devices, and while closed.
   bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);
-  /// Adds what describe_session() says, while a device is open.
+  /// Adds the fields of the device (docs/fields.toml) while one is open.
   void describe(GstStructure* structure) const;
 
  private:
@@ -76,11 +78,11 @@ class HapticOutput {
   mutable std::mutex mutex_;                      ///< state changes against any thread
   std::unique_ptr<CardReservation> reservation_;  ///< of the session's card
   std::unique_ptr<HapticSession> session_;
-  SimulatedDevice* simulated_ = nullptr;  ///< of the session, if it is one
+  SimulatedDevice* simulated_ = nullptr;  ///< the device of session_ if it is simulated, else null
   Profile profile_;
   std::string chosen_;
   double most_force_N_ = 0;    ///< that the device can give
-  std::string most_force_of_;  ///< the profile that this is of, or the device
+  std::string most_force_of_;  ///< the profile, or the device, that can give it
   bool said_too_much_ = false;
   PlaybackFollower follower_;  ///< ends before the loop to which it publishes
 };

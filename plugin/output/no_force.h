@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why nothing is felt: the reasons with the words for them, and which one holds, of the film, of
-/// the playback or of the device.
+/// Why nothing is felt: the reasons with the words for them, and which one holds for the film, the
+/// playback or the device.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace spidar {
 
-/// What keeps the force below kFeltForce_N, or lowers it (kGripReleased, kVibration). The reasons
-/// up to kEnded and those from kCannotTouch on are of the device, the playback or, while
+/// The reason why the force is below kFeltForce_N, or is lowered (kGripReleased, kVibration). The
+/// reasons up to kEnded and those from kCannotTouch on are of the device, the playback or, while
 /// touching, the contact, and hold for any film; the others are the film's.
 enum class NoForceReason {
   kNone,  ///< there is a force
@@ -57,7 +57,7 @@ constexpr size_t kNoForceReasons = static_cast<size_t>(NoForceReason::kNoDevice)
 const char* nick(NoForceReason reason) noexcept;
 /// For people: a whole sentence. Empty for kNone.
 const char* sentence(NoForceReason reason) noexcept;
-/// The inverse of nick(); nothing for what is none.
+/// The inverse of nick(); nothing for an unknown nick.
 std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept;
 
 /// The reason in the video, for one frame that was analysed for `motion`, whose wrench is what is
@@ -82,13 +82,13 @@ class NoForceHistory {
   /// shown.
   static constexpr size_t kFrames = 1024;
 
-  /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames that were added
-  /// before and are not earlier are dropped.
+  /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames added before that
+  /// are not shown earlier are dropped.
   void add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept;
 
-  /// Of the frames shown in the second up to `now_ns`: kNone when one of them has a force that is
-  /// felt; kRepeatedFrames when all of them show the same picture; else the reason that most
-  /// pictures have.
+  /// The reason for the frames shown in the second up to `now_ns`: kNone when one of them has a
+  /// force that is felt; kRepeatedFrames when all of them show the same picture; else the reason
+  /// that most pictures have.
   NoForceReason reason(int64_t now_ns) const noexcept;
 
   void reset() noexcept { count_ = 0; }
@@ -118,14 +118,14 @@ class NoForceWatch {
   /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
   /// for one that is too weak to feel.
   void add(int64_t shown_ns, const Wrench& wrench, NoForceReason reason);
-  /// No frames come after the one that was added last, until another one is.
+  /// No frames come after the one that was added last, until another one is added.
   void end();
   /// Running time begins anew.
   void reset();
   void set_muted(bool muted) { muted_ = muted; }
-  /// The picture is touched: from now on what is felt is the contact, and not the film.
+  /// While the picture is touched, the contact is felt, and not the film.
   void set_touching(bool touching) { touching_ = touching; }
-  /// Of the device that is open.
+  /// Whether the open device can touch, see GripAbilities.
   void set_can_touch(bool can_touch) { can_touch_ = can_touch; }
 
   /// The film's reason, of the last second up to the picture on the screen; without a device, up to
@@ -145,7 +145,7 @@ class NoForceWatch {
   mutable std::mutex mutex_;
   NoForceHistory frames_;
   int64_t newest_ns_ = 0;
-  bool is_last_ = false;  ///< the newest
+  bool is_last_ = false;  ///< the newest frame is the last one
   std::atomic<bool> muted_{false};
   std::atomic<bool> touching_{false};
   std::atomic<bool> can_touch_{true};

@@ -58,7 +58,7 @@ struct ArrowStyle {
 double felt_width_px(const ArrowStyle& style);
 
 /// One arrow per point with its tail at `from`: bold for objects, pale for the background. `at_px`
-/// says where a point of the frame is drawn.
+/// maps a point of the frame to where it is drawn.
 std::vector<Arrow> point_arrows(const std::vector<OwnedPoint>& points, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 

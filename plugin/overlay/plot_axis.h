@@ -13,7 +13,8 @@ namespace spidar {
 
 /// A range of values with ticks at multiples of `step`.
 struct PlotAxis {
-  /// Of a step: rounding of low / step must neither add nor lose a tick at the end of the range.
+  /// Tolerance in steps: rounding of low / step must neither add nor lose a tick at the end of the
+  /// range.
   static constexpr double kRounding = 1e-9;
 
   double low = 0, high = 1;

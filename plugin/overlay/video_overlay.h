@@ -23,7 +23,7 @@ class ForceCurve {
   /// Upper end of the axis of a stream in which hardly anything is felt.
   static constexpr double kLeastTop_N = 0.5;
 
-  /// The force of a frame. A time before that of the frame before begins another stream.
+  /// The force of a frame. A time before that of the previous frame begins another stream.
   void add(int64_t time_ns, double force_N) {
     if (!points_.empty() && time_ns < points_.back().time_ns) *this = {};
     points_.push_back({time_ns, force_N});
@@ -31,8 +31,8 @@ class ForceCurve {
     while (points_.front().time_ns < time_ns - kLength_ns) points_.pop_front();
   }
 
-  /// From 0 to a round number that no force of the stream has exceeded, so that heights can be
-  /// compared.
+  /// The axis from 0 to a round number that no force of the stream has exceeded, so that heights
+  /// can be compared.
   PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kLeastTop_N)), 1); }
 
   /// Oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What an application can set on the element.
+/// The properties that an application can set on the element.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ struct TouchProperties {
   double texture = 0;          ///< gain of the fine detail's slope
   double motion_fraction = 0;  ///< of the film's motion, which is rendered besides
 
-  /// Where in its frames the film has depth that is touched; nothing where they are all picture.
+  /// The part of the film's frames that has the depth to be touched; nothing where they are all
+  /// picture.
   std::optional<touch::DepthLayout> packed() const {
     if (kind == Kind::kDepth) return touch::DepthLayout::kRight;
     if (kind == Kind::kDepthBelow) return touch::DepthLayout::kBelow;
@@ -57,15 +58,16 @@ struct Pointer {
   enum class Kind { kFixed, kGrip, kMouse };
 
   Kind kind = Kind::kFixed;
-  /// Of kFixed; of the others, where they are until the device runs or the mouse moves. (0, 0) is
-  /// the top left corner of the picture, (1, 1) its bottom right one.
+  /// The position with kFixed; with the others, where they point until the device runs or the mouse
+  /// moves. (0, 0) is the top left corner of the picture, (1, 1) its bottom right one.
   Eigen::Vector2d position{0.5, 0.5};
 };
 
-/// What is read anew for each frame.
+/// The settings that are read again for each frame.
 struct FrameSettings {
-  /// Of the element, its pointer is the fixed one. Of a frame, it is a position of the frame
-  /// before it is turned, and rules, boxes and the object of a click are there, too.
+  /// In the settings of the element, its pointer is the fixed one. In those of a frame, it is a
+  /// position in the frame before it is turned, and rules, boxes and the object of a click are
+  /// there, too.
   AnalyzerSettings analyzer;
   Pointer::Kind pointer = Pointer::Kind::kFixed;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
@@ -86,15 +88,15 @@ struct MotionProperties : FrameSettings {
   bool mute = false;
 };
 
-/// All of spidarmotion, `stats` included.
+/// All properties of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
 
-/// As it is by default.
+/// The default of the property `pointer`.
 constexpr const char* kMiddle = "0.5,0.5";
 
 /// "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for all else.
 std::optional<Pointer> parse_pointer(const std::string& text);
-/// The inverse.
+/// The inverse of parse_pointer().
 std::string text_of(const Pointer& pointer);
 
 }  // namespace spidar

@@ -27,8 +27,8 @@ constexpr auto kPlaying = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_S
 /// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable = static_cast<GParamFlags>(kPlaying | GST_PARAM_CONTROLLABLE);
 
-/// Marks what the force of a film's frames depends on. What is not marked is for a device, a viewer
-/// or a pipeline, and changes no haptic track.
+/// Marks properties that the force of a film's frames depends on. Those without the mark are for a
+/// device, a viewer or a pipeline, and change no haptic track.
 inline GQuark analysis_mark() {
   return g_quark_from_static_string("spidar-analysis");
 }
@@ -133,7 +133,7 @@ struct Property {
         [=](const Settings& s, GValue* v) { g_value_set_enum(v, static_cast<int>(field(s))); }};
   }
 
-  /// NULL where it is empty.
+  /// A text, which is NULL where it is empty.
   template <typename Field>
   static Property text(PropertyNames n, GParamFlags flags, Field field) {
     const auto or_null = [](const std::string& s) { return s.empty() ? nullptr : s.c_str(); };
@@ -191,7 +191,8 @@ class PropertyTable {
   std::vector<Property<Settings>> rows_;
 };
 
-/// What a change of a property does besides, for what does not read the settings by itself.
+/// What a change of a property does besides storing it, for parts that do not read the settings
+/// themselves.
 template <typename Element>
 struct PropertyEffect {
   const char* property;

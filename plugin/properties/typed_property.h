@@ -22,7 +22,7 @@ class TypedProperty {
   TypedProperty(const TypedProperty&) = delete;
   TypedProperty& operator=(const TypedProperty&) = delete;
 
-  /// As it is registered: `max-force`, even if `max_force` was typed.
+  /// The name as it is registered: `max-force`, even if `max_force` was typed.
   std::string name() const { return g_param_spec_get_name(property_); }
   const GValue* value() const { return &value_; }
   bool is_default() const { return g_param_value_defaults(property_, &value_) != FALSE; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// When each frame is shown, and whether that can be analysed.
+/// When each frame is shown, and whether it can be analysed.
 #pragma once
 
 #include <cstdint>
@@ -25,47 +25,47 @@ inline GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time)
              : GST_CLOCK_TIME_NONE;
 }
 
-/// As the caps state it; 0 where they do not.
+/// The duration of a frame at the frame rate of the caps; 0 when they state none.
 GstClockTime nominal_duration(const GstVideoInfo& info);
 
-/// When a sink shows a buffer that lasts for `nominal`, unless it says for how long, and where that
-/// is in the film. Nothing when the sink drops it. The segment is in time format, and the buffer
-/// has a PTS.
+/// When a sink shows a buffer, and where the buffer is in the film; nothing when the sink drops it.
+/// A buffer without a duration is taken to last for `nominal`. The segment is in time format, and
+/// the buffer has a PTS.
 std::optional<FrameStamp> stamp_of(GstBuffer* buffer, GstClockTime nominal,
                                    const GstSegment& segment, uint32_t epoch);
 
-/// Where a frame lies on the time of the analysis.
+/// The time of a frame on the time line of the analysis.
 struct PacedTime {
-  int64_t running_ns = 0;  ///< of the element
-  int64_t paced_ns = 0;    ///< the distance to the frame before is that of showing them
-  int64_t since_ns = 0;    ///< paced, since the frame before; 0 when there is none
-  bool in_place = false;   ///< of the frame before, which has the same time
+  int64_t running_ns = 0;  ///< at the element
+  int64_t paced_ns = 0;    ///< advances by the interval at which frames are shown
+  int64_t since_ns = 0;    ///< of paced_ns since the previous frame; 0 when there is none
+  bool in_place = false;   ///< it replaces the previous frame, which has the same time
 };
 
 /// Follows the timestamps of one stream. Streaming thread.
 class FramePacer {
  public:
   enum class Order {
-    kNext,   ///< after the frame before
-    kFirst,  ///< the frame before does not count: a discontinuity, or next to nothing is left of it
-    kTooSoon,  ///< the same time as the frame before, or nearly so: no Δt to divide a motion by
-    kFalling,  ///< before the frame before
+    kNext,     ///< after the previous frame
+    kFirst,    ///< the previous one does not count: a discontinuity, or hardly any of it is left
+    kTooSoon,  ///< the same time as the previous frame, or nearly so: no Δt to divide a motion by
+    kFalling,  ///< before the previous frame
   };
 
   Order order(int64_t running_ns, const GstVideoFrame& frame, const GstSegment& segment) const;
-  /// `rate_multiplier` as InstantRate has it.
+  /// `rate_multiplier` is InstantRate::multiplier().
   PacedTime at(int64_t running_ns, double rate_multiplier) const;
 
-  /// A frame was analysed; `moved` when something was measured since the frame before.
+  /// A frame was analysed; `moved`: a motion since the previous frame was measured.
   void push(const PacedTime& time, bool moved);
-  /// A frame was passed that has no picture.
+  /// A frame without a picture has passed.
   void advance(const PacedTime& time);
   void begin_segment() { frames_in_segment_ = 0; }
   /// Running time begins anew.
   void reset();
 
   bool has_frame() const { return last_running_ns_ >= 0; }
-  /// When the next frame would be due, one like the last ones.
+  /// Running time at which the next frame is due if the interval stays the same.
   int64_t next_ns() const;
 
  private:

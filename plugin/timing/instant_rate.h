@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Changes of the rate that do not seek.
+/// Changes of the playback rate without a seek.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,22 @@
 
 namespace spidar {
 
-/// Running times beyond 73 years are none: sums and differences of a few that are fit an int64_t.
+/// Running times beyond 73 years are invalid: sums and differences of a few valid ones fit an
+/// int64_t.
 constexpr gint64 kLatest_ns = gint64{1} << 61;
 
 inline bool is_time(GstClockTime running_time) {
   return running_time <= static_cast<GstClockTime>(kLatest_ns);
 }
 
-/// Running time at the sink of what has a running time here. They differ from an instant change of
-/// the rate on: segments stay as they are, and the sink shows frames closer together. The pipeline
+/// Converts running times of the element to those of the sink. They differ after an instant change
+/// of the rate: segments stay as they are, and the sink shows frames closer together. The pipeline
 /// states where the change takes place (INSTANT_RATE_SYNC_TIME, GStreamer's design document
 /// "seeking", section "instant rate changes").
 class InstantRate {
  public:
-  /// From here on `multiplier` times as fast: what is `upstream` here is shown at `running_time`.
-  /// What makes no sense is ignored.
+  /// From here on, the sink shows frames `multiplier` times as fast: the one at `upstream` here is
+  /// shown at `running_time`. Invalid arguments are ignored.
   void change(double multiplier, GstClockTime running_time, GstClockTime upstream) {
     if (!(multiplier > 0) || !is_time(running_time) || !is_time(upstream)) return;
     multiplier_ = multiplier;
@@ -35,7 +36,7 @@ class InstantRate {
 
   double multiplier() const { return multiplier_; }
 
-  /// `running_ns` is at most kLatest_ns, and so is the result, either way.
+  /// The result lies within ±kLatest_ns, as `running_ns` has to.
   gint64 at_sink(gint64 running_ns) const {
     const gint64 since_ns = running_ns - here_ns_;
     if (multiplier_ == 1) return std::clamp(shown_ns_ + since_ns, -kLatest_ns, kLatest_ns);

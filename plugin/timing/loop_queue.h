@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is to be rendered when, on its way to the haptic loop: samples of a track, and wrenches of
-/// frames, from the time of the element to that of the sink.
+/// Samples of a track and wrenches of frames on their way to the haptic loop; those of frames are
+/// converted from the running time of the element to that of the sink.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@
 
 namespace spidar {
 
-/// Hands wrenches or blocks of samples to the loop; what that has no room for waits here.
-/// Thread-safe; without a loop everything is forgotten.
+/// Hands wrenches or blocks of samples to the loop; entries for which it has no room wait here.
+/// Thread-safe; without a loop, entries are discarded.
 template <typename Entry>
 class LoopQueue {
  public:
-  /// What comes while so many entries wait is refused. `kept`: as many stay here after they were
-  /// forwarded, for forward_again().
+  /// While `most_waiting` entries wait, further ones are refused. The last `kept` entries stay here
+  /// after they were forwarded, for forward_again().
   explicit LoopQueue(size_t most_waiting, size_t kept = 0)
       : most_waiting_(most_waiting), kept_(kept) {}
   virtual ~LoopQueue() = default;
@@ -39,7 +39,7 @@ class LoopQueue {
     clear_entries();
     refused_ = 0;
   }
-  /// Times must rise.
+  /// The times of the entries must rise.
   void add(const Entry& entry) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!loop_ || muted_) return;
@@ -51,23 +51,24 @@ class LoopQueue {
     enter(entries_.back());
     forward_locked();
   }
-  /// Again what waits. To be called while playing, more often than every 50 ms.
+  /// Tries again to forward the entries that wait. To be called while playing, more often than
+  /// every 50 ms.
   void forward_waiting() {
     const std::lock_guard<std::mutex> lock(mutex_);
     forward_locked();
   }
-  /// Everything added so far.
+  /// Discards everything added so far, in the loop as well.
   void clear() {
     const std::lock_guard<std::mutex> lock(mutex_);
     clear_locked();
   }
-  /// What is added while muted is forgotten.
+  /// Entries added while muted are discarded; muting also discards those from before.
   void set_muted(bool muted) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (muted && !muted_) clear_locked();
     muted_ = muted;
   }
-  /// Since the connection: wrenches or samples for which there was no room.
+  /// Wrenches or samples refused since the connection because there was no room.
   uint64_t refused() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return refused_;
@@ -76,13 +77,13 @@ class LoopQueue {
  protected:
   // With the mutex held.
   virtual void enter(Entry&) {}
-  /// As the loop gets it.
+  /// The entry as the loop gets it.
   virtual Entry shown(const Entry& entry) const { return entry; }
   void clear_entries() {
     entries_.clear();
     handed_ = 0;
   }
-  /// All that is still here.
+  /// Cancels what the loop has and forwards all entries that are still here.
   void forward_again() {
     handed_ = 0;
     if (loop_) loop_->cancel_scheduled();
@@ -110,26 +111,26 @@ class LoopQueue {
   const size_t most_waiting_, kept_;
   HapticLoop* loop_ = nullptr;
   bool muted_ = false;
-  size_t handed_ = 0;  ///< of the entries, from the first one on
+  size_t handed_ = 0;  ///< entries that the loop has, from the first one on
   uint64_t refused_ = 0;
 };
 
-/// Of a LoopQueue<TrackBlock>, which has the running times of the sink: 40 s of a track, or 1 s in
-/// blocks of one sample each.
+/// Capacity of a LoopQueue<TrackBlock>, whose running times are those of the sink: 40 s of a track,
+/// or 1 s in blocks of one sample each.
 constexpr size_t kMostBlocksWaiting = 1000;
 
-/// Turns the running times of an element into those of the sink behind it. Seconds of frames may
-/// wait between the element and the sink, or a long ts-offset.
+/// Turns the running times of an element into those of the sink behind it. Seconds may lie between
+/// the two: of frames that wait, or of a long ts-offset.
 class WrenchBacklog : public LoopQueue<TimedWrench> {
  public:
-  /// More than waits for any sink: a quarter of an hour at 60 frames/s.
+  /// More wrenches than wait for any sink: a quarter of an hour at 60 frames/s.
   static constexpr size_t kMostWaiting = 1 << 16;
-  /// As many as the loop may not have rendered are kept for a change of the rate: at least as many
-  /// as fit into its ring and its timeline together.
+  /// Forwarded wrenches that are kept for a change of the rate, since the loop may not have
+  /// rendered them: at least as many as fit into its ring and its timeline together.
   static constexpr size_t kHandedOn = 512;
   WrenchBacklog() : LoopQueue(kMostWaiting, kHandedOn) {}
 
-  /// The sink shows what comes `multiplier` times as fast from this moment on, see InstantRate.
+  /// From now on, the sink shows frames `multiplier` times as fast, see InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto skipped = static_cast<GstClockTime>(skipped_ns_);
@@ -145,17 +146,17 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     const std::lock_guard<std::mutex> lock(mutex_);
     return instant_rate_.multiplier();
   }
-  /// Running time at the sink of a frame that has this running time here, as far as is known.
+  /// Running time at the sink of a frame that is at `running_ns` here, as far as is known.
   int64_t at_sink_ns(int64_t running_ns) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return instant_rate_.at_sink(running_ns + skipped_before_ns_);
   }
-  /// The sink has stepped over so much of running time: it shows what follows as much earlier.
+  /// The sink has stepped over `duration` of running time and shows later frames that much earlier.
   void skip(GstClockTime duration) {
     const std::lock_guard<std::mutex> lock(mutex_);
     skipped_ns_ += static_cast<int64_t>(duration);
   }
-  /// Since running time began, in ns.
+  /// The running time, in ns, that the sink has stepped over since the last reset().
   int64_t skipped_ns() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return skipped_ns_;
@@ -184,7 +185,7 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
 
   InstantRate instant_rate_;
   int64_t skipped_ns_ = 0;         ///< by the sink, since the last flush
-  int64_t skipped_before_ns_ = 0;  ///< of it, before this segment
+  int64_t skipped_before_ns_ = 0;  ///< the part of skipped_ns_ before this segment
 };
 
 }  // namespace spidar

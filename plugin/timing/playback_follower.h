@@ -17,13 +17,13 @@
 
 namespace spidar {
 
-/// What is behind an element and delays its frames: the latency that the sink received, `ts-offset`
-/// of the sink (playbin: av-offset), offsets of the pads on the way, and elements on the way that
-/// wait for the clock themselves (`clocksync`, `identity sync=true`). The sink shows a frame when
-/// the last of those that wait has let it go.
+/// The delay of an element's frames on the way to the screen: the latency that the sink received,
+/// `ts-offset` of the sink (playbin: av-offset), offsets of the pads on the way, and elements on
+/// the way that wait for the clock themselves (`clocksync`, `identity sync=true`). The sink shows a
+/// frame when the last of those that wait has let it go.
 ///
-/// Only the latency is sent by an event, and that one is not repeated for an element that is put
-/// into a pipeline which plays already: so this looks at the way to the sink itself.
+/// Only the latency is sent in an event, which is not repeated for an element that joins a pipeline
+/// already playing: therefore this class examines the path to the sink itself.
 ///
 /// Not thread-safe: the owner holds one lock around it.
 class PresentationDelay {
@@ -34,14 +34,14 @@ class PresentationDelay {
   PresentationDelay& operator=(const PresentationDelay&) = delete;
 
   /// Looks downstream of `element`, through bins, for the first sink that waits for the clock, and
-  /// keeps the way to it until reset(). Again whenever it may be another one.
+  /// keeps the path to it until reset(). To be called again whenever the sink may have changed.
   void follow(GstElement* element);
   void reset();
 
-  /// From the LATENCY event; counts where no sink is found that waits.
+  /// Takes the latency of the LATENCY event, which counts where nothing that waits is found.
   void set_latency(GstClockTime latency);
 
-  /// As it is now, in ns; > 0: shown later.
+  /// The present delay in ns; > 0: frames are shown later.
   GstClockTimeDiff value_ns() const;
 
  private:
@@ -51,31 +51,30 @@ class PresentationDelay {
 };
 
 /// Observes the pipeline's clock, and what delays the picture behind the element, a hundred times a
-/// second while playing.
-/// Frames are no good as the occasion: a queue behind the element holds them back, while a seek
-/// changes the base time and an audio clock drifts. Thread-safe.
+/// second while playing. It does not wait for frames, because a queue behind the element may hold
+/// them back while a seek changes the base time and an audio clock drifts. Thread-safe.
 class PlaybackFollower {
  public:
   explicit PlaybackFollower(GstElement* element) : element_(element) {}
   ~PlaybackFollower() { end(); }
 
-  /// A device begins to follow playback, which is not playing yet. `now` as in PlaybackSync.
-  /// Without a thread the owner calls refresh().
+  /// Begins to publish for a device, before playback starts. `now` is that of PlaybackSync. If it
+  /// is not `threaded`, the owner calls refresh().
   void begin(std::function<void(const PlaybackClock&)> publish, std::function<int64_t()> now,
              bool threaded);
-  /// Publishes nothing any more.
+  /// Stops publishing.
   void end();
 
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
-  /// By the sink, of running time: what follows is shown as much earlier.
+  /// The running time that the sink has stepped over: it shows later frames that much earlier.
   void set_skipped(int64_t skipped_ns);
   /// Something behind the element was linked anew.
   void look_for_sink();
   /// See PlaybackSync::expect_base_time().
   void expect_base_time();
-  /// Looks at the pipeline's clock now; the thread does that by itself.
+  /// Reads the pipeline's clock now; the thread does so on its own.
   void refresh();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the pipeline's clock to the haptic loop's.
+/// Conversion from the pipeline's clock to the haptic loop's.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class PlaybackSync {
   /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's idea of it.
   explicit PlaybackSync(std::function<int64_t()> now) : now_(std::move(now)) {}
 
-  /// Between PAUSED→PLAYING and PLAYING→PAUSED.
+  /// True from PAUSED→PLAYING to PLAYING→PAUSED.
   void set_playing(bool playing) {
     playing_ = playing;
     outdated_base_time_ = GST_CLOCK_TIME_NONE;
@@ -39,22 +39,22 @@ class PlaybackSync {
 
   /// Running time has begun anew (flushing seek): the element's base time is outdated until the
   /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A
-  /// sink that does not preroll keeps its base time: after three seconds so does this.
+  /// sink that does not preroll keeps its base time, which is trusted again after three seconds.
   void expect_base_time(GstElement* element) {
     constexpr int64_t kPatience_ns = 3'000'000'000;
     outdated_base_time_ = gst_element_get_base_time(element);
     outdated_until_ns_ = now_() + kPatience_ns;
   }
 
-  /// By how much the force comes later than the running time of its frame; signed.
+  /// The delay of the force after the running time of its frame; signed.
   void set_offset(GstClockTimeDiff offset_ns) { offset_ns_ = offset_ns; }
 
-  /// What the sink has stepped over, and shows later frames earlier by.
+  /// The running time that the sink has stepped over: it shows later frames that much earlier.
   void set_skipped(int64_t skipped_ns) { skipped_ns_ = skipped_ns; }
 
-  /// Reads the element's clock and returns the line through what was read so far. A clock other
-  /// than the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew.
-  /// A clock that stands still, or cannot be read any more, leaves the picture on the screen: the
+  /// Reads the element's clock and returns the line through the readings so far. A clock other than
+  /// the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew. A
+  /// clock that stands still, or cannot be read any more, leaves the picture on the screen: the
   /// line is valid for kLongestStandstill_ns only.
   PlaybackClock observe(GstElement* element) {
     PlaybackClock result;
@@ -84,8 +84,8 @@ class PlaybackSync {
     return result;
   }
 
-  /// As long as a frame is held. The clock of a sound card that is read in whole periods stands
-  /// still for shorter.
+  /// The time for which a frame is held. The clock of a sound card that is read in whole periods
+  /// stands still for a shorter time.
   static constexpr int64_t kLongestStandstill_ns = 100 * 1000 * 1000;
 
  private:
@@ -94,8 +94,9 @@ class PlaybackSync {
   static constexpr size_t kEnough = 16;
   /// A reading further than this from the line is no jitter.
   static constexpr int64_t kJump_ns = 5 * 1000 * 1000;
-  /// So many of them in a row are another clock or a step in it. Fewer are a sound card's clock in
-  /// the middle of an update: it stands still while the thread that feeds the card is put aside.
+  /// This many such readings in a row mean another clock or a step in it. Fewer come from a sound
+  /// card's clock in the middle of an update: it stands still while the thread that feeds the card
+  /// is preempted.
   static constexpr int kLastingJump = 5;
 
   static int64_t to_ns(GstClockTime t) {
@@ -179,7 +180,7 @@ class PlaybackSync {
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};
   size_t readings_ = 0;  ///< since reset(); the last kWindow are kept
-  int strays_ = 0;       ///< left out since the newest of them
+  int strays_ = 0;       ///< readings left out since the newest of them
   // clock = clock_ns_ + (t − monotonic_ns_) · rate_
   int64_t monotonic_ns_ = 0;
   int64_t clock_ns_ = 0;

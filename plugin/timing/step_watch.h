@@ -13,9 +13,9 @@
 
 namespace spidar {
 
-/// A sink that steps over frames with a flush shows what follows as much earlier: it moves its own
-/// segment, and nobody upstream is informed. All that is to be known of it is the message that the
-/// application gets (STEP_DONE), so this listens to the pipeline's bus.
+/// A sink that steps over frames with a flush shows later frames that much earlier: it moves its
+/// own segment, and no element upstream is informed. The only sign of it is the message that the
+/// application gets (STEP_DONE), so this class listens to the pipeline's bus.
 class StepWatch {
  public:
   /// Calls `skipped` with the running time that a sink behind `element` has skipped, in the thread
@@ -23,7 +23,7 @@ class StepWatch {
   StepWatch(GstElement* element, std::function<void(GstClockTime)> skipped)
       : element_(element), skipped_(std::move(skipped)) {}
 
-  /// State changes of the element only.
+  /// begin() and end(): in state changes of the element only.
   void begin() {
     bus_.reset(gst_element_get_bus(GST_ELEMENT(root_of(element_).get())));
     if (!bus_) return;

@@ -18,12 +18,12 @@ namespace spidar::tools {
 std::string film_encoder(const PartFile& part);
 
 /// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
-/// are stored in another order; MP4 takes none such. The later one follows when the other one ends.
-/// A probe for buffers, whose user data is the time of the last frame.
+/// are stored in another order; MP4 does not allow that. The later one follows when the other one
+/// ends. A probe for buffers, whose user data is the time of the last frame.
 GstPadProbeReturn order_frame(GstPad* pad, GstPadProbeInfo* info, gpointer last_frame);
 
 /// OpenH264 prints "Error: cmInitParaError" when GStreamer asks for its last pictures, although
-/// nothing is wrong: as long as that takes, the standard error goes nowhere. Outlives the pipeline.
+/// nothing is wrong: as long as that takes, the standard error is discarded. Outlives the pipeline.
 class QuietEnd {
  public:
   QuietEnd() = default;
@@ -38,7 +38,7 @@ class QuietEnd {
   static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   void speak();
 
-  int errors_ = -1;  ///< where the standard error goes otherwise
+  int errors_ = -1;  ///< the standard error while it is discarded, else −1
 };
 
 /// Keeps every sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
@@ -72,11 +72,11 @@ std::string why_no_browser(const std::string& film);
 /// Ends that sentence for what most browsers play.
 constexpr const char* kNotEveryBrowser = ", which not every iPhone or Mac (Safari) plays";
 
-/// Whether it is in the container of WebM; else, if browsers play it, in MP4.
+/// Whether `film` is in the container of WebM; any other that browsers play is in MP4.
 bool is_webm(const std::string& film);
 
 /// Writes `film` as H.264 and AAC into `part`, whose name ends in .mp4. Returns what is missing in
-/// it, as a sentence; usually empty. `tell` as that of FilmProgress. Throws std::runtime_error.
+/// it, as a sentence; usually empty. `tell` is that of FilmProgress. Throws std::runtime_error.
 std::string convert_for_browsers(const std::string& film, const PartFile& part,
                                  const std::function<void(int percent)>& tell);
 

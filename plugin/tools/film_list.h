@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The films that a command line names, by themselves and by their folders.
+/// The films that a command line names, by themselves or by their folders.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace spidar::tools {
 
 struct ListedFilm {
   std::string path;
-  /// Where it is below the folder that was given; empty if the film itself was given.
+  /// Its folder, relative to the one that was given; empty if the film itself was given.
   std::filesystem::path subfolder;
-  uintmax_t bytes = 0;  ///< in the file; 0 if the film itself was given
+  uintmax_t bytes = 0;  ///< of the file; 0 if the film itself was given
 };
 
 /// The films of `names`. A folder stands for all files in it, and in the folders below, whose names

@@ -14,7 +14,7 @@
 
 namespace spidar::tools {
 
-/// In one frame.
+/// The box of the felt object in one frame.
 struct FeltBox {
   int64_t stream_ns = 0;
   /// Left, top, right and bottom, as fractions of the picture as it is shown; all 0 where none is
@@ -24,28 +24,29 @@ struct FeltBox {
   bool is_known() const { return edges[2] > edges[0]; }
 };
 
-/// Of each frame, as spidarmotion measures it with `settings`, see RecordProperties. Throws
-/// std::runtime_error, without the name of the film, when it cannot be played to its end, or the
-/// settings are not those of a track. `tell` as that of FilmProgress.
+/// Finds the box in each frame as spidarmotion measures it with `settings`, see RecordProperties.
+/// Throws std::runtime_error, without the name of the film, when it cannot be played to its end, or
+/// the settings are not those of a track. `tell` is that of FilmProgress.
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
                                      const std::function<void(int percent)>& tell);
 
 class FilmPage {
  public:
-  /// The curves of a page are made coarser until it is smaller, which mail and chat let pass.
+  /// The curves of a page are made coarser until it is smaller than this, which mail and chat let
+  /// pass.
   static constexpr size_t kMost_bytes = 100'000;
 
-  /// The next millisecond of the track. Samples that are not numbers count as none.
+  /// Adds the next millisecond of the track. Values that are not finite count as 0.
   void add(const TrackSample& sample);
 
-  /// Where the felt object is, in the order of time, which is that of the track. Without them, the
-  /// arrow begins in the middle of the picture.
+  /// Sets where the felt object is; `boxes` are in the order of time, which is that of the track.
+  /// Without them, the arrow begins in the middle of the picture.
   void set_boxes(const std::vector<FeltBox>& boxes);
 
-  /// `url` is of the film, relative to the page, and `name` for people; `type` is its MIME type.
-  /// The film shows its pictures `later_s` seconds later than the track says. `unplayed` is why
-  /// some browser does not play it, as why_no_browser() says. The force that is shown differs by
-  /// `tolerance_N` at most, along each axis.
+  /// `url` is the address of the film, relative to the page, `name` its name for people, `type` its
+  /// MIME type. The film shows its pictures `later_s` seconds later than the track says. `unplayed`
+  /// is why some browser does not play it, as why_no_browser() says. `tolerance_N` becomes the most
+  /// by which the shown force differs from the track's along an axis.
   std::string html(const std::string& url, const std::string& name, const std::string& type,
                    double later_s, const std::string& unplayed, double& tolerance_N) const;
 

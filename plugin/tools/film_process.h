@@ -16,15 +16,16 @@ namespace spidar::tools {
 struct FilmJob {
   std::string film;
   std::string track;
-  /// With which the track is recorded, or was; rules are given as they are, not by their file.
+  /// The properties with which the track is recorded, or was; `feel` has the rules themselves, not
+  /// the name of their file.
   RecordProperties properties;
   bool is_summarised = false;  ///< the result has a summary
 };
 
 struct FilmResult {
   std::string felt;    ///< how much of the film is felt, and why the rest is not
-  std::string remark;  ///< what else is to be known of it; usually empty
-  std::string other;   ///< why the track that is there is another than would be recorded, or empty
+  std::string remark;  ///< a remark for the user; usually empty
+  std::string other;   ///< why the existing track is not the one that would be recorded; or empty
   Json summary;        ///< of the track, an object; without is_summarised, it is empty
 };
 
@@ -34,12 +35,13 @@ struct FilmResult {
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
                              const std::function<void(int percent)>& tell);
 
-/// Compares the track that is there with the one that would be recorded. A track without notes was
-/// made by hand or by an older version, and counts as the same. Throws std::runtime_error when the
-/// film cannot be read, or the process fails.
+/// Compares the existing track with the one that would be recorded. A track without notes was made
+/// by hand or by an older version, and counts as the same. Throws std::runtime_error when the film
+/// cannot be read, or the process fails.
 FilmResult check_in_process(const FilmJob& job);
 
-/// The main function of such a process; −1 when these are arguments of a user. Before gst_init().
+/// The main function of such a process; returns −1 when the arguments are those of a user. To be
+/// called before gst_init().
 int run_film_process(int argc, char** argv);
 
 }  // namespace spidar::tools

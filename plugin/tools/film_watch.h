@@ -22,7 +22,7 @@ class FilePipeline;
 
 namespace spidar::tools {
 
-/// So long nothing may come from a slow network share.
+/// The longest time in which nothing may come from a slow network share.
 constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
 
 constexpr const char* kEndMissing = "its end is missing: it is damaged or cut off";
@@ -56,18 +56,20 @@ class FilmWatch {
   FilmWatch& operator=(const FilmWatch&) = delete;
 
   /// `pipeline` has a decodebin "decode", whose video goes to the element "convert".
-  /// Of a film with something behind it, demuxers warn that they cannot take that apart.
+  /// `has_appended`: the film has something behind it, of which demuxers warn that they cannot
+  /// parse it.
   void begin(GstElement* pipeline, bool has_appended);
 
   /// Plays the film to its end. Throws std::runtime_error with what is wrong with it.
   void play(const FilePipeline& file) const;
-  /// When the pipeline has ended, with `error` or, if that is empty, with the film: a sentence that
-  /// says what is wrong with the film, or nothing. A film of fewer than two frames is wrong, too.
+  /// After the pipeline has ended, with `error` or, if that is empty, at the end of the film: a
+  /// sentence that says what is wrong with the film, or an empty string. A film of fewer than two
+  /// frames is wrong, too.
   std::string why_ended(const std::string& error) const;
-  /// What is to be known of the track of a film that is whole; usually empty.
+  /// A remark on the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
-  /// What fraction of its frames is felt, and the commonest reason of the others, in whole
-  /// sentences.
+  /// Sentences that say what fraction of the frames is felt, and the commonest reason for the
+  /// others.
   std::string felt() const;
 
  private:

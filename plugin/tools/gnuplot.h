@@ -14,7 +14,7 @@ namespace spidar::tools {
 /// says why there is none: gnuplot is missing or reports an error, or the file cannot be written.
 void draw_with_gnuplot(const std::string& script, const PartFile& picture);
 
-/// A text as a string of a script.
+/// `text` as a string literal of a script.
 std::string gnuplot_string(const std::string& text);
 
 }  // namespace spidar::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidartrack record` is to do.
+/// The options of `spidartrack record`.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ namespace spidar::tools {
 struct RecordProperties {
   /// Names and values, for gst_util_set_object_arg().
   std::vector<std::pair<std::string, std::string>> values;
-  /// Those that differ from their defaults, by name, in one form for every way to type them:
-  /// "max-force=2 motion=camera". Empty when all have their defaults.
+  /// The properties that differ from their defaults, by name, in one form for every way to type
+  /// them: "max-force=2 motion=camera". Empty when all have their defaults.
   std::string settings;
 };
 
-/// With the rules of `feel` themselves in place of the file, beside `film` or elsewhere, that has
-/// them, so that a track tells what it was made by. Throws std::runtime_error when they cannot be
-/// read.
+/// The properties with the rules of `feel` themselves in place of the file that has them, beside
+/// `film` or elsewhere, so that a track states what it was made with. Throws std::runtime_error
+/// when they cannot be read.
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film);
 
 /// `words` are of the form PROPERTY=VALUE, or preset=NAME. Throws UsageError, which says what would
@@ -30,7 +30,8 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 /// std::runtime_error when GStreamer has no spidarmotion.
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
 
-/// Of the settings of a track. Throws std::runtime_error as parse_record_properties() does.
+/// The properties that the settings of a track state. Throws std::runtime_error as
+/// parse_record_properties() does.
 RecordProperties properties_of(const std::string& settings);
 
 /// Throws UsageError for what looks like a property where a film is expected: `command` is what

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What `spidartrack record` prints about a batch of films.
+/// The output of `spidartrack record` about a batch of films.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@
 namespace spidar::tools {
 
 /// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
-/// has a line below with the films that are in work and the time that is left; elsewhere, it is
-/// printed once in ten seconds. The time is estimated by the sizes of the files. The functions can
-/// be called from any thread.
+/// has a line below with the films that are being recorded and the time that is left; elsewhere, it
+/// is printed once in ten seconds. The time is estimated by the sizes of the files. The functions
+/// can be called from any thread.
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
@@ -51,7 +51,7 @@ class RecordReport {
   std::mutex mutex_;
   std::chrono::steady_clock::time_point told_ = begin_;
   std::vector<double> sizes_;      ///< of the films, in bytes, at least 1
-  double work_ = 0, skipped_ = 0;  ///< bytes of those that are done, and of which were there
+  double work_ = 0, skipped_ = 0;  ///< bytes of films that were recorded; of others done
   std::map<size_t, int> in_work_;  ///< film and percent
   std::array<size_t, 4> count_{};  ///< of each result
   std::vector<std::pair<size_t, std::string>> failures_;

@@ -28,12 +28,12 @@ struct ConvertOptions {
 struct ExportOptions {
   std::string film, to;
   std::string track;                           ///< empty: that of the film, else it is recorded
-  std::optional<RecordProperties> properties;  ///< with which it is recorded, whatever there is
+  std::optional<RecordProperties> properties;  ///< with which it is recorded in any case
   bool force = false;
   bool embed = false;  ///< the film into the page
 };
 
-/// Gives a file its name, and prints what else is to be known of it.
+/// Gives a file its name, and prints the remark of PartFile::publish().
 inline void publish(PartFile& part) {
   const std::string more = part.publish();
   if (!more.empty()) std::cerr << part.target() << ": " << more << '\n';

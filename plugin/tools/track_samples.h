@@ -24,17 +24,18 @@ namespace spidar::tools {
 /// A file of F32 samples beside the file that is made of them, which is removed with the object.
 class SampleFile {
  public:
-  /// `target` is the file that is made. Throws std::runtime_error as PartFile.
+  /// `target` is the file that is made. Throws std::runtime_error as PartFile does.
   explicit SampleFile(const std::string& target) : part_(target + ".raw", {true, {}}) {}
 
   /// Throws std::runtime_error when it cannot be written.
   void add(const TrackSample& sample);
-  /// What has been added is in the file.
+  /// Writes to the file what has been added.
   void flush();
 
   size_t count() const { return count_; }
   const std::string& path() const { return part_.path(); }
-  /// All samples times `gain`. Throws std::runtime_error when they cannot be read. After flush().
+  /// All samples, multiplied by `gain`. Throws std::runtime_error when they cannot be read. To be
+  /// called after flush().
   SampleSource samples(double gain = 1) const;
 
  private:
@@ -43,12 +44,12 @@ class SampleFile {
   size_t count_ = 0;
 };
 
-/// What is known of a track besides its samples.
+/// Facts about a track besides its samples.
 struct TrackCondition {
   std::string track;     ///< the file that has the samples
   std::string film;      ///< the film that was given in its place; empty: none
   std::string other;     ///< why the track is that of another film; empty when it is not
-  int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
+  int64_t later_ns = 0;  ///< how much later than the track says the film shows its pictures
   tracks::Faults faults;
   std::string missing;  ///< what is missing at the end of the file; empty if it is complete
   tracks::Notes notes;
@@ -62,11 +63,11 @@ constexpr size_t kUsualAxis = 1;
 /// Throws std::runtime_error for a single picture.
 bool has_track(const std::string& path);
 
-/// Gives the samples of a track, or of a film with a track (has_track()), in their order; of the
-/// film, it is the file `track` unless that is empty.
-/// The format follows from the end of the name: HJIF (`.hjif`), one channel (`.funscript`), else
-/// sound of any rate that spidarsink accepts, which is given as it is read. Gaps become silence,
-/// and so do samples that are not numbers, which are counted. Throws std::runtime_error.
+/// Gives the samples of a track, or of a film with a track (has_track()), in their order; for a
+/// film, the track is the file `track` unless that is empty. The format follows from the end of the
+/// name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
+/// accepts, which is given as it is read. Gaps become silence, and so do samples that are not
+/// numbers, which are counted. Throws std::runtime_error.
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
                           const tracks::ScriptChoice& script = {}, const std::string& track = {});
 
@@ -74,8 +75,8 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
 void expect_own_track(const TrackCondition& condition);
 
 struct SaveOptions {
-  std::optional<double>
-      tolerance;  ///< of HJIF, AHAP and funscript, of the full scale; of each its own default
+  /// For HJIF, AHAP and funscript, as a fraction of the full scale; nothing: the default of each.
+  std::optional<double> tolerance;
   size_t axis = kUsualAxis;  ///< the channel of a funscript
   double gain = 1;           ///< for the samples of AHAP and funscript
   tracks::Notes notes;       ///< for sound
@@ -92,17 +93,17 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// In small or capital letters.
+/// Whether `text` ends with `end`, in small or capital letters.
 bool ends_with(const std::string& text, const std::string& end);
 
-/// Sound that flows through a pad, as a checksum. Outlives the pipeline.
+/// The checksum of sound that flows through a pad. Outlives the pipeline.
 class StoredSound {
  public:
   StoredSound() = default;
   StoredSound(const StoredSound&) = delete;
   StoredSound& operator=(const StoredSound&) = delete;
 
-  /// What flows into an element of a pipeline that has not started.
+  /// Adds what flows into `element`, whose pipeline has not started.
   void watch(GstElement* element);
   /// Decodes the file `part`, which a pipeline with an element "stored" (encoder_of()) has written.
   /// Throws std::runtime_error when that is not what has flowed.

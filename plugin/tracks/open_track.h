@@ -19,7 +19,7 @@ namespace spidar::tracks {
 /// Owned by one thread. What it has read waits in blocks(), which another one may take.
 class OpenTrack {
  public:
-  /// A longer one is taken for one with a wild timestamp.
+  /// A longer track is taken for one with a wrong timestamp.
   static constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};
 
   virtual ~OpenTrack() = default;
@@ -28,7 +28,7 @@ class OpenTrack {
   /// As the header and the last bytes of the file say. Nothing when they do not, or when other
   /// streams may be longer.
   virtual std::optional<int64_t> duration_ns() const = 0;
-  /// Of a track that ends at `end_ns`: empty, or what is missing at the end of the file.
+  /// For a track that ends at `end_ns`: an empty string, or what is missing at the end of the file.
   virtual std::string missing(int64_t end_ns) const = 0;
   virtual const std::shared_ptr<ReadAhead>& blocks() const = 0;
 
@@ -39,26 +39,26 @@ class OpenTrack {
   /// To the position that ReadAhead::await_seek() has returned.
   virtual void seek(int64_t time_ns) = 0;
   /// At the beginning and after seek(): fills blocks() until nothing more of this pass is wanted.
-  /// Returns at once where threads of its own do that.
+  /// Returns at once if the track has threads of its own for that.
   virtual void read_pass() {}
   /// For an exchange format, a line for each part: its file, and the axis on which it is felt.
   virtual std::vector<std::string> about() const { return {}; }
-  /// What is part of it, and not felt.
+  /// The parts of the track that are not felt.
   virtual std::vector<std::string> unfelt() const { return {}; }
 };
 
-/// The haptic track of a file, else its first sound, from any container that GStreamer has a
+/// Opens the haptic track of a file, else its first sound, from any container that GStreamer has a
 /// decoder for. Returns when its first second has been read. Throws std::runtime_error, which says
-/// what was wrong, when there is none, when it is not a haptic track (Input::set_caps()), when
-/// the file is damaged or not a regular one, or when `stopped` has become true.
+/// what was wrong, when there is none, when it is not a haptic track (Input::set_caps()), when the
+/// file is damaged or not a regular one, or when `stopped` has become true.
 std::unique_ptr<OpenTrack> open_track(const std::string& path,
                                       const std::atomic<bool>* stopped = nullptr);
 
-/// The end of a track that does not say it, by reading all; it can be read again from its
-/// beginning. Throws as next().
+/// Finds the end of a track that does not state it, by reading all of it; it can be read again from
+/// its beginning. Throws as next() does.
 int64_t find_end(OpenTrack& track);
 
-/// Only what a track says of itself, from the beginning of the file. Empty where there is none.
+/// Reads only the notes of a track, from the beginning of the file. Empty where there are none.
 Notes notes_of(const std::string& path);
 
 }  // namespace spidar::tracks

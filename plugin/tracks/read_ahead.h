@@ -17,7 +17,7 @@
 
 namespace spidar {
 
-/// The end of a block, which is the time of what follows it.
+/// The end of a block, where the next one begins.
 inline int64_t end_of(const TrackBlock& block) {
   return block.begin_ns + block.duration_ns;
 }
@@ -25,35 +25,36 @@ inline int64_t end_of(const TrackBlock& block) {
 /// The file is read from one position to the next: a pass. Each seek() begins another one.
 class ReadAhead {
  public:
-  /// So much is read before it is played: more than a disk takes to start.
+  /// How far the file is read ahead of playing: longer than a disk takes to start.
   static constexpr int64_t kAhead_ns = 10'000'000'000;
   /// Ten seconds of blocks as short as encoders make them: 1 MB.
   static constexpr size_t kMostBlocks = 1000;
 
-  // --- what reads
+  // --- the thread that reads
 
-  /// Waits for room. Blocks before the position that was sought, and such as do not rise, are left
-  /// out. False when nothing more of this pass is wanted.
+  /// Waits for room and adds the block. Blocks before the position that was sought, and those whose
+  /// times do not rise, are left out. Returns false when nothing more of this pass is wanted.
   bool put(const TrackBlock& block, const tracks::Faults& faults);
-  /// The file ends here; `error` says so if it should not. Nothing, when nothing more of this
-  /// pass was wanted.
+  /// The file ends here, with an `error` if it should not. Ignored when nothing more of this pass
+  /// is wanted.
   void end_pass(const std::string& error);
-  /// It cannot be read further. What has ended with an error stays so.
+  /// The file cannot be read further. The first error is kept.
   void end(const std::string& error);
   /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
-  /// What comes from now on is read from the position that await_seek() returned last.
+  /// Blocks from now on are read from the position that await_seek() returned last.
   void begin_pass();
 
-  // --- what plays
+  // --- the thread that plays
 
   enum class Found {
     kBlock,
     kEnd,  ///< there is no more, see error()
-    kLate  ///< it is not there yet
+    kLate  ///< it has not been read yet
   };
 
-  /// The film shows everything so much later than the file says. Before the first take().
+  /// The film shows everything `later_ns` later than the file says. To be called before the first
+  /// take().
   void set_later(int64_t later_ns);
   /// The next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
@@ -64,7 +65,7 @@ class ReadAhead {
 
   /// Why the file could not be read to its end; empty as long as it could.
   std::string error() const;
-  /// Whether all has been taken that could be read before an error.
+  /// Whether there was an error, and all that was read before it has been taken.
   bool has_failed() const;
   /// Whether take() has waited in vain.
   bool was_late() const;
@@ -72,7 +73,7 @@ class ReadAhead {
   /// Until resume(), take() does not wait.
   void interrupt() { set(interrupted_, true); }
   void resume() { set(interrupted_, false); }
-  /// For ever: nothing waits, and nothing is taken any more.
+  /// From now on, nothing waits and no block is added.
   void stop() { set(stopped_, true); }
 
  private:
@@ -81,7 +82,7 @@ class ReadAhead {
   bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
   bool is_full() const;
 
-  mutable std::mutex mutex_;  ///< of all
+  mutable std::mutex mutex_;  ///< guards all
   std::condition_variable changed_;
   std::deque<TrackBlock> blocks_;
   bool ended_ = false, late_ = false, interrupted_ = false, stopped_ = false;
@@ -90,7 +91,7 @@ class ReadAhead {
   int64_t later_ns_ = 0;
   int64_t sought_ns_ = 0;        ///< in the file
   int64_t last_ns_ = INT64_MIN;  ///< begin of the last block of this pass
-  // Of the blocks that come, of the seek that is executed, and of the last seek().
+  // Passes: that of the blocks that come, of the seek that is executed, and of the last seek().
   uint64_t pass_ = 0, next_pass_ = 0, wanted_pass_ = 0;
 };
 

@@ -14,18 +14,18 @@
 
 namespace spidar::tracks {
 
-/// By the end of its name, in small or capital letters.
+/// Judges by the extension, in small or capital letters.
 bool is_script(const std::string& path);
 
-/// A script beside a film, for which its set is read: FILM.funscript, FILM.roll.funscript and so
-/// on, with or without the extension of the film; that of the main axis if there is one. Empty
+/// Finds a script beside a film, whose set is to be read: FILM.funscript, FILM.roll.funscript and
+/// so on, with or without the extension of the film; that of the main axis if there is one. Empty
 /// when there is none.
 std::string find_script(const std::string& film);
 
 struct ScriptChoice {
   std::optional<size_t> channel;  ///< only the actions of the file itself, as this channel
-  std::optional<double> gain;     ///< with which all were written; else as they say
-  std::string film;               ///< whose set it is; else one that its own name tells
+  std::optional<double> gain;     ///< with which all were written; nothing: as each one says
+  std::string film;  ///< whose set is read; empty: the one that the script is named for
 };
 
 /// Axes of several files.
@@ -40,8 +40,8 @@ struct ScriptSet {
   TrackSample at(int64_t time_ms) const;
 };
 
-/// A script, and the others of its set if its own name has no axis. Throws std::runtime_error,
-/// which names the file, when one is wrong, or when no axis has any position.
+/// Reads a script, and the others of its set if its own name has no axis. Throws
+/// std::runtime_error, which names the file, when one is wrong, or when no axis has any position.
 ScriptSet read_scripts(const std::string& path, const ScriptChoice& choice = {});
 
 }  // namespace spidar::tracks

@@ -13,14 +13,16 @@
 
 namespace spidar {
 
-/// FILM with one of `ends`, else the same without the extension of FILM: the first of them that is
-/// there; empty when none is. The whole name comes first because films may differ in nothing else.
+/// The path of FILM with one of the suffixes `ends`, else the same without the extension of FILM:
+/// the first file that exists; empty when none does. The whole name comes first because films may
+/// differ in nothing but their extensions.
 std::string find_beside(const std::string& film, std::initializer_list<const char*> ends);
 
 /// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
 std::string film_of(GstPad* pad);
 
-/// The variable with folders of tracks that do not lie beside their films, separated by colons.
+/// The environment variable that lists folders of tracks that do not lie beside their films,
+/// separated by colons.
 extern const char* const kTrackPathVariable;
 
 /// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else in the
@@ -36,18 +38,18 @@ extern const char* const kOtherPictures;
 
 struct FilmMatch {
   std::string mismatch;  ///< empty, or why the track is not that of the film
-  int64_t later_ns = 0;  ///< the film shows its pictures so much later than the track says
+  int64_t later_ns = 0;  ///< how much later than the track says the film shows its pictures
 };
 
 /// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
 /// recognised by the pictures, which may come later in another container; any other by its length:
-/// it ends where the last picture does, but for one frame. One that was converted from a format of
-/// others ends anywhere.
+/// it ends where the last picture does, but for one frame. A track that was converted from another
+/// format may end anywhere.
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
-/// For a film that does not come from a file. Empty, or why a track that lasts `track_ns` is not
-/// that of the film that comes to `pad`: a film whose duration is known lasts as long, but for one
-/// of its frames.
+/// For a film that does not come from a file: an empty string, or why a track that lasts `track_ns`
+/// is not that of the film that comes to `pad`: a film whose duration is known lasts as long, but
+/// for one of its frames.
 std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

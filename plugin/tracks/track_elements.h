@@ -24,5 +24,5 @@ namespace spidar {
 class HapticOutput;
 }
 
-/// For tests that step the element by hand.
+/// The output of `self`, for tests that step the element by hand.
 spidar::HapticOutput& gst_spidar_sink_output(GstSpidarSink* self);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From buffers of sound to blocks of a haptic track.
+/// Conversion of buffers of sound to blocks of a haptic track.
 #pragma once
 
 #include <cstdint>
@@ -17,30 +17,29 @@
 
 namespace spidar::tracks {
 
-/// What was wrong with the samples of a stream.
+/// Faults in the samples of a stream.
 struct Faults {
-  uint64_t not_finite = 0;   ///< samples of which a channel is not a number: at rest instead
-  uint64_t beyond_full = 0;  ///< samples of which a channel is more than the full scale
+  uint64_t not_finite = 0;   ///< samples with a channel that is not finite: at rest instead
+  uint64_t beyond_full = 0;  ///< samples with a channel beyond the full scale
   int sound_channel = -1;    ///< a channel that is sound for ears, see Band; -1: none
 };
 
-/// All that reads samples reads them here, and by all that their caps say: format with its byte
-/// order, rate, channels and their mask, and the layout, sample by sample or channel by channel.
-/// Streaming thread only.
+/// The only reader of samples. It follows everything that their caps state: format with its byte
+/// order, rate, channels and their mask, and the layout, interleaved or not. Streaming thread only.
 class Input {
  public:
   static constexpr int kLowestRate_Hz = 200;
   static constexpr int kHighestRate_Hz = 8000;
 
-  /// Empty, or why sound of these caps is not a haptic track, in a sentence that says what would
-  /// be.
+  /// Returns an empty string, or a sentence that says why sound of these caps is not a haptic
+  /// track, and what would be.
   std::string set_caps(const GstCaps* caps);
-  /// The next buffer has nothing to do with the one before.
+  /// The next buffer does not continue the previous one.
   void reset();
 
-  /// Gives the samples of `buffer` that lie in `segment`, times `gain`, in blocks of rising running
-  /// time, until `give` returns something else than GST_FLOW_OK. Played backwards the last sample
-  /// comes first. A buffer without a timestamp follows the one before.
+  /// Gives the samples of `buffer` that lie in `segment`, multiplied by `gain`, in blocks of rising
+  /// running time, until `give` returns something other than GST_FLOW_OK. In reverse playback, the
+  /// last sample comes first. A buffer without a timestamp follows the previous one.
   GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain,
                      const std::function<GstFlowReturn(const TrackBlock&)>& give);
 

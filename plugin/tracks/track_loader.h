@@ -21,7 +21,7 @@
 
 namespace spidar::tracks {
 
-/// What is played in place of analysing frames.
+/// A track that is played in place of analysing frames.
 struct LoadedTrack {
   std::string path;                   ///< empty: there is none
   std::shared_ptr<ReadAhead> blocks;  ///< null when the file cannot be read
@@ -30,7 +30,7 @@ struct LoadedTrack {
   bool is_compared = false;  ///< with the film
   bool is_named = false;     ///< by track=FILE, so that it is felt with any film
   std::string about;         ///< what is felt, and as what; empty: not known
-  std::string remark;        ///< on what is felt nevertheless, or not; empty: nothing
+  std::string remark;        ///< what is not felt, or why it is felt nevertheless; empty: nothing
 };
 
 /// Reading may take long on a slow disk or network share, and for ever on a broken one.
@@ -43,24 +43,25 @@ class Loader {
 
   // --- streaming thread
 
-  /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track
-  /// inside it. Nothing when `wanted` is empty. What was being read is forgotten.
+  /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track inside
+  /// it. Nothing when `wanted` is empty. Stops what was being read.
   void begin(const std::string& wanted, const std::string& film);
-  /// Returns when it is known whether it can be used, when `limit` has passed, or at interrupt().
+  /// Returns when it is known whether the track can be used, when `limit` has passed, or at
+  /// interrupt().
   void await(std::chrono::milliseconds limit);
-  /// What was opened, once; nothing before. It is read further until stop().
+  /// The track that was opened, once; nothing before. It is read further until stop().
   std::optional<LoadedTrack> take();
 
   // --- any thread
 
-  /// Until begin() or resume(), neither await() nor what takes blocks waits.
+  /// Until begin() or resume(), neither await() nor ReadAhead::take() waits.
   void interrupt();
   void resume();
 
   // --- while no streaming thread runs
 
-  /// Ends reading. Where the system does not return from reading, the thread is left behind, and
-  /// ends when it does.
+  /// Ends reading. If the system does not return from reading, the thread is left behind, and ends
+  /// when it does.
   void stop();
 
  private:
@@ -68,24 +69,24 @@ class Loader {
 
   std::shared_ptr<Reading> reading() const;
 
-  mutable std::mutex mutex_;  ///< of the pointer
+  mutable std::mutex mutex_;  ///< guards reading_
   std::shared_ptr<Reading> reading_;
   std::thread thread_;
 };
 
-/// What is to be reported of a track while it is played. Streaming thread.
+/// Reports on a track while it is played. Streaming thread.
 class FeltTrack {
  public:
   explicit FeltTrack(GstElement* element) : element_(element), warnings_(element) {}
 
   /// The blocks to be rendered for the film that comes to the sink pad of the element. Null when
   /// there are none; a warning on the bus when the track cannot be used, or is that of another
-  /// film; else information on what is felt. Rules of what is felt go before a track that was only
-  /// found, not before one that track= names.
+  /// film; else information on what is felt. Rules of what is felt take precedence over a track
+  /// that was only found, not over one that track= names.
   std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns, bool has_rules);
   /// Posts each warning once. False when the track cannot be read further.
   bool check();
-  /// Nothing is rendered of a track.
+  /// No track is rendered any more.
   void reset() { blocks_ = nullptr; }
 
  private:

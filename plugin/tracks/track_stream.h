@@ -12,22 +12,22 @@
 
 namespace spidar::tracks {
 
-/// Caps of a haptic track as this project writes it. The mask of 5.1 comes first, though these are
-/// no loudspeakers: FLAC has no other, containers give it back for none, and audioconvert does not
-/// convert between the two. A caps filter asks for the other.
+/// Caps of a haptic track as this project writes it. The channel mask of 5.1 comes first, though
+/// the channels are no loudspeakers: FLAC has no other, containers return it in place of none, and
+/// audioconvert does not convert between the two. A caps filter selects the other.
 #define SPIDAR_TRACK_CAPS_WITH(mask)                                                   \
   "audio/x-raw, format = (string) F32LE, layout = (string) interleaved, rate = (int) " \
   "1000, channels = (int) 6, channel-mask = (bitmask) " mask
 #define SPIDAR_TRACK_CAPS SPIDAR_TRACK_CAPS_WITH("0x3f") "; " SPIDAR_TRACK_CAPS_WITH("0x0")
 
-/// What is known of one frame.
+/// The wrench of one frame, and what is known of it.
 struct FrameWrench {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   GstClockTime duration = GST_CLOCK_TIME_NONE;
   bool known = false;     ///< it was analysed
-  bool compared = false;  ///< with a frame before: its wrench holds until the next one is due
-  bool repeats = false;   ///< shows the picture of the frame before
-  /// Of running time between the two pictures that its motion was measured between; 0: none.
+  bool compared = false;  ///< with an earlier frame: its wrench holds until the next one is due
+  bool repeats = false;   ///< shows the picture of the previous frame
+  /// Running time between the two pictures from which its motion was measured; 0: none.
   int64_t interval_ns = 0;
   Wrench wrench;
 };
@@ -41,7 +41,7 @@ struct FrameWrench {
 class Stream {
  public:
   static constexpr GstClockTime kBuffer_ns = 40 * GST_MSECOND;
-  /// The curve between two frames needs the one after them; where that is further away than this
+  /// The curve between two frames needs the frame after them; if that is further away than this,
   /// the samples do not wait for it.
   static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
   /// An interval without frames is silent. A longer one than this is a wrong time stamp, or the
@@ -54,23 +54,24 @@ class Stream {
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// Another stream begins upstream: what it is called here.
+  /// Another stream begins upstream: begins one here, with a stream id of its own.
   void begin_stream(GstElement* element, const GstEvent* stream_start);
-  /// Of the video. Samples continue where their stream time does.
+  /// A segment of the video begins. The samples begin another one only where their stream time does
+  /// not continue.
   GstFlowReturn begin_segment(const GstEvent* event);
   GstFlowReturn add(const FrameWrench& frame);
   /// There are no frames from here on.
   GstFlowReturn add_gap(GstClockTime pts);
-  /// Everything up to the end of the last frame, which ends at rest.
+  /// Pushes everything up to the end of the last frame, which ends at rest.
   GstFlowReturn finish();
-  /// Everything that is pending is forgotten.
+  /// Discards everything that is pending.
   void flush();
-  /// So is the segment.
+  /// Discards the segment, too.
   void reset();
 
   /// Whether a buffer has been pushed since the beginning, or the last flush.
   bool has_pushed() const { return pushed_; }
-  /// Of the frame added last.
+  /// The wrench of the frame added last.
   const Wrench& last_wrench() const { return last_wrench_; }
 
   /// How long a sample may wait in here.
@@ -98,7 +99,7 @@ class Stream {
   TrackSampler sampler_;
   int64_t last_frame_ns_ = 0;  ///< running time
   Wrench last_wrench_;
-  int64_t interval_ns_ = 0;  ///< its duration, or the time since the one before
+  int64_t interval_ns_ = 0;  ///< its duration, or the time since the previous one
   // The buffer that is being filled.
   GstBuffer* buffer_ = nullptr;
   GstMapInfo map_{};

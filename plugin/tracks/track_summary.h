@@ -14,7 +14,7 @@ namespace spidar::tracks {
 /// A channel with a larger fraction of its energy above 30 Hz is sound for ears.
 constexpr double kMostFast = 0.1;
 
-/// Energies of samples that come one after the other, `rate_Hz` of them a second.
+/// Energies of consecutive samples, `rate_Hz` of them a second.
 class Band {
  public:
   explicit Band(double rate_Hz = kTrackRate_Hz);
@@ -48,11 +48,11 @@ class Band {
 
 /// "fx", …, "tz".
 const char* channel_name(size_t channel);
-/// What a sample of 1.0 is, in N or N m.
+/// The force or torque of a sample of 1.0, in N or N m.
 double full_scale(size_t channel);
 /// " N" or " N m".
 const char* channel_unit(size_t channel);
-/// Two digits: this is to be read, not to be computed with.
+/// `value` with two significant digits, to be read and not to be computed with.
 std::string rounded(double value);
 
 /// Statistics of one channel, in fractions of the full scale.
@@ -73,7 +73,7 @@ struct Summary {
   double felt = 0;
 };
 
-/// Summarises samples, 1000 a second, that come one after the other.
+/// Summarises consecutive samples, 1000 a second.
 class Summariser {
  public:
   void add(const TrackSample& sample);

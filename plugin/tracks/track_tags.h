@@ -13,12 +13,13 @@
 namespace spidar::tracks {
 
 /// Stored in the comment of the track, which FLAC, Matroska and WAV keep. Tracks that were made by
-/// hand have neither.
+/// hand have no notes.
 struct Notes {
   FilmFingerprint film;  ///< that it was recorded from; empty: not known
   /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
   std::optional<std::string> settings;
-  /// The format that it was converted from, whose length says nothing of the film; empty: none.
+  /// The format that the track was converted from, whose length says nothing of the film; empty:
+  /// none.
   std::string origin = {};
 };
 
@@ -28,7 +29,7 @@ GstTagList* tags(const Notes& notes = {});
 /// Adds to `notes` what `tags` contain.
 void read_notes(const GstTagList* tags, Notes& notes);
 
-/// What `pad`, a linked source pad, sends gets these tags, in place of all others.
+/// Makes `pad`, a linked source pad, send these tags in place of all others.
 void tag(GstPad* pad, const Notes& notes);
 
 }  // namespace spidar::tracks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is said of a haptic track that is felt, but not as it should be.
+/// Warnings about a haptic track that is felt, but not as it should be.
 #pragma once
 
 #include <string>

@@ -23,19 +23,19 @@ class Source {
  public:
   virtual ~Source() = default;
 
-  /// Does nothing when there is nothing to look at any more.
+  /// Does nothing when the element is gone.
   virtual void read(ElementState& state) = 0;
   virtual void set(const std::string& setting, double value) = 0;
   virtual void load_preset(const std::string& name) = 0;
   virtual void lead_hand(const std::optional<Eigen::Vector3d>& to_m) = 0;
   virtual void choose(const std::optional<Eigen::Vector2d>& position) = 0;
-  /// From then on the rules hold.
+  /// Saves the choices as rules, which hold from then on.
   virtual ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
   /// Asks the player, which may not do it.
   virtual void play(bool plays) = 0;
   /// Does nothing where the player cannot seek, as in live video.
   virtual void seek(int64_t to_ns) = 0;
-  /// The window cannot be opened or goes on no more: `what` happened, `advice` to do.
+  /// The window cannot be opened, or has failed: `what` says what happened, `advice` what to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
   /// The window is gone, and not because close was called.
   virtual void closed() = 0;
@@ -57,19 +57,19 @@ class Window {
 
   /// Whether give() will find room for a picture.
   bool wants_frame() const;
-  /// Copies the frame. False when it is left out, because the window is slow or there is no memory:
-  /// the next will do.
+  /// Copies the frame. Returns false when it is left out because the window is slow or there is no
+  /// memory: the next one will do.
   bool give(const GstVideoFrame& frame, DrawnFrame report);
 
   // --- any thread
 
-  /// Waits until it is gone, but no longer than kPatience; then it is killed. Called by the
-  /// window's own thread, it does not wait.
+  /// Waits until the window is gone; after kPatience, it is killed. Called by the window's own
+  /// thread, it does not wait.
   void close();
-  /// Writes what the window shows, with all that it was given before, to a PNG file. Returns empty,
-  /// or why that cannot be done.
+  /// Writes what the window shows, with all that it was given before, to a PNG file. Returns an
+  /// empty string, or why that fails.
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
-  /// As if a person had done it; for tests.
+  /// Acts as if a person had made this input; for tests.
   void input(const UserInput& input);
 
  private:

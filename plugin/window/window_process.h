@@ -17,13 +17,13 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// Starts $SPIDAR_WINDOW or the installed program. Returns empty, or why it cannot be started.
-  /// socket() is then this process's end of its socket, which the caller takes over.
+  /// Starts $SPIDAR_WINDOW or the installed program. Returns an empty string, or why it cannot be
+  /// started. socket() is then this process's end of its socket, which the caller takes over.
   std::string start();
   int socket() const { return socket_; }
   /// Waits until the child has ended, which is killed when that takes longer than `patience_ms`.
-  /// Returns empty when it ended by itself, with status 0; else how: "was ended by the signal 11
-  /// (Segmentation fault)".
+  /// Returns an empty string when it ended by itself, with status 0; else how: "was ended by the
+  /// signal 11 (Segmentation fault)".
   std::string finish(int patience_ms);
 
  private:

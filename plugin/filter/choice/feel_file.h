@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The rules of what is felt, beside a film or from anywhere else.
+/// Rules of what is felt, from a file beside the film or from anywhere else.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace spidar::filter {
 
-/// What is appended to the name of a film.
+/// The suffix that the name of a film gets for its file of rules.
 constexpr const char* kFeelEnd = ".feel";
 
 struct NamedRules {
@@ -19,18 +19,18 @@ struct NamedRules {
   std::string name;                        ///< "feel", or the path of the file
 };
 
-/// What the property `feel` means: the path of a file, which ends in `.feel`; "auto" for the one
-/// beside the file `film`, if there is one; else the rules themselves. Throws std::runtime_error
-/// with a sentence that begins with the name.
+/// Reads the rules that the property `feel` means: the path of a file, which ends in `.feel`;
+/// "auto" for the one beside the file `film`, if there is one; else the rules themselves. Throws
+/// std::runtime_error with a sentence that begins with NamedRules::name.
 NamedRules read_feel(const std::string& feel, const std::string& film);
 
 /// Whether the property `feel` is the path of a file.
 bool is_feel_file(const std::string& feel);
 
-/// Changes the file that `feel` names, else the one beside `film`, which appears at once and as a
-/// whole. One that has more than its rules, such as remarks, or mistakes is kept under another
-/// name. Returns what was done, as a sentence; throws std::runtime_error with one without a full
-/// stop, and then the file is what it was.
+/// Applies `edits` to the file that `feel` names, else to the one beside `film`, and replaces it at
+/// once and as a whole. If it contained mistakes, or more than rules, such as remarks, a copy is
+/// kept under another name. Returns a sentence that says what was done. Throws std::runtime_error
+/// with a sentence that has no full stop, and then the file is what it was.
 std::string save_feel(const std::string& feel, const std::string& film,
                       const std::vector<FeelEdit>& edits);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a person chose to feel, and what is reported when that cannot be.
+/// What a person chose to feel, and the reports when that cannot be felt.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@
 
 namespace spidar::filter {
 
-/// The rules of `feel`, and the mouse. Streaming thread, unless another is named.
+/// The rules of `feel`, and the mouse. Streaming thread, unless stated otherwise.
 class MotionChoice {
  public:
   explicit MotionChoice(GstElement* element) : element_(element) {}
@@ -33,20 +33,20 @@ class MotionChoice {
     return named_.rules;
   }
 
-  /// Another stream, from the file `film` or, when that is empty, from elsewhere.
+  /// Another stream begins, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
 
   /// The property `feel` was set. Any thread.
   void rules_changed() { is_read_ = false; }
-  /// Whether read() has to come before the next frame.
+  /// Whether read() has to be called before the next frame. True once after each change.
   bool is_to_read() { return !is_read_.exchange(true); }
-  /// Reads what `feel` means, and reports on the bus what is wrong with it. `sink` is asked for the
-  /// duration of the film.
+  /// Reads the rules that `feel` means, and reports on the bus what is wrong with them. The
+  /// duration of the film is queried from the peer of `sink`.
   void read(const std::string& feel, GstPad* sink);
 
   /// Completes the settings of `frame` by what rules, mouse and boxes choose. `turn` turns the
-  /// frame before it is shown; the pointer of `settings` is a position of it as it is shown, and
-  /// becomes one before.
+  /// frame before it is shown; the pointer of `settings` is a position in the frame as it is shown,
+  /// and becomes one in the frame as it is stored.
   void complete(const GstVideoFrame& frame, const Orientation& turn, FrameSettings& settings);
 
   /// Says on the bus what became of each rule and click, once.
@@ -56,7 +56,7 @@ class MotionChoice {
   void warn_of_times(GstPad* sink);
   void warn_of_mean(MotionKind motion);
   void tell_of_rule(const FeelRule& rule, Chosen::State state);
-  /// The time in the film of the frame before.
+  /// The time of the previous frame in the film.
   std::string seen_text() const;
   void tell_of_click(const KeptObject& kept, Chosen::State state);
 
@@ -64,11 +64,11 @@ class MotionChoice {
   MousePointer mouse_;
   std::string film_;
   std::atomic<bool> is_read_{false};
-  mutable std::mutex mutex_;  ///< where another thread reads `named_`, or it changes
+  mutable std::mutex mutex_;  ///< held to change `named_`, and to read it in another thread
   NamedRules named_;
   bool warned_of_mean_ = false;
   std::set<std::pair<int, Chosen::State>> told_;  ///< line and state
-  GstClockTime seen_ = 0;                         ///< stream time of the frame before
+  GstClockTime seen_ = 0;                         ///< stream time of the previous frame
 };
 
 }  // namespace spidar::filter

@@ -17,32 +17,33 @@ namespace spidar::filter {
 struct SinkMouse {
   enum class Act { kMove, kPress, kRelease, kWheel };  ///< the button is the left one
   Act act = Act::kMove;
-  /// Of the frame before it is turned: (0, 0) is its top left corner.
+  /// In the frame before it is turned: (0, 0) is its top left corner, (1, 1) its bottom right one.
   Eigen::Vector2d position{0.5, 0.5};
   bool shift = false;  ///< Shift key
   double wheel = 0;    ///< notches, > 0 away from the user
 };
 
 /// The content of an event that comes from downstream: elements that scale, crop or turn the
-/// picture have converted it to pixels of the frame. `source` is the pad that it comes to, whose
-/// caps are those of the frames. Nothing for other events and buttons.
+/// picture have converted it to pixels of the frame. `source` is the pad that the event comes to,
+/// whose caps are those of the frames. Nothing for other events and buttons.
 std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source);
 
-/// Moves point, and clicks of the left button keep what is there or let go. Thread-safe.
+/// Moving the mouse points at an object; a click of the left button keeps the one there, or lets go
+/// of the one that is kept. Thread-safe.
 class MousePointer {
  public:
   void update(const SinkMouse& mouse);
 
-  /// Of the frame before it is turned: (0, 0) is its top left corner. Nothing before the mouse was
-  /// seen.
+  /// The position in the frame before it is turned, as SinkMouse::position. Nothing before the
+  /// mouse was seen.
   std::optional<Eigen::Vector2d> position() const;
-  /// What a click keeps until the next one, at such a position.
+  /// The click whose object is kept, with its position in the frame before it is turned.
   KeptObject kept() const;
 
-  /// Keeps what is at this position, or nothing, without a mouse in the window of a sink.
+  /// Keeps the object at this position, or none, without a mouse in the window of a sink.
   void keep(const std::optional<Eigen::Vector2d>& position);
 
-  /// The object of this click is not kept any more.
+  /// Stops keeping the object of this click.
   void let_go(uint32_t click);
   /// Forgets the mouse.
   void reset();

@@ -24,35 +24,35 @@ namespace spidar::filter {
 /// One element's overlay, meta and debug window.
 class MotionDisplay {
  public:
-  /// The others are those of `element` and live as long.
+  /// The other arguments belong to `element` and live as long.
   MotionDisplay(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
                 MotionChoice& choice)
       : element_(element), output_(output), no_force_(no_force), choice_(choice), hand_(output) {}
 
   // --- streaming thread
 
-  /// `report` as it was just found of `frame`, which is mapped for writing when the overlay is
-  /// on, and whose buffer is writable when metas are attached.
+  /// Shows `report`, which was just made of `frame`. The frame is mapped for writing when the
+  /// overlay is on, and its buffer is writable when metas are attached.
   void show(const FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
 
-  /// Instead, of a frame that nobody looked at.
+  /// Called instead of show() for a frame that was not processed.
   void reset() { owners_.reset(); }
 
-  /// Another stream, from the file `film` or, when that is empty, from elsewhere.
+  /// Another stream begins, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
 
   // --- any thread
 
-  /// Led by the mouse of a sink.
+  /// The hand that the mouse of a sink leads.
   SinkHand& hand() { return hand_; }
   /// The element as a window sees it.
   std::shared_ptr<window::Source> source() const;
   void open_window();
-  /// Returns when it is gone, or after Window::kPatience.
+  /// Returns when the window is gone, or after Window::kPatience.
   void close_window();
-  /// Tests, and save_window(): null while there is none.
+  /// For tests and save_window(); null while there is no window.
   std::shared_ptr<window::Window> window() const;
-  /// Writes what the window shows to a PNG file. Empty, or why that cannot be done.
+  /// Writes what the window shows to a PNG file. Returns an empty string, or why that fails.
   std::string save_window(const std::string& path);
 
  private:

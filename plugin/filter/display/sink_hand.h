@@ -19,7 +19,7 @@ class SinkHand {
  public:
   explicit SinkHand(HapticOutput& output) : output_(output) {}
 
-  /// Of each frame, which is `width` × `height` pixels large.
+  /// Called for each frame, which is `width` × `height` pixels large.
   void update(const FrameReport& report, int width, int height) {
     if (!report.analyzed) return;
     const bool touched = report.touch.on && width > 0 && height > 0;

@@ -34,21 +34,23 @@ class LiveSource {
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
-  /// The next frame has nothing to do with the one before.
+  /// The next frame is not compared with the previous one.
   void begin_run() { analyzer_.reset(); }
-  /// Gives what is rendered while the frame is shown, and fills in the report, but for the times of
-  /// its frame, or why it cannot be analysed.
+  /// Schedules what is rendered while the frame is shown. Fills in the report, except for the times
+  /// of its frame, or says in it why the frame cannot be analysed.
   void process(const PassingFrame& frame, FrameReport& report);
-  /// In place of a frame that has no picture, and that is turned by `turn` before it is shown.
+  /// Called instead of process() for a frame without a picture, which is turned by `turn` before it
+  /// is shown.
   void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Running time begins anew.
   void reset();
-  /// There are no frames from this running time on, but for those that the decoder holds: the gap
-  /// event of a demuxer overtakes them, and begins too early when the last one is not the newest.
+  /// There are no frames from this running time on, except for those that the decoder holds: the
+  /// gap event of a demuxer overtakes them, and begins too early when the last one is not the
+  /// newest.
   void begin_gap(GstClockTime running_time);
-  /// Nothing more comes.
+  /// The stream has ended.
   void end_of_stream();
 
  private:

@@ -25,20 +25,20 @@
 
 namespace spidar::filter {
 
-/// Gives the blocks of a track whose time it is, with their running times.
+/// Gives the blocks of a track that are due, with their running times.
 class TrackReplay {
  public:
   /// The samples of a frame go on for this long after its end, because the next one may be late.
   static constexpr int64_t kMargin_ns = 60'000'000;
-  /// A frame waits at most so long for its samples, after a seek, or where they are read slowly for
-  /// the first time.
+  /// The longest time that a frame waits for its samples: after a seek, or where they are read
+  /// slowly for the first time.
   static constexpr std::chrono::seconds kLongestWait{1};
 
-  /// Null: there is none.
+  /// Null for no track.
   void set_track(std::shared_ptr<ReadAhead> track);
   bool has_track() const { return track_ != nullptr; }
 
-  /// Gives what is not yet given of the samples that are rendered while the frame is shown, at the
+  /// Gives the samples that are rendered while the frame is shown and were not given before, at the
   /// running time of the sink. In another epoch, at another rate and after a gap, it begins with
   /// the block that the frame is in.
   void play(const FrameStamp& frame, const std::function<void(const TrackBlock&)>& give);
@@ -64,7 +64,7 @@ class TrackReplay {
   std::optional<uint32_t> epoch_;
   double rate_ = 1;
   int64_t expected_ns_ = 0;  ///< stream time of the next frame
-  int64_t given_ns_ = 0;     ///< up to here; backwards, from here on
+  int64_t given_ns_ = 0;     ///< end of what was given; backwards, its beginning
 };
 
 class TrackSource {
@@ -75,14 +75,14 @@ class TrackSource {
               const WrenchBacklog& times, NoForceWatch& no_force, ReliefStream& reliefs)
       : output_(output), samples_(samples), times_(times), no_force_(no_force), reliefs_(reliefs) {}
 
-  /// Frames are not analysed: the samples of this track, of the file `path`, are rendered. Null:
-  /// they are again. What was given of the track before is rendered nevertheless: its frames are on
-  /// their way to the screen.
+  /// The samples of `track`, from the file `path`, are rendered, and frames are not analysed; null:
+  /// frames are analysed again. What was given of the previous track is still rendered: its frames
+  /// are on their way to the screen.
   void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.
   std::string path() const;
-  /// Since set_track(). Any thread.
+  /// The number of frames since set_track(). Any thread.
   uint64_t frames() const { return frames_; }
 
   /// The report's wrench is the largest of the track while the frame is shown.
@@ -98,7 +98,7 @@ class TrackSource {
   NoForceWatch& no_force_;
   ReliefStream& reliefs_;
   TrackReplay replay_;
-  mutable std::mutex path_mutex_;  ///< of the pointer
+  mutable std::mutex path_mutex_;  ///< guards path_
   std::shared_ptr<const std::string> path_;
   std::atomic<uint64_t> frames_{0};
 };

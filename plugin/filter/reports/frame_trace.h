@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// One line a frame, for those who want to look at it later.
+/// A file with one line for each frame, to be looked at later.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +28,15 @@ namespace spidar::filter {
 /// becomes null, because JSON cannot express it.
 std::string json_line(const Frame& frame);
 
-/// Where the name ends in .csv, CSV with a header line; in .jsonl, what json_line() gives, with
-/// objects and background; numbers are written without regard to the locale, with the digits that
-/// reading them back needs.
+/// Writes CSV with a header line where the name ends in .csv; where it ends in .jsonl, what
+/// json_line() gives, with objects and background; numbers are written without regard to the
+/// locale, with the digits that reading them back needs.
 class FrameTrace {
  public:
-  /// Empty string, or the reason why the file cannot be written.
+  /// Returns an empty string, or the reason why the file cannot be written.
   std::string open(const std::string& path);
 
-  /// Does not wait for the file. errno of the write that ended the trace; 0 if none did.
+  /// Does not wait for the file. Returns errno of the write that ended the trace; 0 if none did.
   int write(const FrameReport& report);
 
   /// Writes the last rows, as far as they are taken.
@@ -47,7 +47,7 @@ class FrameTrace {
 
   LineWriter file_;
   bool is_json_ = false;
-  std::string line_;  ///< of the frame before: its memory is used again
+  std::string line_;  ///< of the previous frame; its memory is reused
 };
 
 }  // namespace spidar::filter

@@ -14,7 +14,7 @@
 
 namespace spidar::filter {
 
-/// Since the stream began. Thread-safe.
+/// Numbers since the stream began. Thread-safe.
 class MotionStats {
  public:
   void reset() {

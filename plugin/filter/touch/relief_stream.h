@@ -67,9 +67,9 @@ class ReliefStream {
 
   /// Adds a frame that is shown at `shown_ns`. `luma` covers the whole frame, `analyzed` the part
   /// that is picture. For `finger` see touched_displacement_px(). Throws std::invalid_argument when
-  /// the device has no workspace for a picture. Allocates only when the frame size changes. Where
-  /// `shading` is not null, it becomes touch::HeightField::shading(), or stays where there is no
-  /// surface.
+  /// the device has no workspace for a picture. Allocates only when the frame size changes. If
+  /// `shading` is not null, it is set to touch::HeightField::shading(), or left as it is where
+  /// there is no surface.
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger,
            std::string* shading = nullptr);

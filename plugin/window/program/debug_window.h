@@ -21,8 +21,7 @@ namespace spidar::window {
 
 class DebugWindow {
  public:
-  /// The link has answered once. Throws std::runtime_error when there is no OpenGL 3.3 or no window
-  /// to be had.
+  /// `link` has answered once. Throws std::runtime_error when OpenGL 3.3 or a window cannot be had.
   explicit DebugWindow(PlayerLink& link);
   ~DebugWindow();
   DebugWindow(const DebugWindow&) = delete;
@@ -33,11 +32,12 @@ class DebugWindow {
   void present();
   /// Closed by the user.
   bool is_done() const;
-  /// Writes what was drawn and not yet presented to a PNG file. Empty, or why it cannot be written.
+  /// Writes what was drawn and not yet presented to a PNG file. Returns an empty string, or why it
+  /// cannot be written.
   std::string save(const std::string& path) const;
 
   void on_key(int key);
-  /// In place of the user.
+  /// Acts on input in place of the user's.
   void process(const UserInput& input);
 
  private:

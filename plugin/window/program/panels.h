@@ -31,7 +31,7 @@ struct ShownPicture {
   /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
   std::optional<uint32_t> requested;
   bool detail = false;  ///< every point, new and lost points, all boxes; else they are faint
-  /// What the hand gets, unless that is another force than the frame asks for.
+  /// The force that the hand gets, unless it differs from the force that the frame asks for.
   std::optional<double> delivered_N;
 };
 /// The part of the window that shows the visible part of the frame.
@@ -48,14 +48,14 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
 /// The axis fits what is felt.
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline);
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline);
-/// With the curve of the settings that are not in use, if they are others.
+/// Also draws the curve of the settings that are not in use, if they differ.
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
                const ControllerSettings& controller, const TwoSettings& settings);
 
 /// At the lower edge of the picture: what the mouse does.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
 
-/// What the user wants of the choices.
+/// The user's actions on the choices.
 struct TimelineActions {
   std::optional<FeelRule> removed;  ///< this one is to be removed
   std::optional<int64_t> seek_ns;   ///< the film is to go on from there
@@ -76,7 +76,7 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& 
 /// What the keys do, over the picture.
 void draw_keys(const Brush& brush, const Rect& picture);
 
-/// What the user wants of the settings.
+/// The user's actions on the settings.
 struct ControlsActions {
   std::vector<std::pair<std::string, double>> changes;  ///< by name
   std::optional<std::string> preset;
@@ -88,7 +88,7 @@ struct ControlsActions {
 ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                               const TwoSettings& settings);
 
-/// Of the widget drawn last, above `panel`, so that it does not cover what is in it.
+/// Shows a tooltip of the widget drawn last above `panel`, so that it does not cover what is in it.
 void explain_above(const Rect& panel, const char* text);
 
 /// The mouse in the frame of the window that is drawn, from Dear ImGui.

@@ -67,7 +67,8 @@ class PictureTexture {
     return true;
   }
 
-  /// Of a relief, to lie over a picture: shadow darkens it, and light brightens it.
+  /// Loads the shading of a relief, to lie over a picture: shadow darkens it, and light brightens
+  /// it.
   void load_shading(const std::string& shading) {
     constexpr int kLevel = 128, kPictureStays = 3;  // a third of the picture is always seen
     std::vector<uint8_t> rgba;
@@ -94,13 +95,13 @@ class PictureTexture {
     height_ = height;
   }
 
-  /// Of the frame that it was made from.
+  /// Properties of the frame that the texture was made from.
   int frame_width() const { return frame_width_; }
   int frame_height() const { return frame_height_; }
   double pixel_aspect() const { return pixel_aspect_; }
 
   bool empty() const { return width_ == 0; }
-  /// Of what is shown, on a screen with square pixels.
+  /// Width over height of what is shown, on a screen with square pixels.
   double aspect() const { return height_ > 0 ? pixel_aspect_ * width_ / height_ : 1; }
   unsigned id() const { return id_; }
 

@@ -28,7 +28,7 @@ struct QueuedFrame {
 /// what a window draws beside the grip waits here until then.
 class FrameQueue {
  public:
-  /// With more of them, as between the element and a sink with a long queue, the oldest is shown
+  /// With more frames, as between the element and a sink with a long queue, the oldest is shown
   /// although it is not on the screen yet.
   static constexpr size_t kMost = 8;
 
@@ -50,17 +50,17 @@ class PlayerLink {
 
   /// Asks for what is to be drawn next, and waits for the answer, no longer than `patience`.
   void ask(std::chrono::milliseconds patience);
-  /// Waits as long, but not if the window is to close.
+  /// Waits for `duration`, but not when the window is to close or to write its picture.
   void rest(std::chrono::milliseconds duration);
 
   /// The player has closed the window, or is gone.
   bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }
-  /// Because it sends what is no message, as one of another version does.
+  /// Whether the player sends what is no message, as one of another version does.
   bool is_not_understood() const { return is_not_understood_ || channel_->is_not_understood(); }
 
-  /// Of the last answer.
+  /// The state in the last answer.
   const ElementState& state() const { return state_; }
-  /// Of every answer since the last call.
+  /// The ticks in all answers since the last call.
   std::vector<ForceTick> take_ticks() { return std::exchange(ticks_, {}); }
   FrameQueue& frames() { return frames_; }
   std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }

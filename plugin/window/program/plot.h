@@ -13,7 +13,7 @@
 
 namespace spidar::window {
 
-/// All that was there in one of several equal parts of the axis of x.
+/// The range of values in one of several equal parts of the x axis.
 struct PlotSpan {
   bool is_empty = true;
   double low = 0, high = 0;
@@ -28,8 +28,8 @@ class Plot {
   /// Line through points in order; what lies beyond the range is cut off, and a small triangle at
   /// the edge says where a value is above it.
   void line(const std::vector<Eigen::Vector2d>& points, ImU32 color, double width_px = 1.6) const;
-  /// From the lowest to the highest value in each part of the width, never lower than a line of
-  /// `width_px`.
+  /// Band from the lowest to the highest value in each part of the width, never thinner than a line
+  /// of `width_px`.
   void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
@@ -38,7 +38,7 @@ class Plot {
 
   const Rect& area() const { return area_; }
   ImVec2 at(double x, double y) const;
-  /// Where the mouse is on the axis of x, with a line there; nothing while it is elsewhere.
+  /// Where the mouse is on the x axis, with a line there; nothing while it is elsewhere.
   std::optional<double> hovered_x() const;
 
   /// How many steps fit on an axis of this length.
@@ -51,7 +51,7 @@ class Plot {
   const Brush& brush_;
   Rect area_;
   PlotAxis x_, y_;
-  float unit_width_ = 0;  ///< of y
+  float unit_width_ = 0;  ///< of the y axis
 };
 
 }  // namespace spidar::window

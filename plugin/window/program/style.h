@@ -70,7 +70,7 @@ inline ImVec2 lower_right(const Rect& rect) {
 ImVec2 text_size(const ImFont* font, const std::string& text);
 void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                const std::string& text);
-/// Ends at `at` instead of beginning there.
+/// The text ends at `at` instead of beginning there.
 void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                       const std::string& text);
 /// Text on a dark rounded ground, readable on any picture. `at` is its upper left corner.

@@ -38,7 +38,7 @@ class Channel {
 
   /// The other end is closed or broken. What came before can still be taken.
   bool is_gone() const { return is_gone_; }
-  /// It sends what is no packet of this version of the protocol.
+  /// The other end sends what is no packet of this version of the protocol.
   bool is_not_understood() const { return is_not_understood_; }
   int socket() const { return socket_; }
 
@@ -53,7 +53,7 @@ class Channel {
   int socket_;
   std::deque<Unsent> unsent_;
   std::vector<uint8_t> received_;
-  size_t taken_ = 0;  ///< of what was received
+  size_t taken_ = 0;  ///< bytes of received_ that next() has returned
   std::deque<int> files_;
   bool is_gone_ = false;
   bool is_not_understood_ = false;

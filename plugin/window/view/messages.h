@@ -27,7 +27,7 @@ constexpr uint16_t kProtocol = 5;
 
 // --- to the window
 
-/// Memory for pictures, in place of what there was. Its file comes with the message.
+/// Memory for pictures, which replaces any before it. Its file comes with the message.
 struct PictureMemory {
   static constexpr uint32_t kMostSlots = 64;
 
@@ -46,11 +46,11 @@ struct ChoicesSaved {
   bool is_done = false;
   std::string what;  ///< was done, or why not, as a sentence
 };
-/// Draw, and write that to a PNG file. PictureTaken answers.
+/// Asks for a drawing, written to a PNG file. PictureTaken answers.
 struct TakePicture {
   std::string path;
 };
-/// In place of a person, for tests: a key of GLFW, the mouse from now on, another size.
+/// Input in place of a person's, for tests: a key of GLFW, the mouse from now on, another size.
 struct UserInput {
   std::optional<int32_t> key;
   std::optional<Mouse> mouse;
@@ -76,12 +76,12 @@ struct ChangeSetting {
 struct LoadPreset {
   std::string name;
 };
-/// Where the hand of the simulated device goes, device frame; nothing: it lets go.
+/// Where the hand of the simulated device moves to, in the device frame; nothing: it lets go.
 struct LeadHand {
   std::optional<Eigen::Vector3d> to_m;
 };
 /// The object at this position of the frame, a fraction of its visible part, is felt alone;
-/// nothing: what the properties say is.
+/// nothing: what the properties choose is felt.
 struct ChooseObject {
   std::optional<Eigen::Vector2d> position;
 };
@@ -94,14 +94,14 @@ struct SaveChoices {
 struct PlayFilm {
   bool plays = false;
 };
-/// The film goes on from this time.
+/// The film is to continue from this time.
 struct SeekFilm {
   int64_t to_ns = 0;
 };
 struct PictureTaken {
   std::string error;  ///< empty when it was written
 };
-/// The window cannot be opened: `what` happened, `advice` to do.
+/// The window cannot be opened: `what` says what happened, `advice` what to do.
 struct CannotOpen {
   std::string what, advice;
 };
@@ -109,7 +109,7 @@ struct CannotOpen {
 using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
                                 PlayFilm, SeekFilm, PictureTaken, CannotOpen, LoadPreset>;
 
-/// The bytes of a message, from its kind on.
+/// The bytes of a message, which begin with its kind.
 std::vector<uint8_t> to_bytes(const ToWindow& message);
 std::vector<uint8_t> to_bytes(const FromWindow& message);
 /// Nothing when the bytes are not those of exactly one message, with every value in its range.

@@ -17,7 +17,7 @@ struct Rect {
   bool has(const Eigen::Vector2d& at) const {
     return at.x() >= x && at.x() < right() && at.y() >= y && at.y() < bottom();
   }
-  /// This far inside on all sides; never less than nothing.
+  /// The rectangle this far inside on all sides, whose size is never negative.
   Rect inset(double margin) const {
     const double dx = std::min(margin, width / 2), dy = std::min(margin, height / 2);
     return {x + dx, y + dy, width - 2 * dx, height - 2 * dy};

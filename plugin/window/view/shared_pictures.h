@@ -21,11 +21,12 @@ namespace spidar::window {
 /// copy(), and is free again when the window has returned it. Thread-safe only where stated.
 class PictureSlots {
  public:
-  /// As many as a window keeps: those that wait until they are on the screen, the one that is
-  /// shown, and the one that comes.
+  /// As many pictures as a window keeps: those that wait until they are on the screen, the one that
+  /// is shown, and the one that comes.
   static constexpr uint32_t kSlots = 10;
 
-  /// For frames like this one. When the system has no memory for it, is_there() is false.
+  /// Makes slots for frames like this one. When the system has no memory for them, is_there() is
+  /// false.
   PictureSlots(uint32_t id, const GstVideoFrame& frame);
   ~PictureSlots();
   PictureSlots(const PictureSlots&) = delete;
@@ -51,7 +52,7 @@ class PictureSlots {
   std::vector<bool> taken_;
 };
 
-/// The memory, which is read only.
+/// The memory on the window's side, where it is read only.
 class MappedPictures {
  public:
   /// Takes over the file. When it does not match the description, is_there() is false.
@@ -72,7 +73,7 @@ class MappedPictures {
   const uint8_t* memory_ = nullptr;
 };
 
-/// One picture in it, or none. Says that its slot is free when it goes.
+/// One picture in it, or none. Its destructor says that the slot is free.
 class SharedPicture {
  public:
   SharedPicture() = default;

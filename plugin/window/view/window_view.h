@@ -30,7 +30,7 @@ struct Setting {
   Kind kind = Kind::kNumber;
   double value = 0, low = 0, high = 0;
   std::vector<Choice> choices;
-  double usual = 0;  ///< of a number: what it is until somebody sets it
+  double usual = 0;  ///< of a number: its default
 };
 
 /// The element as it is now.
@@ -58,7 +58,7 @@ struct ElementState {
 
 /// For the last line of the window: "felt", or "not felt: " and why; "felt: " and why, while the
 /// force is only lowered. `now` is the force of this moment, `no_force` that of the last second.
-/// While the surface is felt also that the device gets less stiffness than is set.
+/// While the surface is felt, also says when the device gets less stiffness than is set.
 inline std::string felt_line(const ElementState& state, const TouchScene& touch,
                              const Wrench& now) {
   if (state.has_ended) return state.no_force;

@@ -13,10 +13,10 @@ namespace spidar::window {
 /// The largest rectangle of width / height = `aspect` (> 0) in the middle of `outer`.
 Rect fit(const Rect& outer, double aspect);
 
-/// Of a window when it opens, at a scale of 1.
+/// The size of a window when it opens, at a scale of 1.
 constexpr int kUsualWidth_px = 1280, kUsualHeight_px = 800;
-/// Of text and lines: that of the screen, and more in a larger window, by eighths, because each
-/// step draws the fonts anew.
+/// The scale of text and lines: that of the screen, and more in a larger window, in steps of an
+/// eighth, because each step draws the fonts anew.
 double text_scale(double screen_scale, int width, int height);
 
 struct Layout {
@@ -27,7 +27,7 @@ struct Layout {
 /// speed is measured, the plot of force replaces those of speed.
 Layout lay_out(int width, int height, double scale, bool has_speed = true);
 
-/// From pixels of the frame to pixels of the window.
+/// Maps pixels of the frame to pixels of the window.
 struct PictureMap {
   Rect shown;  ///< the visible part of the frame
   double frame_x = 0, frame_y = 0;

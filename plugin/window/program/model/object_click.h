@@ -14,8 +14,8 @@
 
 namespace spidar::window {
 
-/// The object in sight whose box has the position in it, the smallest of several; null when none
-/// has. Places are fractions of the visible part of the frame.
+/// The object in sight whose box has the position in it, the smallest of several; null when there
+/// is none. Positions are fractions of the visible part of the frame.
 inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vector2d& position) {
   const Eigen::Vector2d at_px((position.x() - 0.5) * report.visible.width,
                               (position.y() - 0.5) * report.visible.height);
@@ -29,7 +29,7 @@ inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vect
 }
 
 /// A position that is in the box of this object and in no smaller one, if there is such a position:
-/// a click there means it. As a fraction of the visible part of the frame.
+/// a click there means this object. As a fraction of the visible part of the frame.
 inline Eigen::Vector2d position_of(const DrawnFrame& report, const MovingObject& object) {
   const Eigen::Vector2d frame_px(report.visible.width, report.visible.height);
   const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
@@ -51,7 +51,7 @@ inline Eigen::Vector2d position_of(const DrawnFrame& report, const MovingObject&
   return position_at(0.5, 0.5);
 }
 
-/// Whether objects are known, and not merely touched.
+/// Whether objects are known, and the picture is not touched.
 inline bool offers_choice(const DrawnFrame& report) {
   return report.motion != MotionKind::kMean && !report.touch.on;
 }
@@ -91,7 +91,7 @@ class ObjectClick {
     if (!is_chosen) request.position = position;
     return request;
   }
-  /// The button is still down since then.
+  /// Whether the button is still down after a click on an object.
   bool holds() const { return holds_; }
 
  private:

@@ -21,11 +21,11 @@ struct ScenePlace {
   FilmScene scene;
   FrameStamp stamp;
 
-  /// Whether a frame goes on with what was seen. Backwards, none does.
+  /// Whether the frame `next` continues the scene. In reverse playback, none does.
   bool is_continued_by(const DrawnFrame& next) const {
     return is_same_run(next) && scene.begin_ns == next.film.begin_ns && next.frame.stamp.rate > 0;
   }
-  /// Nothing but a cut can be between them.
+  /// Whether nothing but a cut can be between this frame and `next`.
   bool is_same_run(const DrawnFrame& next) const {
     return stamp.epoch == next.frame.stamp.epoch && scene.name() == next.film.name();
   }
@@ -38,7 +38,7 @@ struct Sighting {
   int64_t last_ns = -1;
 };
 
-/// Of the scene that is on the screen.
+/// The objects seen in the scene that is on the screen.
 class Sightings {
  public:
   /// An object that has been out of sight for longer is forgotten: were it seen again, it would be
@@ -56,43 +56,43 @@ class Sightings {
 };
 
 /// A choice is a rule from the moment at which its object was seen first up to the end of the
-/// scene, which is known once a cut has come. Until then, and where a seek leaves the scene
-/// before, it ends with what was seen of the scene; where the object is lost, when that was seen
-/// last. Times are whole milliseconds.
+/// scene, which is known once a cut has come. Until then, and where a seek leaves the scene before,
+/// it ends with what was seen of the scene; where the object is lost, it ends when the object was
+/// last seen. Times are whole milliseconds.
 class SceneChoices {
  public:
   /// The next frame that is on the screen. True when a choice ends because its scene has ended.
   bool update(const DrawnFrame& report);
 
-  /// When the object of a choice was seen last that has been lost since the last call.
+  /// When the object of a choice was last seen, if it has been lost since the last call.
   std::optional<int64_t> take_lost() { return std::exchange(lost_ns_, std::nullopt); }
 
-  /// In place of what was chosen in this scene while the object was in sight. Changes nothing
-  /// where the time in the film is not known.
+  /// Chooses `object`, in place of what was chosen in this scene while it was in sight. Changes
+  /// nothing where the time in the film is not known.
   void choose(const Sighting& object);
-  /// Of the choices in this scene the last one goes.
+  /// Takes back the last of the choices in this scene.
   void let_go();
-  /// No rule holds any more from one time to another.
+  /// Lets no rule hold any more from one time to another.
   void remove(int64_t from_ns, int64_t to_ns);
-  /// There is nothing more of the scene. True when a choice ends with it.
+  /// The scene has ended. True when a choice ends with it.
   bool end_scene();
 
   bool has_unsaved() const;
-  /// A choice was saved before its end was known, and now it is.
+  /// Whether a choice was saved before its end was known, and the end is known now.
   bool has_late_end() const;
-  /// In the order in which they were made.
+  /// The choices as edits, in the order in which they were made.
   std::vector<FeelEdit> edits() const;
-  /// These are saved, and those that are complete are forgotten.
+  /// The edits have been saved; those that are complete are forgotten.
   void saved();
-  /// They cannot be: the user has to ask again.
+  /// The edits could not be saved: the user has to ask again.
   void not_saved();
 
  private:
   struct Choice {
     FeelEdit edit;
     uint32_t object = 0;
-    int64_t seen_ns = 0;        ///< the object
-    uint32_t click_before = 0;  ///< what the element knew of when it was made
+    int64_t seen_ns = 0;        ///< when the object was last seen
+    uint32_t click_before = 0;  ///< the one that the element knew of when the choice was made
     bool is_kept = false;       ///< by the element, which knows of the click
     bool grows = false;         ///< with the scene
     bool is_removal = false;
@@ -119,13 +119,14 @@ struct FilmStrip {
   int64_t length_ns = 0;  ///< 0: there is nothing to show
   std::vector<StripMark> marks;
 
-  /// 0 at the begin of the film, 1 at its end; never beyond.
+  /// 0 at the beginning of the film, 1 at its end; never beyond.
   double fraction(int64_t ns) const;
   /// The mark at this fraction, or no further than `reach` from it; null when there is none.
   const StripMark* at(double position, double reach) const;
 };
 
-/// Of a film from a file of which the time is known. `rules` may be null.
+/// The strip of a film from a file, if the time in it is known; else an empty one. `rules` may be
+/// null.
 FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);
 

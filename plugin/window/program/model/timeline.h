@@ -20,10 +20,10 @@ inline bool are_same(const Wrench& wanted, const Wrench& delivered) {
          std::lround(kShown_per_N * delivered.force_N.norm());
 }
 
-/// What the plots of speed show of one moment. Times are those of CLOCK_MONOTONIC.
+/// The values of one moment that the plots of speed show. Times are those of CLOCK_MONOTONIC.
 struct Moment {
   double time_s = 0;
-  double interval_s = 0;  ///< of the frame before, when a new one has come; 0 otherwise
+  double interval_s = 0;  ///< since the previous frame, when a new one has come; 0 otherwise
   double speed_px_s = 0;  ///< of the reference frame, before the filter
   Wrench wanted;          ///< by the controller, of the newest frame
   Wrench felt;            ///< delivered at the grip; zero without a device
@@ -33,7 +33,7 @@ struct Moment {
 struct ForceColumn {
   bool is_empty = true;
   Eigen::Vector3d wanted_low_N, wanted_high_N, delivered_low_N, delivered_high_N;  ///< by axis
-  double most_N = 0;  ///< the largest that was delivered, of all directions
+  double most_N = 0;  ///< magnitude of the largest force that was delivered
 };
 
 /// Records moments and forces as they come.
@@ -54,14 +54,15 @@ class Timeline {
   double newest_s() const { return moments_.empty() ? 0 : moments_.back().time_s; }
   /// Oldest first.
   const std::deque<Moment>& moments() const { return moments_; }
-  /// From the oldest moment on, seconds: at least what the plots show, and the whole memory once
-  /// most of it is full. One of few round numbers, so that an axis of it seldom changes.
+  /// Seconds that an axis from the oldest moment on has to show: at least what the plots show, and
+  /// the whole memory once most of it is full. One of few round numbers, so that the axis seldom
+  /// changes.
   double remembered_s() const;
-  /// What the plots show, seconds.
+  /// The time that the plots show, in seconds.
   double plotted_s() const { return plotted_s_; }
-  /// They show `factor` times as long.
+  /// Multiplies plotted_s() by `factor`, within its limits.
   void zoom(double factor);
-  /// Of the last plotted_s(), oldest first.
+  /// The moments of the last plotted_s(), oldest first.
   std::vector<Moment> plotted() const;
   /// The lowest and highest forces in each of `count` equal parts of the time from one to another,
   /// whatever the rate at which the window draws.

@@ -23,7 +23,7 @@ class TwoSettings {
   /// before may have been on their way when it was asked.
   static constexpr int kPatience = 30;
 
-  /// As the element has them now.
+  /// Takes the settings as the element has them now.
   void update(const std::vector<Setting>& settings) {
     if (!asked_.empty() && ++answers_ > kPatience) asked_.clear();
     for (const Setting& setting : settings) {
@@ -54,7 +54,7 @@ class TwoSettings {
     used_ = which;
     return changes_to(kept_[which]);
   }
-  /// What is to be set so that all is as it was seen first, in the one that is in use.
+  /// Resets the one that is in use to the values seen first. Returns what is to be set for that.
   std::vector<std::pair<std::string, double>> reset() {
     kept_[used_] = first_;
     return changes_to(first_);
@@ -75,13 +75,13 @@ class TwoSettings {
   }
 
   std::map<std::string, double> first_, seen_;
-  std::map<std::string, double> asked_;  ///< that were not seen yet
+  std::map<std::string, double> asked_;  ///< values that were not seen yet
   int answers_ = 0;                      ///< since then
   std::array<std::map<std::string, double>, 2> kept_;
   size_t used_ = 0;
 };
 
-/// `controller` with what these values say of it.
+/// `controller` with those of its settings that `values` contains.
 inline ControllerSettings with_values(ControllerSettings controller,
                                       const std::map<std::string, double>& values) {
   const auto value = [&](const char* name, double otherwise) {
