@@ -162,8 +162,9 @@ template <typename Settings>
 class PropertyTable {
  public:
   PropertyTable(std::initializer_list<std::vector<Property<Settings>>> parts) {
-    for (const std::vector<Property<Settings>>& part : parts)
+    for (const std::vector<Property<Settings>>& part : parts) {
       rows_.insert(rows_.end(), part.begin(), part.end());
+    }
   }
 
   /// Class initialisation. The id of a property is its position in the table, from 1 on.

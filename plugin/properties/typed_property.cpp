@@ -87,8 +87,9 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
                             values_of(property_) + unit(property_));
   }
   const std::string value = text.substr(equals + 1);
-  if (value.find('\n') != std::string::npos)
+  if (value.find('\n') != std::string::npos) {
     throw tools::UsageError(name + ": a value is one line");
+  }
   g_value_init(&value_, property_->value_type);
   const bool understood = gst_value_deserialize_with_pspec(&value_, value.c_str(), property_);
   // Clamps values that are out of range.

@@ -45,14 +45,17 @@ inline int line_of_bare_letter(std::string_view text) {
       const bool ends = text.substr(i, end.size()) == end;
       i += escapes ? 2 : ends ? end.size() : 1;
       // Three quotes end a string with the last of up to five.
-      for (int n = 0; ends && end.size() == 3 && n < 2 && i < text.size() && text[i] == end[0]; ++n)
+      for (int n = 0; ends && end.size() == 3 && n < 2 && i < text.size() && text[i] == end[0];
+           ++n) {
         ++i;
+      }
       if (ends) end = {};
       continue;
     }
-    if (static_cast<unsigned char>(text[i]) >= 0x80)
+    if (static_cast<unsigned char>(text[i]) >= 0x80) {
       return 1 +
              static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(i), '\n'));
+    }
     for (const std::string_view begin : {"\"\"\"", "'''", "\"", "'", "#"}) {
       if (text.substr(i, begin.size()) != begin) continue;
       end = begin == "#" ? "\n" : begin;
@@ -70,8 +73,9 @@ inline toml::table parse_toml(const std::string& text, const std::string& path) 
     throw ProfileError(path + line + ": not TOML: " + why);
   };
   // toml++ 3.3 runs into undefined behaviour at some of them, as U+01BA.
-  if (const int line = line_of_bare_letter(text))
+  if (const int line = line_of_bare_letter(text)) {
     return fail(":" + std::to_string(line), "a letter that is not ASCII must be in quotes");
+  }
   try {
     return toml::parse(std::string_view(text), path);
   } catch (const toml::parse_error& error) {
