@@ -27,8 +27,8 @@ Json json_array(const Vector& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-/// JSON that was read. Its members are not ordered, which would take a time that grows with the
-/// square of their number.
+/// JSON that was read. Its members are sorted by their names: keeping their order would take a time
+/// that grows with the square of their number.
 using ReadJson = nlohmann::json;
 
 /// Greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.

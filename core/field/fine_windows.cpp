@@ -14,7 +14,8 @@ namespace {
 
 /// Two steps: the second one takes away what the first one leaves of a whole pixel.
 constexpr int kSteps = 2;
-/// Smaller eigenvalue of a window's structure tensor, (grey / px)². With less, noise of two grey
+/// Smaller eigenvalue of a window's structure tensor, on the mean over its pixels, (grey / px)².
+/// With less, noise of two grey
 /// levels moves the window by more than a fifth of a pixel.
 constexpr float kLeastTexture = 0.2f;
 /// Largest mean squared difference with which a window shows the same object, as a fraction of its
@@ -101,7 +102,9 @@ void FineWindows::keep(const ImageView& frame, const BlockField& field,
   windows_.clear();
   // Of many, every second one, and so on.
   const size_t every = 1 + blocks.size() / (kMost + 1);
-  for (size_t i = 0; i < blocks.size(); i += every) keep_one(frame, field, position, blocks[i]);
+  for (size_t i = 0; i < blocks.size() && windows_.size() < kMost; i += every) {
+    keep_one(frame, field, position, blocks[i]);
+  }
 }
 
 /// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of

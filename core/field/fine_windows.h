@@ -31,8 +31,8 @@ struct FineMotion {
 
 /// Keeps a small window of the frame for some blocks, and finds it in the next frame by
 /// Gauss–Newton steps from where its block went (inverse compositional: Baker and Matthews:
-/// Lucas–Kanade 20 years on, IJCV 2004). Blocks are right to a tenth of a pixel of the reduced
-/// picture; in the frame there are more pixels, and a second step takes away what the first one
+/// Lucas–Kanade 20 years on, IJCV 2004). The motion of a block is right to a tenth of a pixel of
+/// the reduced picture; the frame has more pixels, and a second step takes away what the first one
 /// leaves. Does not allocate once the frames have a size.
 class FineWindows {
  public:
@@ -50,6 +50,7 @@ class FineWindows {
   /// Forgets all windows.
   void reset() { windows_.clear(); }
 
+  /// The largest number of windows.
   static constexpr size_t kMost = 48;
 
  private:
@@ -78,7 +79,8 @@ class FineWindows {
             float& residual) const;
   bool match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px);
 
-  /// Side of a window with kReach_px, and one pixel for the interpolation, all around it.
+  /// Side of a window with kReach_px and one pixel more on each side. The interpolation reads the
+  /// pixel to the right and the one below.
   static constexpr int kPatch_px = kSide_px + 2 * kReach_px + 2;
   std::vector<Template> windows_;
   std::vector<FineMotion> found_;

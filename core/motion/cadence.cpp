@@ -21,7 +21,7 @@ constexpr size_t kAccident = 2 * 5;
 /// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kEnough = 2 * 2;
-/// Of fewer, none is unlike the others.
+/// Fewer intervals have no majority from which one could differ.
 constexpr size_t kMajority = 3;
 
 }  // namespace
@@ -139,7 +139,6 @@ Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
 
   Step step{false, frame_ns, frame_ns};
   if (repeated) {
-    rests_ = true;
     return step;  // measured frame by frame from now on
   }
 
@@ -148,11 +147,11 @@ Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
   picture_ns_ = time_ns;
   frames_ = 1;
   begun_ = has_changed_ = true;
-  rests_ = false;
   if (between_ns <= kLongest_ns) {
     if (picture == Likeness::kOther) remember(shown);
     step.interval_ns = step.shown_for_ns = between_ns;
   }
+  if (!knows_repeats()) return step;
   size_t unlike = 0;
   const int64_t median = median_ns();
   for (size_t i = 0; i < shown_.size(); ++i) {
@@ -161,7 +160,6 @@ Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
                           kSameInterval * static_cast<double>(median);
     if (i < kAccident && !is_alike) ++unlike;
   }
-  if (!knows_repeats()) return step;
   if (shown_.size() >= kMajority && unlike <= 1) {
     // This also holds when the picture begins to move again after a rest.
     step.interval_ns = median;
@@ -187,7 +185,7 @@ void Cadence::cut(int64_t time_ns) {
   begun_ = true;
   picture_ns_ = frame_ns_ = time_ns;
   frames_ = 1;
-  has_changed_ = rests_ = false;
+  has_changed_ = false;
 }
 
 }  // namespace spidar

@@ -46,9 +46,10 @@ class Cadence {
   /// Whether a picture that is repeated at `time_ns` would have to wait.
   bool would_wait(int64_t time_ns) const;
 
-  /// Takes the frame shown at `time_ns`, which must rise. `picture`: kSame; kAlike, of a picture
-  /// that waited for long enough to be analysed; or kOther. `repeats`: which frames that were
-  /// kOther are known by now to have repeated the previous picture, this frame first.
+  /// Takes the frame shown at `time_ns`, which must rise; the first one after reset() goes to
+  /// cut(). `picture`: kSame; kAlike, of a picture that waited for long enough to be analysed; or
+  /// kOther. `repeats`: which frames that were kOther are known by now to have repeated the
+  /// previous picture, this frame first.
   Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
@@ -82,7 +83,6 @@ class Cadence {
   int64_t frame_ns_ = 0;      ///< the latest frame
   int frames_ = 0;            ///< number of frames that have shown the latest picture
   bool has_changed_ = false;  ///< there has been another picture since the cut
-  bool rests_ = false;        ///< it was shown for too long to belong to a motion
 };
 
 /// A frame may have been repeated because the one after it was lost: the picture has then moved on

@@ -184,6 +184,7 @@ void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, dou
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-9;
   options.logging_type = ceres::SILENT;
+  // Of a solve that fails, the start is left, whose residuals the caller judges.
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   for (size_t k = 0; k < blocks.size(); ++k) bundle.poses[k] = to_pose(blocks[k].data());

@@ -68,7 +68,8 @@ class DelayRun {
       result_.complete = false;
       return false;
     }
-    const int64_t now_ns = now_ns_(), late_ns = now_ns - record_.monotonic_ns;
+    const int64_t now_ns = now_ns_();
+    const int64_t late_ns = record_.monotonic_ns == 0 ? 0 : now_ns - record_.monotonic_ns;
     loop_->tick(now_ns, now_ns);
     while (loop_->pop_record(record_)) {
     }

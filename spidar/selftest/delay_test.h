@@ -51,7 +51,8 @@ struct DelayTest {
 /// top of the minimum tensions, and passes through a HapticLoop with its whole safety chain. The
 /// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
-/// be opened. `now_ns` is CLOCK_MONOTONIC, or the clock of a simulation, in ns.
+/// be opened, and std::invalid_argument for fewer periods than kFewestPeriods. `now_ns` is
+/// CLOCK_MONOTONIC, or the clock of a simulation, in ns.
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const std::function<int64_t()>& now_ns, const DelaySettings& settings = {});
 

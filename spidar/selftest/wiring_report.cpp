@@ -246,7 +246,7 @@ WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers) 
 Profile rewired_profile(const Profile& profile, const WiringReport& report,
                         const std::string& how) {
   if (!report.fixable()) {
-    throw std::invalid_argument("wiring: a profile cannot say what is wrong with it");
+    throw std::invalid_argument("wiring: it is unclear, or no profile can describe it");
   }
   Profile rewired = profile;
   bool moved = false, motors = false, encoders = false;

@@ -114,7 +114,7 @@ DeviceInfo board_info(const std::string& device) {
   const DeviceName name(device);
   const auto kinds = kinds_called(name.device);
   const std::string id = name.rest.substr(0, name.rest.find(','));  // options follow
-  // Nobody else is asked.
+  // Only kinds with this name are listed.
   std::vector<DeviceInfo> boards;
   for (const DeviceKind* kind : kinds) add_plugged_in(*kind, boards);
   const DeviceInfo* only = nullptr;
@@ -131,7 +131,7 @@ DeviceInfo board_info(const std::string& device) {
   }
   if (id.empty() && of_kind == 1) return *only;
   if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && rotary_of(id) >= 0) {
-    // Whether its switch is so is seen when it is opened.
+    // The rotary switch is read when the board is opened.
     DeviceInfo board = *only;
     board.device = device;
     return board;

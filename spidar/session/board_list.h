@@ -22,8 +22,7 @@ std::vector<DeviceInfo> list_boards();
 std::string default_profile(const std::string& device);
 
 /// Returns what is known about a device from its name. The device need not be plugged in, and
-/// nothing is opened. If make_grip() does not know the device either, the name in the result is
-/// empty.
+/// nothing is opened. If make_grip() does not know the device, the name in the result is empty.
 DeviceInfo board_info(const std::string& device);
 
 /// The device name that stands for the first usable one of auto_devices().
@@ -35,13 +34,14 @@ struct AutoDevice {
   std::string why_not;  ///< why it must not be used, and what would be right; empty: it may be
 };
 
-/// The devices that are plugged in and give a force, in the order in which they are to be tried: a
-/// SPIDAR whose profile somebody has confirmed, the others in the order of devices(), and those
-/// that only rumble. `profile` is one that is named now, or empty: then it is only for the board
-/// for which it was confirmed or, if it is the only board with strings, the one that is there.
-/// Boards whose profile nobody has named come after the others with strings, with `why_not`, and so
-/// do devices on USB that are used only if they are named. Opens nothing, so that a listed device
-/// may still be in use, or not be permitted.
+/// The devices that are plugged in and could give a force, in the order in which they are to be
+/// tried: a SPIDAR whose profile somebody has confirmed, the others in the order of devices(), and
+/// those that only rumble. `profile` is one that is named now, or empty: then it is only for the
+/// board for which it was confirmed or, if it is the only board with strings, the one that is
+/// there. Boards without a confirmed profile, and those that were confirmed for another one than
+/// `profile`, come after the others with strings, with `why_not`; devices on USB that are used only
+/// if they are named come last, also with `why_not`. Opens nothing, so that a listed device may
+/// still be in use, or not be permitted.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
 }  // namespace spidar

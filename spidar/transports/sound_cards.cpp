@@ -51,7 +51,8 @@ void add_cards(std::vector<SoundCard>& found) {
   }
 }
 
-/// Those that a person has configured, with a hint; names with a colon are of cards.
+/// Adds the PCMs that a person has configured, with a hint; names with a colon or a comma are those
+/// of cards.
 void add_configured(std::vector<SoundCard>& found) {
   void** hints = nullptr;
   if (snd_device_name_hint(-1, "pcm", &hints) < 0) return;

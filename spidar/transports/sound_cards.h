@@ -27,17 +27,17 @@ std::vector<SoundCard> list_sound_cards();
 /// ALSA's number of a card; nothing for a device that its configuration names.
 std::optional<int> card_number(const std::string& id);
 
-/// The card with this id or, if `first` knows a card, that same card under the id that it has by
+/// The card with this id or, if `first` knows a card, that same card, whatever its id is by
 /// now: the kernel gives the id of a card that is gone to the next one of its name. Throws
-/// DeviceError for `device` if the card is not there.
+/// DeviceError for `device` if the card is not there, or if another one has its id now.
 SoundCard resolve_card(const std::string& device, const std::string& id, const FirstDevice& first,
                        const std::vector<SoundCard>& cards);
 
 /// "there are sound:Controller, sound:shaker"
 std::string names_of(const std::vector<SoundCard>& cards);
 
-/// Whether a PCM of ALSA's configuration plays elsewhere: on whatever a server or a setting
-/// chooses.
+/// Whether a PCM of ALSA's configuration plays nowhere, or elsewhere: on whatever a server or a
+/// setting chooses, or converted on another PCM.
 bool plays_elsewhere(const std::string& id);
 
 }  // namespace spidar

@@ -17,8 +17,8 @@ constexpr double kMostObject = 0.2;
 /// If this fraction of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedFraction = 2 * kMostObject;
 
-/// Noise of a displacement, px of the picture in which motion is measured. A vote that deviates by
-/// more than kOutlierSigmas · noise, and by at least kLeastReach_px, is an outlier.
+/// A vote that deviates by more than kOutlierSigmas times the noise of a displacement, and by at
+/// least kLeastReach_px of the picture in which motion is measured, is an outlier.
 constexpr double kOutlierSigmas = 2.5;
 constexpr double kLeastReach_px = 0.45;
 

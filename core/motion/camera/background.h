@@ -10,8 +10,8 @@
 
 namespace spidar {
 
-/// Votes of a block at the border of the picture: it counts as two elsewhere, because objects are
-/// rarely there.
+/// Votes of a block at the border of the picture, which counts as two blocks elsewhere, because
+/// objects are rarely there.
 constexpr double kBorderVotes = 2;
 /// Weight of the newest frame in what is learnt from frame to frame.
 constexpr double kNewestWeight = 0.4;

@@ -13,7 +13,7 @@ namespace {
 /// Blocks from the border inwards: with fewer, a strip that is left beside the blocks, or a dark
 /// edge of the picture, would decide.
 constexpr int kRingBlocks = 2;
-/// A known object is cut by so many borders at most, one in a corner. What more of them cut is a
+/// The largest number of borders that cut an object, one in a corner. What more of them cut is a
 /// part of the scene that was taken for an object.
 constexpr int kMostOfObject = 2;
 
@@ -65,7 +65,7 @@ void each_at_border(const BlockField& field, const PreviousFrame& past, Visit&& 
   }
 }
 
-/// A model maps to the later picture; it hardly differs between the two positions of a block.
+/// A model is a function of the earlier position; one step of iteration finds that.
 Eigen::Vector2f motion_of(const BlockField& field, size_t block, const MotionModel& model) {
   const Eigen::Vector2d at_px = field.blocks()[block].centre_px.cast<double>();
   return model.displacement_px(at_px - model.displacement_px(at_px)).cast<float>();
@@ -113,7 +113,8 @@ bool border_has_moved(const BlockField& field, const PreviousFrame& past,
     if (if_moved < 0) return;
     const int at_rest = field.difference_if_moved(i, {0, 0});
     ++all;
-    // Between pixels, noise is less: then the contrary is as good.
+    // Interpolation between pixels lessens noise, so that any motion may fit better than rest: the
+    // opposite one must not.
     moved += at_rest - if_moved > clearly &&
              field.difference_if_moved(i, -moved_px) - if_moved > clearly;
     rest += if_moved - at_rest > clearly;

@@ -45,7 +45,7 @@ void PlainParts::go_back(const BlockField& field, const MotionModel& model) {
     double sum_px = 0;
     for (size_t i = 0; i < blocks.size(); ++i) {
       const Eigen::Vector2d at_px = blocks[i].centre_px.cast<double>() - steps_px_[i];
-      // A model maps to the later picture; it hardly differs between the two positions.
+      // A model is a function of the earlier position; one step of iteration finds that.
       const Eigen::Vector2d from_px = at_px - step.displacement_px(at_px);
       steps_px_[i] += step.displacement_px(from_px);
       sum_px += steps_px_[i].norm();
@@ -96,12 +96,17 @@ constexpr double kDoubt = 0.5;
 /// A rival that was chosen before goes on if it explains as much as what was found in order. It may
 /// change by this fraction of its speed. All but two choose it of 0.1, 0.3 and 0.6.
 constexpr double kChanges = 0.3;
-/// A rival that is nearer is no other motion, but another depth, or what blocks are off, px.
+/// A smaller difference is no second motion, but another depth or an error of the blocks, px.
 constexpr double kRivals_px = kMostOff_px;
 /// Fewer votes make no rival.
 constexpr size_t kLeastOfRival = kLeastVotes / 2;
 
-/// How far the motions of two models are apart, on the mean over the picture, px.
+/// Whether a vote is an inlier of a model.
+bool agrees(const BackgroundVote& vote, const MotionModel& model, double sigma_px) {
+  return point_cost(model, vote.point, sigma_px) < kMostCost;
+}
+
+/// How far the motions of two models are apart, on the mean over a grid of 3 × 3 positions, px.
 double models_apart_px(const MotionModel& a, const MotionModel& b, const Eigen::Vector2d& size_px) {
   double sum_px = 0;
   for (int y = -1; y <= 1; ++y) {
@@ -153,32 +158,27 @@ void CameraChoice::add_rival(const Background& chosen, const BackgroundVotes& vo
   models_.push_back(*found);
 }
 
-/// A large object has most of the votes, but little of the border. Rivals of what was found in
-/// order are what its votes leave over, and what the areas along the border show. The best is
-/// chosen instead if it explains clearly more of the border. If most votes are then an object's,
-/// they are left out of what is learnt, or they would pass for noise.
-void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& past,
-                                Background& chosen) {
-  const bool was_rival = std::exchange(is_rival_, false);
-  models_.assign(1, chosen.model);
-  if (share_border(field, past, models_, shares_) < kDoubt) return;
-  collect_votes(field, past, rival_votes_);
-  const auto agrees = [sigma_px = vote_reach_px(chosen.sigma_px) / 2](const BackgroundVote& vote,
-                                                                      const MotionModel& model) {
-    return point_cost(model, vote.point, sigma_px) < kMostCost;
-  };
+/// Rivals of what was found in order are what its votes leave over, and what the areas along the
+/// border show.
+void CameraChoice::add_rivals(const BlockField& field, const PreviousFrame& past,
+                              const Background& chosen) {
+  const double sigma_px = vote_reach_px(chosen.sigma_px) / 2;
   add_rival(chosen, rival_votes_, [&](const BackgroundVote& vote) {
-    return !chosen.is_known || !agrees(vote, chosen.model);
+    return !chosen.is_known || !agrees(vote, chosen.model, sigma_px);
   });
   if (!chosen.is_known && models_.size() > 1) {
     const MotionModel first = models_.back();
     add_rival(chosen, rival_votes_,
-              [&](const BackgroundVote& vote) { return !agrees(vote, first); });
+              [&](const BackgroundVote& vote) { return !agrees(vote, first, sigma_px); });
   }
   collect_areas(field, areas_.find(field), past, area_votes_);
   add_rival(chosen, area_votes_, [](const BackgroundVote& vote) { return vote.at_border; });
-  if (models_.size() == 1) return;
+}
 
+/// The rival that explains clearly more of the border than what was found in order; null when none
+/// does. `was_rival`: the previous background was one, which goes on if it explains as much.
+const MotionModel* CameraChoice::best_rival(const BlockField& field, const PreviousFrame& past,
+                                            const Background& chosen, bool was_rival) {
   share_border(field, past, models_, shares_);
   const Eigen::Vector2d size_px = rival_votes_.size_px;
   const auto most = std::max_element(shares_.begin(), shares_.end());
@@ -186,20 +186,38 @@ void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& pa
   const MotionModel& last = estimator_.background().model;
   const double change_px = kRivals_px + kChanges * models_apart_px(last, MotionModel(), size_px);
   const bool goes_on = was_rival && models_apart_px(best, last, size_px) < change_px;
-  const bool moves_not = chosen.model.kind == ModelKind::kStill;
-  const double more = goes_on ? 0 : moves_not ? kMoreThanRest : kMoreOfBorder;
-  if (most == shares_.begin() || *most < shares_.front() + more) return;
-  if (moves_not && !plain_.have_moved(field, past, best)) return;
+  const bool was_still = chosen.model.kind == ModelKind::kStill;
+  const double more = goes_on ? 0 : was_still ? kMoreThanRest : kMoreOfBorder;
+  if (most == shares_.begin() || *most < shares_.front() + more) return nullptr;
+  return was_still && !plain_.have_moved(field, past, best) ? nullptr : &best;
+}
+
+/// A large object has most of the votes, but little of the border: a rival that explains clearly
+/// more of it is chosen instead. If most votes are then an object's, they are left out of what is
+/// learnt, or they would pass for noise.
+void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& past,
+                                Background& chosen) {
+  const bool was_rival = std::exchange(is_rival_, false);
+  models_.assign(1, chosen.model);
+  if (share_border(field, past, models_, shares_) < kDoubt) return;
+  collect_votes(field, past, rival_votes_);
+  add_rivals(field, past, chosen);
+  if (models_.size() == 1) return;
+  const MotionModel* const rival = best_rival(field, past, chosen, was_rival);
+  if (!rival) return;
+
   std::swap(votes_, rival_votes_);
-  const auto its = std::partition(votes_.cast.begin(), votes_.cast.end(),
-                                  [&](const BackgroundVote& vote) { return agrees(vote, best); });
+  const double sigma_px = vote_reach_px(chosen.sigma_px) / 2;
+  const auto inliers_end =
+      std::partition(votes_.cast.begin(), votes_.cast.end(),
+                     [&](const BackgroundVote& vote) { return agrees(vote, *rival, sigma_px); });
   double sum = 0;
-  for (auto vote = votes_.cast.begin(); vote != its; ++vote) sum += vote->votes();
+  for (auto vote = votes_.cast.begin(); vote != inliers_end; ++vote) sum += vote->votes();
   const bool is_of_few = 2 * sum < votes_.sum();
-  if (is_of_few) votes_.cast.erase(its, votes_.cast.end());
+  if (is_of_few) votes_.cast.erase(inliers_end, votes_.cast.end());
   is_rival_ = true;
-  chosen = {best, chosen.sigma_px, votes_.all > 0 ? sum / votes_.all : 0, true, is_of_few};
-  likely_ = best;
+  chosen = {*rival, chosen.sigma_px, votes_.all > 0 ? sum / votes_.all : 0, true, is_of_few};
+  likely_ = *rival;
 }
 
 const Background& CameraChoice::find(const BlockField& field, const PreviousFrame& past) {

@@ -59,6 +59,9 @@ class CameraChoice {
  private:
   Background find_in_order(const BlockField& field, const PreviousFrame& past);
   void prefer_rival(const BlockField& field, const PreviousFrame& past, Background& chosen);
+  void add_rivals(const BlockField& field, const PreviousFrame& past, const Background& chosen);
+  const MotionModel* best_rival(const BlockField& field, const PreviousFrame& past,
+                                const Background& chosen, bool was_rival);
   template <typename Counts>
   void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
 

@@ -17,8 +17,8 @@
 namespace spidar::window {
 
 /// Writes values, or reads what was written. A structure is passed by one function, `template
-/// <typename Wire> void transfer(Wire&, T&)`, which calls wire(…) for each of its members. Nothing
-/// of it is changed when it is written.
+/// <typename Wire> void transfer(Wire&, T&)`, which calls wire(…) for each of its members. Writing
+/// does not change it.
 ///
 /// Reading survives all other bytes: once a value does not fit into what is left or into its own
 /// range, ok() is false, and the values are of no use.
@@ -82,7 +82,7 @@ class Wire {
     if constexpr (kReads) text.resize(count);
     raw(text.data(), count);
   }
-  /// A function of its own: GCC 12 does not see that what is not there is not read.
+  /// A function of its own, or GCC 12 warns that a value that is not there may be used.
   template <typename Value>
   [[gnu::noinline]] void one(std::optional<Value>& value) {
     bool is_there = value.has_value();

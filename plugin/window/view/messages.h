@@ -112,7 +112,8 @@ using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseOb
 /// The bytes of a message, which begin with its kind.
 std::vector<uint8_t> to_bytes(const ToWindow& message);
 std::vector<uint8_t> to_bytes(const FromWindow& message);
-/// Nothing when the bytes are not those of exactly one message, with every value in its range.
+/// Nothing when the bytes are not those of exactly one message, with enumerations and sizes in
+/// their range. The receiver checks the other values.
 std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes);
 std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes);
 
