@@ -27,7 +27,7 @@ size_t first_too_deep(std::string_view text) {
     } else if (c == '"') {
       is_string = true;
     } else if (c == '[' || c == '{') {
-      if (++depth > kMostJsonDepth) return i;
+      if (++depth > kMaxJsonDepth) return i;
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }
@@ -40,7 +40,7 @@ size_t first_too_deep(std::string_view text) {
 ReadJson parse_json(std::string_view text, std::string& why) {
   const size_t deep = first_too_deep(text);
   if (deep != std::string_view::npos) {
-    why = "its arrays and objects lie more than " + std::to_string(kMostJsonDepth) +
+    why = "its arrays and objects lie more than " + std::to_string(kMaxJsonDepth) +
           " deep in each other at " + place(text, deep);
     return ReadJson::value_t::discarded;
   }

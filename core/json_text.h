@@ -32,7 +32,7 @@ Json json_array(const Vector& values) {
 using ReadJson = nlohmann::json;
 
 /// Greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.
-constexpr size_t kMostJsonDepth = 64;
+constexpr size_t kMaxJsonDepth = 64;
 
 /// Reads all JSON that is not this program's own. Deeper JSON is refused before any code recurses
 /// into its levels. Of members with the same name the last one counts. On an error returns a value

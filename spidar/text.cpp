@@ -25,9 +25,9 @@ size_t first_of(std::string_view text, uint32_t& code) noexcept {
     if ((byte(i) & 0xC0) != 0x80) return 0;
     code = code << 6 | (byte(i) & 0x3Fu);
   }
-  constexpr std::array<uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::array<uint32_t, 5> kMin{0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code < 0xE000;
-  if (code < kLeast[length] || code > 0x10FFFF || surrogate) return 0;
+  if (code < kMin[length] || code > 0x10FFFF || surrogate) return 0;
   return length;
 }
 

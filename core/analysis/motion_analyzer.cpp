@@ -10,7 +10,7 @@
 namespace spidar {
 
 void MotionAnalyzer::take(const Cadence::Step& step) {
-  frame_.interval_ns = std::max(step.interval_ns, kLeastInterval_ns);
+  frame_.interval_ns = std::max(step.interval_ns, kMinInterval_ns);
   frame_.shown_for_ns = step.shown_for_ns;
 }
 

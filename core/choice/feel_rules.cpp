@@ -12,10 +12,10 @@
 namespace spidar {
 namespace {
 
-constexpr double kMostGain = 10;
+constexpr double kMaxGain = 10;
 /// A day, more than any film; its ns fit into a double exactly.
 constexpr double kLongest_s = 86400;
-constexpr size_t kMostQuoted = 40;
+constexpr size_t kMaxQuoted = 40;
 
 struct Direction {
   const char* word;
@@ -34,11 +34,11 @@ constexpr const char* kAllWords =
 
 /// What a person typed, as a message can show it.
 std::string quote(std::string_view text) {
-  std::string shown(text.substr(0, kMostQuoted));
+  std::string shown(text.substr(0, kMaxQuoted));
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
   }
-  return '"' + shown + (text.size() > kMostQuoted ? "…" : "") + '"';
+  return '"' + shown + (text.size() > kMaxQuoted ? "…" : "") + '"';
 }
 
 bool is_letter(char c) {
@@ -211,7 +211,7 @@ class RuleParser {
   }
   void parse_gain() {
     const std::optional<double> gain = number_of(word());
-    if (!gain || *gain < 0 || *gain > kMostGain) {
+    if (!gain || *gain < 0 || *gain > kMaxGain) {
       wrong(rule_.line, quote(word()) + " is not a gain from 0 to 10");
     }
     rule_.gain = *gain;

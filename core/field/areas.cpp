@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2i;
 
 /// With less than a block, nothing is left of an area: px of the coarse picture.
-constexpr int kLeastPixels = kBlockArea_px / (kCoarser * kCoarser);
+constexpr int kMinPixels = kBlockArea_px / (kCoarser * kCoarser);
 
 }  // namespace
 
@@ -86,7 +86,7 @@ const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
                                             pixels_at(counted_, corner_px));
       MotionBlock area = refined_block(sums, coarse.now, corner_px, match,
                                        MotionBlock::kRegularization * kAreaTextureScale);
-      if (sums.pixels < kLeastPixels) area.structure.setZero();
+      if (sums.pixels < kMinPixels) area.structure.setZero();
       area.moved_px *= kCoarser;
       area.centre_px = kCoarser * area.centre_px + to_centre_px;
       areas_.push_back(area);

@@ -193,15 +193,15 @@ constexpr double kLostAtCut = 0.8;
 constexpr double kBestFraction = 0.02;
 /// Mean difference that noise may make: that of σ = 5.3. With 8, another part of a synthetic
 /// texture, which looks alike everywhere, is taken for the same part with noise.
-constexpr int kMostNoise_grey = 6;
+constexpr int kMaxNoise_grey = 6;
 
 double squared(double value) {
   return value * value;
 }
 
 bool is_finite_motion(const Vector2f& moved_px) {
-  constexpr float kMost_px = 4096;
-  return std::abs(moved_px.x()) < kMost_px && std::abs(moved_px.y()) < kMost_px;
+  constexpr float kMax_px = 4096;
+  return std::abs(moved_px.x()) < kMax_px && std::abs(moved_px.y()) < kMax_px;
 }
 
 /// A position between pixels.
@@ -271,7 +271,7 @@ BlockField::Result BlockField::update(const PaddedImage& base) {
                                MotionBlock::kRegularization);
   }
   measure_noise();
-  pictures_back_ = std::min(pictures_back_ + 1, kMostBack);
+  pictures_back_ = std::min(pictures_back_ + 1, kMaxBack);
   stands_still_ = false;
   return Result::kMoved;
 }
@@ -284,7 +284,7 @@ void BlockField::measure_noise() {
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
 /// textured blocks are lost. In a picture that moves, however fast, some blocks still match. What
-/// the best of them differ by is noise, up to kMostNoise_grey. The noise of both pictures is part
+/// the best of them differ by is noise, up to kMaxNoise_grey. The noise of both pictures is part
 /// of each difference, and that of one of them part of each contrast.
 bool BlockField::is_cut() {
   int64_t between = 0;
@@ -303,7 +303,7 @@ bool BlockField::is_cut() {
   std::nth_element(
       textured_.begin(), best, textured_.end(),
       [](const Textured& a, const Textured& b) { return a.difference2 < b.difference2; });
-  const double noise2 = std::min(best->difference2, squared(kMostNoise_grey * kBlockArea_px));
+  const double noise2 = std::min(best->difference2, squared(kMaxNoise_grey * kBlockArea_px));
   const auto is_lost = [&](const Textured& block) {
     return block.difference2 - noise2 > squared(kFoundElsewhere) * (block.contrast2 - noise2 / 2);
   };

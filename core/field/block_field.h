@@ -45,7 +45,7 @@ void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
                       PaddedImage& before);
 
 /// How many pictures before the last one are kept at most.
-constexpr int kMostBack = 4;
+constexpr int kMaxBack = 4;
 
 /// Pictures with sides a quarter as long, and where each block of theirs has come from.
 struct CoarseField {
@@ -115,7 +115,7 @@ class BlockField {
   /// exact position and at the nearest whole pixels. Negative when that position is out of reach.
   int difference_if_moved(size_t block, const Eigen::Vector2f& moved_px) const;
 
-  /// How many pictures of this shot before the last one are known, kMostBack at most; 0 while all
+  /// How many pictures of this shot before the last one are known, kMaxBack at most; 0 while all
   /// blocks stand still because the last one is shown again.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
   /// How much less the cells of a block differ from the picture `back` pictures ago if the block
@@ -143,7 +143,7 @@ class BlockField {
   int base_width_ = 0;
   int base_height_ = 0;
   bool has_picture_ = false;
-  std::array<PaddedImage, kMostBack> earlier_;  ///< the latest first
+  std::array<PaddedImage, kMaxBack> earlier_;  ///< the latest first
   int pictures_back_ = 0;
   bool stands_still_ = false;
   PaddedImage now_;

@@ -18,13 +18,13 @@ namespace {
 /// By how much a match must improve for each pixel that it deviates from the median of its
 /// neighbours: an eighth of a grey level for each pixel of the block, for up to half a block.
 constexpr int kLambda = kBlockArea_px / 8;
-constexpr int kMostDeviation_px = kBlock_px / 2;
+constexpr int kMaxDeviation_px = kBlock_px / 2;
 /// Where no candidate fits, the search is widened: as far as a block is wide, in halves down to a
 /// quarter of it.
 constexpr int kFarthest_px = kBlock_px;
 constexpr int kNearest_px = kBlock_px / 4;
 /// A walk goes as far as a deviation costs more and more.
-constexpr int kMostSteps = kMostDeviation_px;
+constexpr int kMostSteps = kMaxDeviation_px;
 
 using Eigen::Vector2i;
 
@@ -114,7 +114,7 @@ class Walk {
 
   bool try_at(const Vector2i& v) {
     const int deviation_px = (v - expected_).cwiseAbs().sum();
-    const int dearer = kLambda * std::min(deviation_px, kMostDeviation_px);
+    const int dearer = kLambda * std::min(deviation_px, kMaxDeviation_px);
     if (dearer >= cost_) return false;
     const BlockPixels there{origin_ + v.y() * before_.stride() + v.x(), before_.stride()};
     const int difference = block_difference(block_, there, cost_ - dearer);
@@ -249,7 +249,7 @@ MotionBlock refined_block(const BlockSums& s, const PaddedImage& now, const Vect
 
   // now(p) = before(p + from − e): e = −(Σ g gᵀ)⁻¹ Σ g d.
   const Eigen::Matrix2f regularized = S + regularization * Eigen::Matrix2f::Identity();
-  const Vector2f e = (-(regularized.inverse() * gd)).cwiseMax(-kMostOff_px).cwiseMin(kMostOff_px);
+  const Vector2f e = (-(regularized.inverse() * gd)).cwiseMax(-kMaxOff_px).cwiseMin(kMaxOff_px);
   const float left = dd + 2 * e.dot(gd) + e.dot(S * e);
   block.centre_px =
       corner_px.cast<float>() +

@@ -148,7 +148,7 @@ Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
 /// Largest error of a block's motion in whole pixels, px of the picture in which motion is
 /// measured: it is right to half a pixel, or wrong. A block that is further off shows something
 /// else.
-constexpr float kMostOff_px = 1;
+constexpr float kMaxOff_px = 1;
 
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
 /// in pixels of that picture, measured from its centre; x right, y down.
@@ -167,17 +167,17 @@ struct MotionBlock {
   static constexpr float kRegularization = 1;
   /// Smaller eigenvalue from which on the motion is known to a fraction of a pixel, (grey / px)²:
   /// twice that of nothing but noise of two grey levels, which moves such a block by 0.08 px.
-  static constexpr float kLeastTexture = 5;
+  static constexpr float kMinTexture = 5;
   /// Whether the motion is known in one direction at least.
-  bool has_texture() const { return structure.trace() > 2 * kLeastTexture; }
+  bool has_texture() const { return structure.trace() > 2 * kMinTexture; }
   /// Least roundness() of a structure that is not that of an edge. Along an edge, a match would
   /// only follow noise.
-  static constexpr double kLeastRoundness = 0.05;
+  static constexpr double kMinRoundness = 0.05;
   /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
   /// direction, also along an edge.
   float weakest_texture() const { return smaller_eigenvalue(structure); }
   /// Whether the motion is known to a fraction of a pixel in every direction.
-  bool has_corners() const { return weakest_texture() >= kLeastTexture; }
+  bool has_corners() const { return weakest_texture() >= kMinTexture; }
 };
 
 inline BlockPixels pixels_at(const PaddedImage& picture, const Eigen::Vector2i& corner_px) {

@@ -17,10 +17,10 @@ constexpr int kSteps = 2;
 /// Smaller eigenvalue of a window's structure tensor, on the mean over its pixels, (grey / px)².
 /// With less, noise of two grey
 /// levels moves the window by more than a fifth of a pixel.
-constexpr float kLeastTexture = 0.2f;
+constexpr float kMinTexture = 0.2f;
 /// Largest mean squared difference with which a window shows the same object, as a fraction of its
 /// variance: a window on the rim of an object shows the background, too, and is left out.
-constexpr float kMostResidual = 0.05f;
+constexpr float kMaxResidual = 0.05f;
 
 /// Reads a square of the frame whose upper left pixel is (`left`, `top`). False where it is not
 /// inside the frame.
@@ -44,8 +44,8 @@ size_t block_at(const BlockField& field, const Eigen::Vector2d& at_px) {
 }  // namespace
 
 FineWindows::FineWindows() {
-  windows_.reserve(kMost);
-  found_.reserve(kMost);
+  windows_.reserve(kMax);
+  found_.reserve(kMax);
 }
 
 /// Reads the pixels of a window whose position is set. False where it does not fit or shows too
@@ -82,7 +82,7 @@ bool FineWindows::read(const ImageView& frame, Template& window) {
   for (float& slope : window.y_slope) slope -= y / n;
   window.structure << xx - x * x / n, xy - x * y / n, xy - x * y / n, yy - y * y / n;
   window.variance = squares / n - sum / n * sum / n;
-  return smaller_eigenvalue(window.structure) > kLeastTexture * n;
+  return smaller_eigenvalue(window.structure) > kMinTexture * n;
 }
 
 void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
@@ -101,8 +101,8 @@ void FineWindows::keep(const ImageView& frame, const BlockField& field,
                        const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
   // Of many, every second one, and so on.
-  const size_t every = 1 + blocks.size() / (kMost + 1);
-  for (size_t i = 0; i < blocks.size() && windows_.size() < kMost; i += every) {
+  const size_t every = 1 + blocks.size() / (kMax + 1);
+  for (size_t i = 0; i < blocks.size() && windows_.size() < kMax; i += every) {
     keep_one(frame, field, position, blocks[i]);
   }
 }
@@ -157,7 +157,7 @@ bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::V
   }
   if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
   moved_px = whole_px + offset_px.cast<double>();
-  return residual < kMostResidual * window.variance;
+  return residual < kMaxResidual * window.variance;
 }
 
 const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const BlockField& field,

@@ -51,7 +51,7 @@ class FineWindows {
   void reset() { windows_.clear(); }
 
   /// The largest number of windows.
-  static constexpr size_t kMost = 48;
+  static constexpr size_t kMax = 48;
 
  private:
   /// Side of a window, px of the frame: in a small frame it covers the block, in a large one a part

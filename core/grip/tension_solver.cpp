@@ -68,7 +68,7 @@ constexpr int kMaxIterations = 24;
 constexpr double kReleaseFraction = 0.4;
 // Added to the diagonal (as a fraction of it) when ε is lost beside it; rises until the pivots are
 // sound.
-constexpr double kLeastDamping = 0x1p-48;
+constexpr double kMinDamping = 0x1p-48;
 
 // Feasible tensions, their gradient, and which strings may move (bit i: string i).
 struct Iterate {
@@ -153,7 +153,7 @@ Step newton_step(const TensionObjective& objective, const Iterate& x) {
   while (
       !solve_ldlt(step.count, objective.Q, damping, step.index, x.gradient.data(), step.length) &&
       damping < 1) {
-    damping = damping > 0 ? 4 * damping : kLeastDamping;
+    damping = damping > 0 ? 4 * damping : kMinDamping;
   }
   return step;
 }

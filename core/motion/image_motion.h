@@ -86,7 +86,7 @@ ImageMotion relative_motion(const MovingObject& object);
 
 /// The shortest interval that is assumed between two frames: half a tick of the haptic loop. A
 /// displacement must not be divided by the rounding error of timestamps.
-constexpr int64_t kLeastInterval_ns = 500'000;
+constexpr int64_t kMinInterval_ns = 500'000;
 
 /// `motion`, limited to the most that can be seen in `interval_s` > 0: a displacement of the
 /// frame's width, lengths twice or half as large, half a turn. Directions are kept. A value that is

@@ -111,10 +111,10 @@ bool RepeatedPicture::is_due(const Rhythm& rhythm) const {
 
 bool RepeatedPicture::is_small(float change) const {
   const Rhythm any = rhythm(kFraction);
-  if (any.dips >= kLeastDips && change < kFraction * any.large) return true;
+  if (any.dips >= kMinDips && change < kFraction * any.large) return true;
   const float least =
       had_rhythm_ ? kFraction * any.large : kFractionAtOnce * std::min(any.large, any.large_before);
-  if (any.large_age < kMostAtOnce && change < least) return true;
+  if (any.large_age < kMaxAtOnce && change < least) return true;
   const Rhythm periodic = rhythm(kFractionWhenDue);
   return change < kFractionWhenDue * periodic.large && is_due(periodic);
 }
@@ -134,14 +134,14 @@ RepeatedPicture::Repeats RepeatedPicture::repeats() const {
   for (auto begin = repeats.begin(); begin != repeats.end();) {
     begin = std::find(begin, repeats.end(), true);
     const auto end = std::find(begin, repeats.end(), false);
-    if (end - begin > static_cast<ptrdiff_t>(kMostAtOnce)) std::fill(begin, end, false);
+    if (end - begin > static_cast<ptrdiff_t>(kMaxAtOnce)) std::fill(begin, end, false);
     begin = end;
   }
   return repeats;
 }
 
 void RepeatedPicture::cut() {
-  had_rhythm_ = had_rhythm_ || rhythm(kFraction).dips >= kLeastDips;
+  had_rhythm_ = had_rhythm_ || rhythm(kFraction).dips >= kMinDips;
   changes_.clear();
 }
 

@@ -58,17 +58,17 @@ class RepeatedPicture {
 
   static constexpr size_t kFrames = 12;
   /// Which of the latest frames, the newest first, repeated the previous picture, as far as is
-  /// known by now; look() may not have known it yet. More than kMostAtOnce in a row do not count as
+  /// known by now; look() may not have known it yet. More than kMaxAtOnce in a row do not count as
   /// repetitions: when several titles appear, all motion after each of them is small in comparison.
   using Repeats = std::array<bool, kFrames>;
   Repeats repeats() const;
 
   /// Largest coding noise, as a fraction of the change before and after it.
   static constexpr float kFraction = 0.3f;
-  /// At least kLeastDips such dips must have occurred within kFrames frames, in whatever rhythm,
+  /// At least kMinDips such dips must have occurred within kFrames frames, in whatever rhythm,
   /// because an object that slows down and reverses also causes one. 24 pictures per second in 30
   /// frames have two in ten.
-  static constexpr int kLeastDips = 2;
+  static constexpr int kMinDips = 2;
   /// The limit for the noise if the changes one and two periods ago were as small relative to their
   /// neighbours: between the 0.41 and the 0.6 above. A period has at least two frames.
   static constexpr float kFractionWhenDue = 0.5f;
@@ -80,7 +80,7 @@ class RepeatedPicture {
   static constexpr float kFractionAtOnce = 0.03f;
   /// Number of frames after a large change in which that limit holds, since a picture that comes to
   /// rest all at once waits in vain: one of 24 in 60, or one drawn on threes, is repeated twice.
-  static constexpr size_t kMostAtOnce = 2;
+  static constexpr size_t kMaxAtOnce = 2;
 
  private:
   /// Dips: runs of small changes between two large ones.

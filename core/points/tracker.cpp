@@ -19,7 +19,7 @@ namespace spidar {
 namespace {
 
 /// Points followed at once, as in the usual examples of Lucas–Kanade.
-constexpr int kMostFeatures = 200;
+constexpr int kMaxFeatures = 200;
 /// New points are selected when fewer than this fraction of those selected last are left …
 constexpr double kThinnedOut = 0.7;
 /// … and after this many frames in any case, because something may have entered.
@@ -39,7 +39,7 @@ constexpr double kMinWeakestGradient = 1.0;
 /// of g grey levels per pixel in both directions gives (2 g / 255)².
 constexpr double kMinResponse = (2 * kMinWeakestGradient / 255) * (2 * kMinWeakestGradient / 255);
 /// OpenCV refuses a level of 0; with this one kMinResponse is higher in any picture.
-constexpr double kLeastQualityLevel = 1e-6;
+constexpr double kMinQualityLevel = 1e-6;
 
 constexpr int kWindow_px = 15;
 constexpr int kMaxLevel = 3;  // a level reaches about half a window: 7 px · 2³ in all
@@ -246,8 +246,8 @@ void OpenCvTracker::Impl::select() {
                std::hypot(image.cols, image.rows));
   std::vector<cv::Point2f> corners;
   std::vector<float> responses;
-  cv::goodFeaturesToTrack(image(middle), corners, kMostFeatures,
-                          std::max(settings.quality_level, kLeastQualityLevel), apart_px,
+  cv::goodFeaturesToTrack(image(middle), corners, kMaxFeatures,
+                          std::max(settings.quality_level, kMinQualityLevel), apart_px,
                           cv::noArray(), responses, kNeighbourhood_px, kSobel_px);
   std::vector<Feature> known;
   known.swap(features);

@@ -16,8 +16,8 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
                               const Eigen::Vector3d& grip_m) noexcept {
   const Eigen::Vector2d slope = gain * texture.at(grip_m.x(), grip_m.y()).slope;
   const double steepness = slope.norm();
-  if (steepness <= ContactForce::kMostTextureSlope) return slope;
-  return slope * (ContactForce::kMostTextureSlope / steepness);
+  if (steepness <= ContactForce::kMaxTextureSlope) return slope;
+  return slope * (ContactForce::kMaxTextureSlope / steepness);
 }
 
 /// The velocity additionally lags by its low-pass filter; the remaining delay applies to all
@@ -35,7 +35,7 @@ ForcePath path_of(const ContactSettings& settings) noexcept {
 }  // namespace
 
 void validate(const ContactSettings& s) {
-  require(s.stiffness_N_m > 0 && s.stiffness_N_m <= ContactSettings::kMostStiffness_N_m, "Contact",
+  require(s.stiffness_N_m > 0 && s.stiffness_N_m <= ContactSettings::kMaxStiffness_N_m, "Contact",
           "stiffness_N_m", "above 0 and at most 800", s.stiffness_N_m);
   require(std::isfinite(s.delay_s) && s.delay_s >= 0, "Contact", "delay_s", "finite and ≥ 0",
           s.delay_s);
@@ -120,7 +120,7 @@ Eigen::Vector3d ContactForce::wanted_N(const HeightField* texture, const Contact
   Eigen::Vector3d force_N = spring_N - damping_N_s_m * across_m_s * normal -
                             settings.lateral_damping * damping_N_s_m * along_m_s;
   if (texture != nullptr) {
-    force_N.head<2>() -= std::min(spring_across_N, kMostTexture_N) *
+    force_N.head<2>() -= std::min(spring_across_N, kMaxTexture_N) *
                          texture_slope(*texture, settings.texture, grip_m);
   }
   return force_N;

@@ -14,7 +14,7 @@ namespace spidar::touch {
 
 /// docs/strings.md explains why these values are stable.
 struct ContactSettings {
-  double stiffness_N_m = 500;  ///< above 0, at most kMostStiffness_N_m
+  double stiffness_N_m = 500;  ///< above 0, at most kMaxStiffness_N_m
   /// Delay from a motion of the grip to the resulting force: half a tick for the zero-order hold,
   /// one tick because the pose comes from the last exchange, and the lag of the drive (2 ms if
   /// unknown).
@@ -37,7 +37,7 @@ struct ContactSettings {
   double least_mass_kg = 0.05;
   bool bounds_energy = true;  ///< false disables EnergyBudget, for measurements
 
-  static constexpr double kMostStiffness_N_m = 800;
+  static constexpr double kMaxStiffness_N_m = 800;
 
   double damping_N_s_m() const noexcept { return damping * stiffness_N_m * delay_s; }
 };
@@ -53,10 +53,10 @@ class ContactForce {
   /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;
   /// The texture force is at most this fraction of the normal force, of which at most
-  /// kMostTexture_N counts. The texture acts as a spring along the surface, and this limit bounds
+  /// kMaxTexture_N counts. The texture acts as a spring along the surface, and this limit bounds
   /// its stiffness.
-  static constexpr double kMostTextureSlope = 0.15;
-  static constexpr double kMostTexture_N = 1;
+  static constexpr double kMaxTextureSlope = 0.15;
+  static constexpr double kMaxTexture_N = 1;
 
   /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. The grip
   /// was at `grip_m` in the exchange of that tick. It is zero without contact and never pulls the

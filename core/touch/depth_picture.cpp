@@ -13,7 +13,7 @@
 namespace spidar::touch {
 namespace {
 
-constexpr int kMostSample = 65535;
+constexpr int kMaxSample = 65535;
 constexpr auto kCells = static_cast<size_t>(HeightField::kCells);
 constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
 
@@ -38,9 +38,9 @@ ImageView depth_half(const ImageView& packed, DepthLayout layout) noexcept {
 }
 
 void validate(const DepthSettings& s) {
-  require(std::isfinite(s.near_sample) && s.near_sample <= kMostSample, "Depth", "near",
+  require(std::isfinite(s.near_sample) && s.near_sample <= kMaxSample, "Depth", "near",
           "at most 65535, or -1 to be found", s.near_sample);
-  require(std::isfinite(s.far_sample) && s.far_sample <= kMostSample, "Depth", "far",
+  require(std::isfinite(s.far_sample) && s.far_sample <= kMaxSample, "Depth", "far",
           "at most 65535, or -1 to be found", s.far_sample);
   if (s.near_sample < 0 || s.far_sample < 0) return;
   const std::string far = "far (" + std::to_string(s.far_sample) + ")";
@@ -109,7 +109,7 @@ void DepthPicture::read_row(const ImageView& depth, int y, bool has_holes,
     }
   }
   if (!has_holes) return;
-  const float most = depth.sample.bytes == 1 ? kMostSample + 1.0F : kMostSample;
+  const float most = depth.sample.bytes == 1 ? kMaxSample + 1.0F : kMaxSample;
   for (size_t x = 0; x < count; ++x) {
     if (values[x] == 0 || values[x] == most) values[x] = kHole;
   }
@@ -154,7 +154,7 @@ void DepthPicture::follow(const DepthSettings& settings, double dt_s) noexcept {
     if (finds_far) far = settings.disparity ? low : high;
     // Widens a narrow range about its middle, or away from the end that is set.
     const double sign = settings.disparity ? -1 : 1;
-    const double least = std::max(kLeastSpan, kLeastFraction * std::max(near, far));
+    const double least = std::max(kMinSpan, kMinFraction * std::max(near, far));
     const double lacking = least - sign * (far - near);
     if (lacking > 0) {
       const double fraction = finds_near && finds_far ? 0.5 : 1;

@@ -53,8 +53,8 @@ class DepthPicture {
   static constexpr double kOutside = 0.02;  ///< fraction of the cells, at each end
   static constexpr double kRange_s = 1.0;   ///< time constant of the range
   static constexpr double kCut = 0.5;  ///< fraction of cells outside the range that indicates a cut
-  static constexpr double kLeastSpan = 8;             ///< samples
-  static constexpr double kLeastFraction = 1.0 / 16;  ///< of the larger end
+  static constexpr double kMinSpan = 8;             ///< samples
+  static constexpr double kMinFraction = 1.0 / 16;  ///< of the larger end
 
   DepthPicture();
 

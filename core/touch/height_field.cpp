@@ -74,7 +74,7 @@ SurfacePoint HeightField::at(double x_m, double y_m) const noexcept {
 }
 
 std::string HeightField::shading() const {
-  constexpr double kLevel = 128, kMost = 255;
+  constexpr double kLevel = 128, kMax = 255;
   const Eigen::Vector3d to_light = Eigen::Vector3d(-1, 1, std::sqrt(2.0)).normalized();
   std::string shading(kCells, '\0');
   auto cell = shading.begin();
@@ -90,8 +90,8 @@ std::string HeightField::shading() const {
       const double light = std::max(point.normal().dot(to_light), 0.0);
       const double level = to_light.z();
       const double grey = light < level ? kLevel * light / level
-                                        : kLevel + (kMost - kLevel) * (light - level) / (1 - level);
-      *cell++ = static_cast<char>(static_cast<uint8_t>(std::lround(std::min(grey, kMost))));
+                                        : kLevel + (kMax - kLevel) * (light - level) / (1 - level);
+      *cell++ = static_cast<char>(static_cast<uint8_t>(std::lround(std::min(grey, kMax))));
     }
   }
   return shading;

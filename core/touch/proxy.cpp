@@ -16,8 +16,8 @@ const double kSteepest = ReliefBuilder::kMaxSlope * std::sqrt(2.0);
 /// dynamic limit, as happens when the hand reverses.
 constexpr double kSticksAgain = 0.6;
 /// Shorter steps are skipped: at 500 N/m, 1 nm corresponds to 0.5 µN.
-constexpr double kLeastStep_m = 1e-9;
-constexpr int kMostHalvings = 3;
+constexpr double kMinStep_m = 1e-9;
+constexpr int kMaxHalvings = 3;
 
 }  // namespace
 
@@ -105,7 +105,7 @@ void Proxy::walk(const MovingRelief& surface, double friction,
       if (!sliding_ && distance_m <= friction * depth_m) return;
     }
     const double way_m = std::min(distance_m - held_m, longest_m);
-    if (!(way_m > kLeastStep_m)) return;
+    if (!(way_m > kMinStep_m)) return;
     sliding_ = true;
     if (!step(surface, along_m * (way_m / distance_m), grip_m)) return;
   }
@@ -117,7 +117,7 @@ bool Proxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
                  const Eigen::Vector3d& grip_m) noexcept {
   const double now_m2 = (position_m_ - grip_m).squaredNorm();
   double fraction = 1;
-  for (int n = 0; n <= kMostHalvings; ++n, fraction *= 0.5) {
+  for (int n = 0; n <= kMaxHalvings; ++n, fraction *= 0.5) {
     Eigen::Vector3d there_m = position_m_ + fraction * way_m;
     const SurfacePoint at = surface.at(there_m.head<2>());
     there_m.z() = at.z_m + shift_m_;

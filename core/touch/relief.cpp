@@ -23,11 +23,11 @@ bool finite_and_not_negative(double value) {
 /// Gaussian kernel truncated at three standard deviations and normalized to a sum of 1.
 class Kernel {
  public:
-  static constexpr int kMostRadius = 3 * ReliefBuilder::kMostSmoothing_cells;
+  static constexpr int kMaxRadius = 3 * ReliefBuilder::kMaxSmoothing_cells;
 
   explicit Kernel(double sigma_cells) noexcept {
     const double sigma =
-        std::min(sigma_cells, static_cast<double>(ReliefBuilder::kMostSmoothing_cells));
+        std::min(sigma_cells, static_cast<double>(ReliefBuilder::kMaxSmoothing_cells));
     radius = static_cast<int>(std::ceil(3 * sigma));
     double sum = 0;
     for (int k = -radius; k <= radius; ++k) sum += gaussian(k, sigma);
@@ -37,7 +37,7 @@ class Kernel {
   }
 
   int radius;
-  std::array<float, 2 * kMostRadius + 1> weight;
+  std::array<float, 2 * kMaxRadius + 1> weight;
 
  private:
   static double gaussian(int k, double sigma) noexcept {
@@ -151,7 +151,7 @@ bool ReliefBuilder::fill_holes() noexcept {
 
 void ReliefBuilder::smooth(double across_cells, double down_cells) noexcept {
   const Kernel across(across_cells);
-  std::array<float, kColumns + 2 * Kernel::kMostRadius> padded;
+  std::array<float, kColumns + 2 * Kernel::kMaxRadius> padded;
   for (int y = 0; y < kRows; ++y) {
     const float* const from = level_.data() + y * kColumns;
     float* const to = passed_.data() + y * kColumns;

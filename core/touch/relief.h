@@ -34,7 +34,7 @@ class ReliefBuilder {
  public:
   static constexpr double kMaxSlope = 1.5;
   /// The standard deviation of the smoothing is limited to this many cells.
-  static constexpr int kMostSmoothing_cells = 5;
+  static constexpr int kMaxSmoothing_cells = 5;
 
   ReliefBuilder();
 

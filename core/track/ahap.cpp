@@ -15,7 +15,7 @@ namespace spidar {
 namespace {
 
 constexpr double kLongestEvent_s = 30;
-constexpr size_t kMostPoints = 16;
+constexpr size_t kMaxPoints = 16;
 /// From 0, dull, to 1, crisp. A force that changes with a picture is nearer to a push than to a
 /// buzz.
 constexpr double kSharpness = 0.2;
@@ -59,7 +59,7 @@ class AhapCurveWriter {
 
   void add(size_t index, double value) {
     points_.push_back({index, value});
-    if (points_.size() == kMostPoints) put();
+    if (points_.size() == kMaxPoints) put();
   }
   void finish() {
     if (points_.size() > 1) put();

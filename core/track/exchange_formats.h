@@ -43,7 +43,7 @@ void write_hjif(const SampleSource& samples, const WriteText& write,
                 double tolerance = kHjifTolerance);
 
 /// The longest track that read_hjif() takes: 12 h.
-constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
+constexpr size_t kMaxHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 
 /// Returns the samples, 1000 a second, of the first perception of modality Force, which must have
 /// six channels. Curves of straight lines are evaluated and summed, multiplied by the gain of their
@@ -51,12 +51,12 @@ constexpr size_t kMostHjifSamples = size_t{12} * 3600 * kTrackRate_Hz;
 /// TrackFileError: not JSON, a value that is missing or out of range, other bands or curves, or
 /// more than `most_samples`. `others` gets the perceptions that are not read: "perceptions[0]
 /// (Vibrotactile)".
-std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMostHjifSamples,
+std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples = kMaxHjifSamples,
                                    std::vector<std::string>* others = nullptr);
 
 /// Limits of the gain by which samples are multiplied for formats with a range of their own: a peak
 /// between a thousand times and a millionth of the full scale fills that range.
-constexpr double kLeastGain = 1e-3, kMostGain = 1e6;
+constexpr double kMinGain = 1e-3, kMaxGain = 1e6;
 
 /// The usual tolerance of write_ahap(), as a fraction of the full scale.
 constexpr double kAhapTolerance = 0.02;

@@ -122,7 +122,7 @@ void read_notes(const ReadJson& root, ScriptAxis& axis) {
   const ReadJson* const notes = member(root, kNotesKey);
   if (!notes) return;
   axis.channel = static_cast<size_t>(number(*notes, kChannelKey, 0, kTrackChannels - 1, kNotesKey));
-  axis.gain = number(*notes, kGainKey, kLeastGain, kMostGain, kNotesKey);
+  axis.gain = number(*notes, kGainKey, kMinGain, kMaxGain, kNotesKey);
   axis.is_noted = true;
 }
 

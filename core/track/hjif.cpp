@@ -21,7 +21,7 @@ constexpr std::array<const char*, kTrackChannels> kChannelNames = {
     "Torque about y: 1 is 1 N m",
     "Torque about z: 1 is 1 N m"};
 /// Largest timescale of the format's main profile, ticks a second.
-constexpr int64_t kMostTicks_Hz = 48000;
+constexpr int64_t kMaxTicks_Hz = 48000;
 /// The highest frequency that the haptic loop can render.
 constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
 
@@ -237,7 +237,7 @@ void read_channel(const ReadJson& channel, size_t number_of_channel, Curves& cur
 int64_t timescale_of(const ReadJson& root) {
   if (!root.contains("timescale")) return kTrackRate_Hz;
   const int64_t ticks_Hz = ticks(root, "timescale", "the file");
-  if (ticks_Hz < 1 || ticks_Hz > kMostTicks_Hz) fail("timescale", "must be from 1 to 48000");
+  if (ticks_Hz < 1 || ticks_Hz > kMaxTicks_Hz) fail("timescale", "must be from 1 to 48000");
   return ticks_Hz;
 }
 

@@ -166,7 +166,7 @@ void write_touch(const std::string& image, bool is_depth, const fs::path& folder
 
   const Profile profile = load_profile(kDefaultProfile);
   const Eigen::Vector2d half_m = GripPointer(profile.geometry).half_size_m();
-  touch::Mailbox mailbox(2 * half_m.x(), 2 * half_m.y(), touch::Mailbox::kLeastSlots);
+  touch::Mailbox mailbox(2 * half_m.x(), 2 * half_m.y(), touch::Mailbox::kMinSlots);
   publish(picture.view(), is_depth, mailbox);
   const fs::path png = folder / "touch.png";
   const std::string relief = relief_csv(mailbox.front()->relief);

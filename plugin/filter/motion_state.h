@@ -75,7 +75,7 @@ struct MotionState {
 
   // Any thread. These outlive the output's thread, which forwards what waits.
   WrenchBacklog schedule;
-  LoopQueue<TrackBlock> track_samples{kMostBlocksWaiting};
+  LoopQueue<TrackBlock> track_samples{kMaxBlocksWaiting};
   NoForceWatch no_force;
   ReliefStream reliefs;
   HapticOutput output;

@@ -22,10 +22,10 @@ namespace spidar::follow {
 /// Prints a text for people, shortened because its names and addresses come from other programs,
 /// which may send megabytes. Any thread.
 inline void tell(const std::string& text) {
-  constexpr size_t kMost = 1000;
-  const std::string shown = text.size() <= kMost ? text
-                                                 : text.substr(0, kMost / 2) + " … " +
-                                                       text.substr(text.size() - kMost / 2);
+  constexpr size_t kMax = 1000;
+  const std::string shown =
+      text.size() <= kMax ? text
+                          : text.substr(0, kMax / 2) + " … " + text.substr(text.size() - kMax / 2);
   g_printerr("spidar-feel: %s\n", printable(shown).c_str());
 }
 

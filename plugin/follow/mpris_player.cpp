@@ -53,9 +53,9 @@ PlayerState state_of(GVariant* properties) {
     if (g_str_equal(text, "Paused")) state.status = PlayerStatus::kPaused;
   }
   // As far as mpv goes; what is not a rate counts as that of ordinary playback.
-  constexpr double kLeast = 0.01, kMost = 100;
+  constexpr double kMin = 0.01, kMax = 100;
   double rate = 0;
-  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kLeast && rate <= kMost) {
+  if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kMin && rate <= kMax) {
     state.rate = rate;
   }
   const Ref<GVariant> metadata(
@@ -66,8 +66,8 @@ PlayerState state_of(GVariant* properties) {
 
 /// Of any number that a player may tell.
 int64_t ns_of(gint64 position_us) {
-  constexpr gint64 kMost_us = 1'000'000 * gint64{365 * 24 * 3600};
-  return 1000 * std::clamp(position_us, -kMost_us, kMost_us);
+  constexpr gint64 kMax_us = 1'000'000 * gint64{365 * 24 * 3600};
+  return 1000 * std::clamp(position_us, -kMax_us, kMax_us);
 }
 
 /// Of the reply to Properties.GetAll.

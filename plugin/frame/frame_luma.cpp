@@ -101,7 +101,7 @@ double pixel_aspect(const GstVideoInfo& info) {
     if (is_side_by_side(views)) aspect *= 2;
     if (views == GST_VIDEO_MULTIVIEW_MODE_TOP_BOTTOM) aspect /= 2;
   }
-  return aspect <= kMostAspect && aspect >= 1 / kMostAspect ? aspect : 1;
+  return aspect <= kMaxAspect && aspect >= 1 / kMaxAspect ? aspect : 1;
 }
 
 LumaLevels luma_levels(const GstVideoInfo& info) {

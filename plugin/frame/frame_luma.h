@@ -55,9 +55,9 @@ struct VisiblePart {
 VisiblePart visible_part(const GstVideoFrame& frame);
 
 /// Width over height of a pixel as it is shown; 1 where the caps say nothing, or more than
-/// kMostAspect or less than its inverse: no format goes beyond 2.84 (half of a side-by-side picture
+/// kMaxAspect or less than its inverse: no format goes beyond 2.84 (half of a side-by-side picture
 /// of PAL, 64:45), so that the header is taken for damaged.
-constexpr double kMostAspect = 4;
+constexpr double kMaxAspect = 4;
 double pixel_aspect(const GstVideoInfo& info);
 
 /// The brightness of black and white among the eight bits that are read.

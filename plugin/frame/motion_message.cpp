@@ -39,7 +39,7 @@ void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* s
 
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
                          const FrameReport& report, gint* unread) {
-  if (g_atomic_int_get(unread) >= kMostUnread) return;
+  if (g_atomic_int_get(unread) >= kMaxUnread) return;
   const Frame& frame = report.frame;
   GstStructure* s = gst_structure_new(
       "spidar-motion",                                                              //

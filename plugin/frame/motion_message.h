@@ -23,7 +23,7 @@ void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* s
 /// While this many messages of an element wait on its bus, it posts no more of them: nobody reads
 /// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an
 /// application that reads its bus has 40 s for it.
-constexpr gint kMostUnread = 1000;
+constexpr gint kMaxUnread = 1000;
 
 /// Posts `spidar-motion`, whose fields the documentation of the element lists. `unread` counts the
 /// messages that exist, and lives as long as the element.

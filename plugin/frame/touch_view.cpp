@@ -16,7 +16,7 @@ double fraction(double at_m, double half_m) {
 }
 
 // In a picture 480 lines high.
-constexpr double kFinger_px = 11, kLeastProxy_px = 3, kMostProxy_px = 9;
+constexpr double kFinger_px = 11, kMinProxy_px = 3, kMaxProxy_px = 9;
 
 double at_height_px(double at_480, double height_px) {
   return std::max(at_480 * height_px / 480, 1.5);
@@ -56,7 +56,7 @@ double finger_radius_px(double height_px) {
 
 double proxy_radius_px(const TouchMark& mark, double max_force_N, double height_px) {
   const double pressed = max_force_N > 0 ? std::clamp(mark.force_N.z() / max_force_N, 0.0, 1.0) : 0;
-  return at_height_px(kLeastProxy_px + pressed * (kMostProxy_px - kLeastProxy_px), height_px);
+  return at_height_px(kMinProxy_px + pressed * (kMaxProxy_px - kMinProxy_px), height_px);
 }
 
 }  // namespace spidar

@@ -70,10 +70,10 @@ inline PlotAxis make_axis(double low, double high, int most_steps) {
 }
 
 /// Upper end of an axis of forces up to `largest_N`: one of few round numbers, so that it changes
-/// seldom, and never less than kLeast_N, where hardly anything is felt.
+/// seldom, and never less than kMin_N, where hardly anything is felt.
 inline double force_axis_end_N(double largest_N) {
-  constexpr double kLeast_N = 0.1, kHeadroom = 1.1, kSteps = 4;
-  const double end_N = std::max(kHeadroom * largest_N, kLeast_N);
+  constexpr double kMin_N = 0.1, kHeadroom = 1.1, kSteps = 4;
+  const double end_N = std::max(kHeadroom * largest_N, kMin_N);
   const double step_N = round_step(end_N / kSteps);
   return step_N * std::ceil(end_N / step_N * (1 - PlotAxis::kRounding));
 }

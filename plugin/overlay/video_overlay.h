@@ -21,7 +21,7 @@ class ForceCurve {
  public:
   static constexpr int64_t kLength_ns = 5'000'000'000;  ///< as in the plots of the debug window
   /// Upper end of the axis of a stream in which hardly anything is felt.
-  static constexpr double kLeastTop_N = 0.5;
+  static constexpr double kMinTop_N = 0.5;
 
   /// The force of a frame. A time before that of the previous frame begins another stream.
   void add(int64_t time_ns, double force_N) {
@@ -33,7 +33,7 @@ class ForceCurve {
 
   /// The axis from 0 to a round number that no force of the stream has exceeded, so that heights
   /// can be compared.
-  PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kLeastTop_N)), 1); }
+  PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kMinTop_N)), 1); }
 
   /// Oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,
   /// the upper end of axis().

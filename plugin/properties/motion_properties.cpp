@@ -183,9 +183,9 @@ std::vector<MotionRow> display_rows() {
   };
 }
 
-constexpr double kMostRelief_mm = 30;
-constexpr double kLeastStiffness_N_m = 10;
-constexpr double kMostTexture = 10;
+constexpr double kMaxRelief_mm = 30;
+constexpr double kMinStiffness_N_m = 10;
+constexpr double kMaxTexture = 10;
 
 /// What is touched in the picture.
 std::vector<MotionRow> touch_rows() {
@@ -206,12 +206,12 @@ std::vector<MotionRow> touch_rows() {
           {"touch-relief", "Touch relief",
            "Height of the relief from black to white, or from far to near, in millimetres, about "
            "the centre of the workspace"},
-          0, kMostRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
+          0, kMaxRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
       MotionRow::number(
           {"touch-stiffness", "Touch stiffness",
            "Stiffness of the surface, in newtons per metre. A device with slow or unmeasured "
            "drives gets less, with a warning"},
-          kLeastStiffness_N_m, touch::ContactSettings::kMostStiffness_N_m, kControllable,
+          kMinStiffness_N_m, touch::ContactSettings::kMaxStiffness_N_m, kControllable,
           KEPT_IN(touch.stiffness_N_m)),
       MotionRow::number(
           {"touch-friction", "Touch friction",
@@ -222,7 +222,7 @@ std::vector<MotionRow> touch_rows() {
           {"touch-texture", "Touch texture",
            "Lateral force of the picture's fine detail, as a multiple of the slope that it "
            "has in the relief; 0 turns it off"},
-          0, kMostTexture, kControllable, KEPT_IN(touch.texture)),
+          0, kMaxTexture, kControllable, KEPT_IN(touch.texture)),
       MotionRow::number({"motion-fraction", "Motion fraction",
                          "With touch, the fraction of the force of the film's motion that is felt "
                          "besides. Without "

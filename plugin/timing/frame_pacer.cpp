@@ -15,10 +15,10 @@ namespace {
 /// must not be divided by their difference. An eighth of the interval in the caps, within plausible
 /// limits.
 int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
-  constexpr double kMost_ns = 5e6;
-  if (info.fps_n <= 0) return kLeastInterval_ns;
+  constexpr double kMax_ns = 5e6;
+  if (info.fps_n <= 0) return kMinInterval_ns;
   const double nominal_ns = 1e9 * info.fps_d / info.fps_n / std::fabs(rate);
-  return std::max(kLeastInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMost_ns)));
+  return std::max(kMinInterval_ns, static_cast<int64_t>(std::min(nominal_ns / 8, kMax_ns)));
 }
 
 }  // namespace

@@ -117,18 +117,18 @@ class LoopQueue {
 
 /// Capacity of a LoopQueue<TrackBlock>, whose running times are those of the sink: 40 s of a track,
 /// or 1 s in blocks of one sample each.
-constexpr size_t kMostBlocksWaiting = 1000;
+constexpr size_t kMaxBlocksWaiting = 1000;
 
 /// Turns the running times of an element into those of the sink behind it. Seconds may lie between
 /// the two: of frames that wait, or of a long ts-offset.
 class WrenchBacklog : public LoopQueue<TimedWrench> {
  public:
   /// More wrenches than wait for any sink: a quarter of an hour at 60 frames/s.
-  static constexpr size_t kMostWaiting = 1 << 16;
+  static constexpr size_t kMaxWaiting = 1 << 16;
   /// Forwarded wrenches that are kept for a change of the rate, since the loop may not have
   /// rendered them: at least as many as fit into its ring and its timeline together.
   static constexpr size_t kHandedOn = 512;
-  WrenchBacklog() : LoopQueue(kMostWaiting, kHandedOn) {}
+  WrenchBacklog() : LoopQueue(kMaxWaiting, kHandedOn) {}
 
   /// From now on, the sink shows frames `multiplier` times as fast, see InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {

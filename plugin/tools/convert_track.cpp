@@ -123,7 +123,7 @@ bool has_own_range(const std::string& to) {
 
 /// So that `peak`, a fraction of the full scale, becomes 1; 1 when there is none.
 double gain_that_fills(double peak) {
-  return peak > 0 ? std::clamp(1 / peak, kLeastGain, kMostGain) : 1;
+  return peak > 0 ? std::clamp(1 / peak, kMinGain, kMaxGain) : 1;
 }
 
 /// The gain with which the largest value fills the range of TO; 1 when there is none.

@@ -54,15 +54,15 @@ void read_file(const std::string& path, size_t at_once,
 
 /// In a page: base64 takes a third more, and neither Chromium's longest string (2^29 - 24
 /// characters) nor the memory of telephones holds much more.
-constexpr uint64_t kMostEmbedded_bytes = uint64_t{1} << 28;
+constexpr uint64_t kMaxEmbedded_bytes = uint64_t{1} << 28;
 
 void expect_embeddable(const std::string& name, const std::string& file) {
   const uint64_t bytes = FileBytes(file).size();
-  if (bytes <= kMostEmbedded_bytes) return;
+  if (bytes <= kMaxEmbedded_bytes) return;
   constexpr uint64_t kMega = 1'000'000;
   throw std::runtime_error(name + ": has " + std::to_string(bytes / kMega) +
                            " MB, which is too large for a page: browsers do not hold more than " +
-                           std::to_string(kMostEmbedded_bytes / kMega) +
+                           std::to_string(kMaxEmbedded_bytes / kMega) +
                            " MB with --embed; export it to a folder, FOLDER/");
 }
 

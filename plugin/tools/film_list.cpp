@@ -72,13 +72,13 @@ class FilmSearch {
     if (count == 0) return parts;
     std::stable_sort(ends.begin(), ends.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    constexpr size_t kMostEnds = 5;
+    constexpr size_t kMaxEnds = 5;
     std::string text;
-    for (size_t i = 0; i < std::min(ends.size(), kMostEnds); ++i) {
+    for (size_t i = 0; i < std::min(ends.size(), kMaxEnds); ++i) {
       text += (i == 0 ? "" : ", ") + std::to_string(ends[i].first) + " " + ends[i].second;
     }
     parts.push_back(std::to_string(count) + (count == 1 ? " file that is" : " files that are") +
-                    " no film by the name (" + text + (ends.size() > kMostEnds ? ", …" : "") + ")");
+                    " no film by the name (" + text + (ends.size() > kMaxEnds ? ", …" : "") + ")");
     return parts;
   }
 

@@ -148,7 +148,7 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
   constexpr double kCoarser = 1.25;
   // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
   double edges_off = 2 * 0.005;
-  constexpr double kMostOff = 2 * 0.1;  // another place, to the eye
+  constexpr double kMaxOff = 2 * 0.1;  // another place, to the eye
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
@@ -168,13 +168,13 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
     // Two edges that are off by so much each, and rounded, are a box no longer.
     track["least"] = edges_off + 0.5 / kSteps;
     for (const std::vector<double>& edge : edges_) {
-      if (edges_off < kMostOff) track["box"].push_back(curve_text(edge, edges_off, 1));
+      if (edges_off < kMaxOff) track["box"].push_back(curve_text(edge, edges_off, 1));
     }
     edges_off *= kCoarser;
     html = page;
     html.replace(at, place.size(), script_json(track));
     tolerance_N = lines_N + most_N / kSteps / 2;
-    if (html.size() < kMost_bytes || lines_N > 2 * most_N) return html;
+    if (html.size() < kMax_bytes || lines_N > 2 * most_N) return html;
   }
 }
 

@@ -34,7 +34,7 @@ class FilmPage {
  public:
   /// The curves of a page are made coarser until it is smaller than this, which mail and chat let
   /// pass.
-  static constexpr size_t kMost_bytes = 100'000;
+  static constexpr size_t kMax_bytes = 100'000;
 
   /// Adds the next millisecond of the track. Values that are not finite count as 0.
   void add(const TrackSample& sample);

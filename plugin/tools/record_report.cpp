@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds kTellEvery{10};
 /// An estimate from less says little.
-constexpr double kLeastWork_s = 2;
+constexpr double kMinWork_s = 2;
 
 /// A name may contain line breaks, or commands for the terminal.
 std::string one_line(std::string text) {
@@ -120,7 +120,7 @@ std::string RecordReport::time_left() const {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
   double done = work_;
   for (const auto& [film, percent] : in_work_) done += sizes_[film] * percent / 100;
-  if (taken.count() < kLeastWork_s || done <= 0) return {};
+  if (taken.count() < kMinWork_s || done <= 0) return {};
   const double all = std::accumulate(sizes_.begin(), sizes_.end(), -skipped_);
   const long left_s = std::lround(taken.count() * std::max(0.0, all - done) / done);
   constexpr long kMinute_s = 60;

@@ -213,7 +213,7 @@ Prints what TO cannot hold.)");
                     "factor for a funscript or AHAP; default: the largest value of the "
                     "track fills the range. Of a funscript that is read, the one that it was "
                     "written with; default: as it says, else 100 % is 3 N or 0.1 N m")
-        ->check(number(kLeastGain, kMostGain))
+        ->check(number(kMinGain, kMaxGain))
         ->type_name("FACTOR");
     app->add_option("--tolerance", convert_.save.tolerance,
                     "largest error of curves, as a fraction of the full scale; default: 0.0004 for "

@@ -114,7 +114,7 @@ int check_track(const std::string& track, double max_force_N, double max_torque_
   }
   for (size_t i = 0; i < kTrackChannels; ++i) {
     const double fraction = summary.channels[i].above_30_Hz;
-    if (fraction > tracks::kMostFast) {
+    if (fraction > tracks::kMaxFast) {
       fault() << 100 * fraction << " % of the energy of " << tracks::channel_name(i)
               << " is above 30 Hz: is it sound for ears?\n";
     }

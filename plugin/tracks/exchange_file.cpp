@@ -22,7 +22,7 @@ namespace spidar::tracks {
 namespace {
 
 /// Of HJIF: a track of 24 hours has less.
-constexpr size_t kMostText_bytes = size_t{1} << 30;
+constexpr size_t kMaxText_bytes = size_t{1} << 30;
 
 /// What is in memory as a whole, and played from there.
 class ExchangeTrack : public OpenTrack {
@@ -118,7 +118,7 @@ std::vector<TrackSample> read_hjif_file(const std::string& path, std::vector<std
   try {
     std::vector<std::string> others;
     std::vector<TrackSample> samples =
-        read_hjif(read_regular_file(path, kMostText_bytes), kMostHjifSamples, &others);
+        read_hjif(read_regular_file(path, kMaxText_bytes), kMaxHjifSamples, &others);
     for (const std::string& other : others) unfelt.push_back(other + " of " + path);
     return samples;
   } catch (const std::runtime_error& error) {

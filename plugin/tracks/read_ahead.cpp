@@ -5,7 +5,7 @@
 namespace spidar {
 
 bool ReadAhead::is_full() const {
-  return !blocks_.empty() && (blocks_.size() >= kMostBlocks ||
+  return !blocks_.empty() && (blocks_.size() >= kMaxBlocks ||
                               blocks_.back().begin_ns - blocks_.front().begin_ns > kAhead_ns);
 }
 

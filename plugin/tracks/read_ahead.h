@@ -28,7 +28,7 @@ class ReadAhead {
   /// How far the file is read ahead of playing: longer than a disk takes to start.
   static constexpr int64_t kAhead_ns = 10'000'000'000;
   /// Ten seconds of blocks as short as encoders make them: 1 MB.
-  static constexpr size_t kMostBlocks = 1000;
+  static constexpr size_t kMaxBlocks = 1000;
 
   // --- the thread that reads
 

@@ -23,7 +23,7 @@ constexpr const char* kEnd = ".funscript";
 /// The force upwards: the channel of a script whose name has no axis.
 constexpr size_t kMainChannel = 1;
 /// 12 h of positions that follow each other in 40 ms have half of it.
-constexpr size_t kMost_bytes = size_t{64} << 20;
+constexpr size_t kMax_bytes = size_t{64} << 20;
 
 /// A file of a set.
 struct ScriptFile {
@@ -110,7 +110,7 @@ void add_file(const ScriptFile& file, const ScriptChoice& choice, ScriptSet& set
       choice.channel.value_or(file.axis.empty() ? kMainChannel : *channel_of_axis(file.axis));
   Funscript script;
   try {
-    script = parse_funscript(read_regular_file(file.path, kMost_bytes), channel);
+    script = parse_funscript(read_regular_file(file.path, kMax_bytes), channel);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.path + ": " + error.what());
   }

@@ -18,7 +18,7 @@ namespace spidar {
 namespace {
 
 /// The longest end that may be missing of a film that is known by its pictures.
-constexpr int64_t kMostMissing_ns = 500'000'000;
+constexpr int64_t kMaxMissing_ns = 500'000'000;
 
 constexpr std::initializer_list<const char*> kTrackSuffixes = {".haptic.flac", ".haptic.mka",
                                                                ".haptic.wav"};
@@ -136,7 +136,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
       return match;
     }
     match.later_ns = *later_ns;
-    tolerance_ns += kMostMissing_ns;
+    tolerance_ns += kMaxMissing_ns;
   } else {
     tolerance_ns += film.begin_ns;  // it may begin with the first picture
   }

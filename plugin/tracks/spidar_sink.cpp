@@ -192,7 +192,7 @@ struct SinkState {
   spidar::tracks::Faults faults;  // object lock; of the stream so far
   guint64 samples = 0;            // object lock
   gint wants_no_sync = 0;         // atomic: sync=false was set, which has no effect
-  spidar::LoopQueue<spidar::TrackBlock> queue{spidar::kMostBlocksWaiting};
+  spidar::LoopQueue<spidar::TrackBlock> queue{spidar::kMaxBlocksWaiting};
   HapticOutput output;
   // Streaming thread.
   spidar::tracks::Input input;

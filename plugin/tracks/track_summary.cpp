@@ -78,7 +78,7 @@ double Band::above_30_Hz(size_t channel) const {
 
 int Band::sound_channel() const {
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
-    if (felt_s_[channel] >= kJudged_s && above_30_Hz(channel) > kMostFast) {
+    if (felt_s_[channel] >= kJudged_s && above_30_Hz(channel) > kMaxFast) {
       return static_cast<int>(channel);
     }
   }

@@ -12,7 +12,7 @@
 namespace spidar::tracks {
 
 /// A channel with a larger fraction of its energy above 30 Hz is sound for ears.
-constexpr double kMostFast = 0.1;
+constexpr double kMaxFast = 0.1;
 
 /// Energies of consecutive samples, `rate_Hz` of them a second.
 class Band {

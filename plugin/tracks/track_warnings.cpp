@@ -57,7 +57,7 @@ void Warnings::check(const Faults& faults, bool has_time, const std::string& pat
         element_, STREAM, WRONG_TYPE,
         ("%s is sound for ears: more than %g %% of the energy of its channel %s is "
          "above 30 Hz, which no motion of a film is.",
-         track.c_str(), 100 * kMostFast, channel_name(static_cast<size_t>(faults.sound_channel))),
+         track.c_str(), 100 * kMaxFast, channel_name(static_cast<size_t>(faults.sound_channel))),
         ("See \"spidartrack check\"."));
   }
   if (!has_time && !no_time_) {

@@ -17,7 +17,7 @@ namespace gst_spidar {
 inline namespace v0 {
 namespace {
 
-constexpr double kMostRelief_m = 0.03;
+constexpr double kMaxRelief_m = 0.03;
 
 [[noreturn]] void refuse(const char* what, double most, const char* unit, double got) {
   std::ostringstream text;
@@ -45,8 +45,8 @@ spidar::touch::ReliefSettings relief_of(const Surface& surface) {
   relief.relief_m = surface.relief_m;
   relief.floor_z_m = -0.5 * surface.relief_m;
   spidar::touch::validate(relief);
-  if (surface.relief_m > kMostRelief_m) {
-    refuse("the height of a relief", kMostRelief_m, "m", surface.relief_m);
+  if (surface.relief_m > kMaxRelief_m) {
+    refuse("the height of a relief", kMaxRelief_m, "m", surface.relief_m);
   }
   return relief;
 }
@@ -66,7 +66,7 @@ bool TouchedSurface::set(const Surface& surface, const SurfaceRange& range,
   spidar::require_usable(picture);
   if (!mailbox_) {
     mailbox_ = std::make_unique<spidar::touch::Mailbox>(
-        2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::touch::Mailbox::kLeastSlots);
+        2 * range.half_size_m.x(), 2 * range.half_size_m.y(), spidar::touch::Mailbox::kMinSlots);
     loop.connect_touch(mailbox_.get());
     connected_ = mailbox_.get();
   }

@@ -19,7 +19,7 @@ namespace {
 /// The published program tries a hundred times, of which few are needed.
 constexpr int kHellos = 10;
 /// The published ones have 7 to 9 kB.
-constexpr size_t kMostFirmware = 65'536;
+constexpr size_t kMaxFirmware = 65'536;
 
 std::string firmware_path() {
   if (const char* named = std::getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;
@@ -40,7 +40,7 @@ std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
                       DeviceErrorCode::kSettings);
   }
   const std::vector<uint8_t> firmware(text.begin(), text.end());
-  if (firmware.empty() || firmware.size() > kMostFirmware) {
+  if (firmware.empty() || firmware.size() > kMaxFirmware) {
     throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
                           " bytes and is no firmware of a Falcon, which has some 8 kB",
                       DeviceErrorCode::kSettings);

@@ -23,7 +23,7 @@ constexpr double kFirstArm_rad = M_PI / 2 + M_PI / 12;  // the others follow clo
 /// A step this small is below what doubles resolve of the constraints.
 constexpr double kStepDone_m = 1e-9;
 /// Smallest |det| of three unit rows that counts as independent: within kReach_m it is above 0.17.
-constexpr double kLeastDeterminant = 0.05;
+constexpr double kMinDeterminant = 0.05;
 
 /// From the device frame to that of each arm, rows u outwards, v sideways, w towards the hand.
 std::array<Eigen::Matrix3d, 3> make_turns() noexcept {
@@ -81,13 +81,12 @@ Constraints constraints_of(const Eigen::Vector3d& angles_rad,
 /// Nothing when the rows depend on each other, or are not numbers.
 std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& rows) noexcept {
   const double independent = std::abs(rows.rowwise().normalized().determinant());
-  if (!(independent > kLeastDeterminant)) return std::nullopt;
+  if (!(independent > kMinDeterminant)) return std::nullopt;
   return rows.inverse();
 }
 
 bool within_range(const Eigen::Vector3d& angles_rad) noexcept {
-  return (angles_rad.array() >= kLeastAngle_rad).all() &&
-         (angles_rad.array() <= kMostAngle_rad).all();
+  return (angles_rad.array() >= kMinAngle_rad).all() && (angles_rad.array() <= kMaxAngle_rad).all();
 }
 
 }  // namespace

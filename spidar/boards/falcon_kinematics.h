@@ -26,8 +26,8 @@ constexpr double kReach_m = 0.055;
 
 /// Range of an arm, radians. Within kReach_m, −0.65 to 1.5 are needed; the stops are not published
 /// (inferred).
-constexpr double kLeastAngle_rad = -0.8;
-constexpr double kMostAngle_rad = 1.9;
+constexpr double kMinAngle_rad = -0.8;
+constexpr double kMaxAngle_rad = 1.9;
 
 /// Angles of the three upper arms, from the plane of the base towards the hand, radians, for the
 /// grip at `position_m` in the device frame. Nothing if an arm cannot reach it.

@@ -209,7 +209,7 @@ void Sound::receive(ByteView bytes) noexcept {
   if (bytes.size != sizeof levels) return;
   std::memcpy(&levels, bytes.data, sizeof levels);
   std::array<int, kMaxStrings> digits{};
-  for (size_t i = 0; i < sound::kMostChannels; ++i) {
+  for (size_t i = 0; i < sound::kMaxChannels; ++i) {
     digits[i] = static_cast<int>(std::lround(1000 * levels.level[i]));
   }
   motors_->put_out(digits);

@@ -95,8 +95,8 @@ class GripMotion {
       way_sum += way, t_way += t * way, h_way += h * way;
     }
     if (!(n > 0)) return velocity_;
-    constexpr double kOfVelocity_s = kPoseError_m / kMost_m_s;
-    constexpr double kOfAcceleration_s2 = kPoseError_m / kMost_m_s2;
+    constexpr double kOfVelocity_s = kPoseError_m / kMax_m_s;
+    constexpr double kOfAcceleration_s2 = kPoseError_m / kMax_m_s2;
     tt += kOfVelocity_s * kOfVelocity_s - t_sum * t_sum / n;
     th -= t_sum * h_sum / n;
     hh += kOfAcceleration_s2 * kOfAcceleration_s2 - h_sum * h_sum / n;
@@ -122,8 +122,8 @@ class GripMotion {
   static constexpr double kPoseError_m = 50e-6;
   /// The largest acceleration, by 3 N on kLightestGrip_kg, and how far the velocity gets from
   /// velocity() within its lag. Turns have the same proportions at the radius of a grip.
-  static constexpr double kMost_m_s2 = 90;
-  static constexpr double kMost_m_s = 0.3;
+  static constexpr double kMax_m_s2 = 90;
+  static constexpr double kMax_m_s = 0.3;
 
   /// The rotation vector: for the small angles of a few ticks, twice the vector part.
   static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {

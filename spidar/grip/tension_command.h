@@ -72,10 +72,10 @@ class TensionSlew {
   /// … unless the range is so small that it would hold up a wrench, which may change as fast as
   /// SafetyLimits permit: weak motors need all of their range for a few newtons, and a force that a
   /// brake takes away would go on accelerating the grip.
-  static constexpr double kLeast_N_s = 300;
+  static constexpr double kMin_N_s = 300;
 
   static double pace_N_s(const StringDrive& drive) noexcept {
-    return std::max(kLeast_N_s, (drive.max_tension_N - drive.min_tension_N) / kRange_s);
+    return std::max(kMin_N_s, (drive.max_tension_N - drive.min_tension_N) / kRange_s);
   }
 
   explicit TensionSlew(const Profile& profile) { reset(profile); }

@@ -17,7 +17,7 @@ constexpr double kFastest_m_s = kReleased_m_s;  // a film moves a hand at 0.45 a
 constexpr double kFastest_rad_s = 20;  // a hand turning by ±45° at 4 Hz; an unheld grip: 40
 constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; 2.1, GripWatch's, is 20 ms later
 constexpr double kTellingForce_N = 0.1;  // a weaker one is lost in a hand's own motion
-constexpr double kLeastYield_m = 0.01;   // a hand moves by as much without any force
+constexpr double kMinYield_m = 0.01;     // a hand moves by as much without any force
 
 // --- Fading and damping
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it; 0.59: 1.006 m/s
@@ -45,9 +45,9 @@ constexpr double kMemory_s = 0.05;           // a hand of 100 N/m takes 30 ms to
 constexpr double kSlowest_m_s = 0.55;        // no film moves a hand of 300 N/m as fast, …
 constexpr double kSlowestAtRest_m_s = 0.15;  // … and none at all while there is no force
 constexpr double kAligned = 0.8;             // cosine of the angle between both velocities, 37°
-constexpr double kLeastFraction = 0.85;  // seen / computed speed: a grip that is a fifth heavier
-constexpr double kMostFraction = 3;      // a grip that is a third as heavy
-constexpr double kSpins_s = 0.01;        // 0.015: 1.10 m/s; wrong poses turn for 5 ms, seldom 15
+constexpr double kMinFraction = 0.85;  // seen / computed speed: a grip that is a fifth heavier
+constexpr double kMaxFraction = 3;     // a grip that is a third as heavy
+constexpr double kSpins_s = 0.01;      // 0.015: 1.10 m/s; wrong poses turn for 5 ms, seldom 15
 
 // --- A grip that yields, or stores energy
 constexpr double kYieldTime_s = 0.05;  // a grip in a loose hand follows a force in this time

@@ -124,7 +124,7 @@ bool GripBrake::is_loose(const Eigen::Vector3d& way_m) const noexcept {
   const double force_N = pulled_N_.norm();
   if (!(force_N > kTellingForce_N)) return false;
   const double along_m = pulled_N_.dot(way_m) / force_N;
-  return along_m >= kLeastYield_m && kLooseHand_N_m * along_m >= force_N;
+  return along_m >= kMinYield_m && kLooseHand_N_m * along_m >= force_N;
 }
 
 /// If there was no hand that withstood the force, it has also gone far.
@@ -162,7 +162,7 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
   const double slowest_m_s = kSlowestAtRest_m_s + fraction_ * (kSlowest_m_s - kSlowestAtRest_m_s);
   if (speed_m_s < slowest_m_s) return false;
   const double seen_m_s = seen_m_s_.norm(), given_m_s = given_m_s_.norm();
-  return seen_m_s >= kLeastFraction * given_m_s && seen_m_s <= kMostFraction * given_m_s &&
+  return seen_m_s >= kMinFraction * given_m_s && seen_m_s <= kMaxFraction * given_m_s &&
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 

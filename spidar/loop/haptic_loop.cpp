@@ -197,8 +197,8 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   }
   // max-force may be 0, but the contact needs a limit above that; the safety chain then lets
   // nothing through.
-  constexpr double kLeast_N = 1e-3;
-  touch_.set_limits(std::max(kLeast_N, limits_.in_effect().max_force_N),
+  constexpr double kMin_N = 1e-3;
+  touch_.set_limits(std::max(kMin_N, limits_.in_effect().max_force_N),
                     limits_.in_effect().max_slew_N_s);
   const bool finite = has_frame(record) && record.wanted.is_finite();
   touch_.set_beside(finite ? record.wanted.force_N : Eigen::Vector3d::Zero());

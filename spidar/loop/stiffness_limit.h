@@ -27,15 +27,15 @@ constexpr double surface_delay_s(double drive_lag_s) noexcept {
 }
 
 /// The damping that the hand must contribute for stability grows with stiffness · delay. It was
-/// measured up to kMostStiffness_N_m at the default delay of touch::ContactSettings.
+/// measured up to kMaxStiffness_N_m at the default delay of touch::ContactSettings.
 inline double most_stiffness_N_m(double drive_lag_s) noexcept {
   const touch::ContactSettings measured;
-  return touch::ContactSettings::kMostStiffness_N_m *
+  return touch::ContactSettings::kMaxStiffness_N_m *
          std::min(1.0, measured.delay_s / surface_delay_s(drive_lag_s));
 }
 
 /// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
-/// stable up to kMostStiffness_N_m at a delay of 3.5 ms (docs/strings.md). The damping that the
+/// stable up to kMaxStiffness_N_m at a delay of 3.5 ms (docs/strings.md). The damping that the
 /// hand must contribute grows with stiffness · delay, so a longer delay lowers the limit in
 /// proportion. Without a known delay, it is kUnmeasuredStiffness_N_m.
 inline double most_stiffness_N_m(const Profile& profile) noexcept {

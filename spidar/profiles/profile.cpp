@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".toml";
-constexpr size_t kMost_bytes = 1 << 20;  // a profile has a few kilobytes
+constexpr size_t kMax_bytes = 1 << 20;  // a profile has a few kilobytes
 
 std::vector<fs::path> search_path() {
   std::vector<fs::path> folders;
@@ -40,7 +40,7 @@ bool is_path(const std::string& name_or_path) {
 Profile read_file(const fs::path& path) {
   std::string text;
   try {
-    text = read_regular_file(path.string(), kMost_bytes);
+    text = read_regular_file(path.string(), kMax_bytes);
   } catch (const std::runtime_error& error) {
     throw ProfileError(path.string() + ": " + error.what() + "; a profile is a small TOML file");
   }

@@ -55,7 +55,7 @@ bool take_option(const std::string& option, Settings& settings, bool& has_carrie
   if (key == "gain" && !std::exchange(has_gain, true)) {
     return (settings.gain = number_in(value, 1, 100) / 100.0) > 0;
   }
-  const int channel = number_in(key, 1, kMostChannels);
+  const int channel = number_in(key, 1, kMaxChannels);
   if (channel < 0) return false;
   Eigen::Vector3d& direction = settings.direction[static_cast<size_t>(channel - 1)];
   if (!direction.isZero(0)) return false;
@@ -102,7 +102,7 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
 Levels levels_of(const Settings& settings, const Eigen::Vector3d& force_N) noexcept {
   Levels levels;
   if (!force_N.allFinite()) return levels;
-  for (size_t i = 0; i < kMostChannels; ++i) {
+  for (size_t i = 0; i < kMaxChannels; ++i) {
     const double fraction = std::fabs(settings.direction[i].dot(force_N)) / kFullForce_N;
     levels.level[i] = static_cast<float>(settings.gain * std::min(fraction, 1.0));
   }
@@ -123,7 +123,7 @@ std::optional<int> Carrier::write(const Levels& level, int channels, int bytes,
     for (int channel = 0; channel < channels; ++channel) {
       const auto i = static_cast<size_t>(channel);
       const double now =
-          i < kMostChannels ? from_.level[i] + phase_ * (to_.level[i] - from_.level[i]) : 0;
+          i < kMaxChannels ? from_.level[i] + phase_ * (to_.level[i] - from_.level[i]) : 0;
       const auto sample =
           static_cast<uint32_t>(static_cast<int32_t>(kFull * std::clamp(now, 0.0, 1.0) * wave));
       for (int byte = 4 - bytes; byte < 4; ++byte) {

@@ -19,7 +19,7 @@
 
 namespace spidar::sound {
 
-constexpr size_t kMostChannels = 4;
+constexpr size_t kMaxChannels = 4;
 constexpr int kRate_Hz = 48'000;
 /// Length of a block, which is written at once.
 constexpr int kBlock_ms = 10;
@@ -37,7 +37,7 @@ constexpr int kLowest_Hz = 20, kHighest_Hz = 120;
 struct Settings {
   std::string card;
   /// The force that a channel plays is the one along this unit vector; zero: silence.
-  std::array<Eigen::Vector3d, kMostChannels> direction{
+  std::array<Eigen::Vector3d, kMaxChannels> direction{
       Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero(),
       Eigen::Vector3d::Zero()};
   int channels = 2;  ///< up to the last one that plays
@@ -53,7 +53,7 @@ struct Settings {
 
 /// Level of each channel, 0 … 1: a packet to the card.
 struct Levels {
-  std::array<float, kMostChannels> level{};
+  std::array<float, kMaxChannels> level{};
 };
 /// The levels for the size of the force; its sign is not felt. None for a force that is not a
 /// number.
@@ -79,7 +79,7 @@ class Carrier {
   explicit Carrier(int frequency_Hz) noexcept : step_(frequency_Hz / double{kRate_Hz}) {}
 
   /// Writes kBlockFrames frames as signed little-endian integers of `bytes` each. Channels of the
-  /// card beyond kMostChannels are silent. Returns how many frames after the beginning of this
+  /// card beyond kMaxChannels are silent. Returns how many frames after the beginning of this
   /// block the strength is half-way to this level; nothing if no period begins in the block.
   std::optional<int> write(const Levels& level, int channels, int bytes, uint8_t* out) noexcept;
   bool rests() const noexcept {

@@ -174,7 +174,7 @@ void LineWriter::add(std::string_view lines) {
   if (!output_) return;
   const auto fits = [this, lines] {
     return output_->status.error != 0 ||
-           output_->waiting.size() + lines.size() <= kMostWaiting_bytes;
+           output_->waiting.size() + lines.size() <= kMaxWaiting_bytes;
   };
   await(fits);
   const std::lock_guard<std::mutex> lock(output_->mutex);

@@ -27,7 +27,7 @@ class LineWriter {
   static constexpr std::chrono::milliseconds kPeriod{50};
   /// The most that may wait to be written: ten seconds of a haptic trace, which has 0.4 MB a
   /// second.
-  static constexpr size_t kMostWaiting_bytes = size_t{4} << 20;
+  static constexpr size_t kMaxWaiting_bytes = size_t{4} << 20;
   /// The other end counts as standing still when it has taken nothing for this time.
   static constexpr std::chrono::milliseconds kStandstill{500};
   /// The longest wait of a call for an other end that is slow.
@@ -51,7 +51,7 @@ class LineWriter {
   std::string open(const std::string& path, std::string_view begin);
   bool is_open() const { return output_ != nullptr; }
 
-  /// Adds whole lines, each with its line end. Waits only if more than kMostWaiting_bytes wait, and
+  /// Adds whole lines, each with its line end. Waits only if more than kMaxWaiting_bytes wait, and
   /// once for each standstill.
   void add(std::string_view lines);
   /// Returns when all lines are written, or the other end stands still.

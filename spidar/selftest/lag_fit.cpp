@@ -103,7 +103,7 @@ constexpr int kFewestLines = 8;
 /// directions of the strings as the grip moves, the time of an exchange.
 constexpr double kSystematic = 0.005;
 /// A larger misfit cannot be explained by noise.
-constexpr double kMostMisfit = 3;
+constexpr double kMaxMisfit = 3;
 /// Coefficients of the denominator, and the delay.
 constexpr int kUnknowns = 5;
 
@@ -182,11 +182,11 @@ bool stands_out(const ResponseLine& line) {
 /// Empty if the fit can be used.
 std::string error_of(const LagFit& fit) {
   const double vague_s = std::max(kVagueLag_s, kVagueLagFraction * fit.lag_s);
-  if (!(fit.misfit <= kMostMisfit)) {
+  if (!(fit.misfit <= kMaxMisfit)) {
     return formatted(
         "the grip did not move as a mass with a spring and a damper (misfit %.1f, at most %.0f); "
         "hold it still and loosely, at the centre",
-        fit.misfit, kMostMisfit);
+        fit.misfit, kMaxMisfit);
   }
   if (!(fit.most_s - fit.least_s <= 2 * vague_s)) {
     return formatted(

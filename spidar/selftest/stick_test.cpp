@@ -89,10 +89,10 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
                       });
     }
     test.moved_m[axis] = mean.moved_m;
-    const double least = StickTest::kLeast_m / std::abs(mean.place_m);
+    const double least = StickTest::kMin_m / std::abs(mean.place_m);
     test.least_spring[axis] = spring_that_pulls_back(least);
     const double back = mean.back_m / mean.place_m;
-    if (std::abs(mean.moved_m) >= StickTest::kLeast_m && back >= least) {
+    if (std::abs(mean.moved_m) >= StickTest::kMin_m && back >= least) {
       test.spring[axis] = spring_that_pulls_back(back);
     }
   }
@@ -108,7 +108,7 @@ std::string percent(double fraction) {
 
 std::string axis_text(const StickTest& test, size_t axis, double reach_m) {
   const double moved_m = test.moved_m[axis];
-  if (std::abs(moved_m) < StickTest::kLeast_m) {
+  if (std::abs(moved_m) < StickTest::kMin_m) {
     return "does not move: no force arrives, or friction, a spring or a hand is stronger\n";
   }
   const std::string moves = std::string("moves ") + (moved_m > 0 ? "with" : "against") +
@@ -147,9 +147,9 @@ std::string stick_report(const StickTest& test, const GripAbilities& can,
   for (size_t axis = 0; axis < kNames.size(); ++axis) {
     if (!can.force[axis]) continue;
     text += kNames[axis] + axis_text(test, axis, reach_m[static_cast<Eigen::Index>(axis)]);
-    still = still || std::abs(test.moved_m[axis]) < StickTest::kLeast_m;
+    still = still || std::abs(test.moved_m[axis]) < StickTest::kMin_m;
     springs = springs || test.spring[axis] > 0;
-    against[axis] = test.moved_m[axis] <= -StickTest::kLeast_m;
+    against[axis] = test.moved_m[axis] <= -StickTest::kMin_m;
   }
   if (against[0] || against[1]) {
     const std::string flip = flip_option(device, against);

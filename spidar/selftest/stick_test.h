@@ -17,7 +17,7 @@ namespace spidar::selftest {
 struct StickTest {
   /// A smaller motion is no answer: a hand holds the stick, the force does not overcome friction,
   /// or there is no motor.
-  static constexpr double kLeast_m = 0.5e-3;
+  static constexpr double kMin_m = 0.5e-3;
 
   /// How far it moved along the force, as a grip, in metres: right, up, towards the viewer.
   /// Positive values are correct; on an axis with a negative one, it moved against the force.
@@ -25,7 +25,7 @@ struct StickTest {
   /// Force of a spring that pulls it back, at the place to which the push moves it from its middle,
   /// as a fraction of the push. 0: none was found. Friction of the stick makes it look weaker.
   std::array<double, 3> spring{};
-  /// The weakest spring that would have been found, because it moves the stick back by kLeast_m.
+  /// The weakest spring that would have been found, because it moves the stick back by kMin_m.
   std::array<double, 3> least_spring{};
   std::string description;  ///< of the open device
   bool complete = false;    ///< false: ended early by the pace

@@ -39,7 +39,7 @@ fs::path remembered_profiles_file() {
 
 namespace {
 
-constexpr size_t kMostBoards_bytes = 1 << 20;  // some ten thousand boards
+constexpr size_t kMaxBoards_bytes = 1 << 20;  // some ten thousand boards
 
 /// The key of a board in the file.
 std::string key_of(const std::string& usb_id, const std::string& serial) {
@@ -51,7 +51,7 @@ toml::table remembered_boards(const fs::path& file) {
   std::error_code error;
   if (file.empty() || !fs::exists(file, error)) return {};
   try {
-    return parse_toml(read_regular_file(file.string(), kMostBoards_bytes), file.string());
+    return parse_toml(read_regular_file(file.string(), kMaxBoards_bytes), file.string());
   } catch (const ProfileError& fault) {
     throw ProfileError(std::string(fault.what()) + "; correct or remove the file");
   } catch (const std::runtime_error& fault) {

@@ -33,10 +33,10 @@ constexpr std::chrono::seconds kEvery{1};
 constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBudget::kStore_m2_s3 /
                                                        VibrationBudget::kRefill_m2_s4);
 /// No store is emptier than this: twice what it holds.
-constexpr int64_t kMost_ns = 4 * VibrationMemory::kUnknown_ns;
+constexpr int64_t kMax_ns = 4 * VibrationMemory::kUnknown_ns;
 
 /// Of the text in the file.
-constexpr size_t kMostText = 200;
+constexpr size_t kMaxText = 200;
 
 /// An open file that nobody else has locked, or errno.
 class LockedFile {
@@ -73,7 +73,7 @@ class LockedFile {
   /// Empty after an error.
   std::string read() {
     if (error != 0) return {};
-    std::array<char, kMostText> text{};
+    std::array<char, kMaxText> text{};
     const ssize_t length = pread(file_, text.data(), text.size(), 0);
     if (length < 0) error = errno;
     return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
@@ -134,7 +134,7 @@ VibrationMemory& VibrationMemory::of_user() {
 }
 
 std::string VibrationMemory::text_of(const Entry& entry) {
-  std::array<char, kMostText> text{};
+  std::array<char, kMaxText> text{};
   const int length =
       std::snprintf(text.data(), text.size(),
                     "gst-spidar: the vibration of this hand is refilled in %020" PRId64
@@ -151,7 +151,7 @@ std::optional<VibrationMemory::Entry> VibrationMemory::parse(const std::string& 
               " ns; at %20" SCNd64 " ns UTC, %20" SCNd64 " ns since start %36s",
               &entry.empty_ns, &entry.at.utc_ns, &entry.at.since_boot_ns, boot.data());
   entry.at.boot = boot.data();
-  const bool is_possible = entry.empty_ns >= 0 && entry.empty_ns <= kMost_ns &&
+  const bool is_possible = entry.empty_ns >= 0 && entry.empty_ns <= kMax_ns &&
                            entry.at.utc_ns >= 0 && entry.at.since_boot_ns >= 0;
   return is_possible && text_of(entry) == text ? std::optional(entry) : std::nullopt;
 }
@@ -177,7 +177,7 @@ int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
       distrust("its text is not what this program writes");
     }
   }
-  entry.empty_ns = std::min(entry.empty_ns + std::max<int64_t>(taken_ns, 0), kMost_ns);
+  entry.empty_ns = std::min(entry.empty_ns + std::max<int64_t>(taken_ns, 0), kMax_ns);
   if (file) {
     if (taken_ns > 0 || !is_known) file->write(text_of(entry));
     if (file->error != 0) distrust(std::strerror(file->error));

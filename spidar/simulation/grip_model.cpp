@@ -31,10 +31,10 @@ void check(const GripModel& model) {
   check(model.hand_damping_Nm_s_rad, true, "hand_damping_Nm_s_rad");
   check(model.motor_time_constant_s, true, "motor_time_constant_s");
   check(model.motor_delay_s, true, "motor_delay_s");
-  if (model.motor_delay_s > GripModel::kMostDelay_s) {
+  if (model.motor_delay_s > GripModel::kMaxDelay_s) {
     throw std::invalid_argument("GripModel::motor_delay_s is " +
                                 std::to_string(model.motor_delay_s) + ", must be at most " +
-                                std::to_string(GripModel::kMostDelay_s));
+                                std::to_string(GripModel::kMaxDelay_s));
   }
 }
 

@@ -24,9 +24,9 @@ struct GripModel {
   double hand_stiffness_Nm_rad = 1.5;
   double hand_damping_Nm_s_rad = 0.02;
   double motor_time_constant_s = 0.002;  ///< first-order lag from volts to tension
-  double motor_delay_s = 0;  ///< pure delay before that, at most kMostDelay_s; of SimulatedDevice
+  double motor_delay_s = 0;  ///< pure delay before that, at most kMaxDelay_s; of SimulatedDevice
 
-  static constexpr double kMostDelay_s = 0.05;
+  static constexpr double kMaxDelay_s = 0.05;
 };
 
 /// Newton–Euler equations of the grip, integrated by the semi-implicit Euler method with implicit

@@ -56,8 +56,8 @@ bool is_stick(const std::string& device) {
 }
 
 const char* side_of(double moved_m) {
-  if (moved_m >= selftest::StickTest::kLeast_m) return "moves with the force";
-  return moved_m <= -selftest::StickTest::kLeast_m ? "moves against the force" : "does not move";
+  if (moved_m >= selftest::StickTest::kMin_m) return "moves with the force";
+  return moved_m <= -selftest::StickTest::kMin_m ? "moves against the force" : "does not move";
 }
 
 constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
@@ -91,7 +91,7 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   for (size_t axis = 0; axis < kSides.size(); ++axis) {
     if (!can.force[axis]) continue;
     if (!stick) std::cout << kSides[axis] << "  " << side_of(test.moved_m[axis]) << '\n';
-    right = right && test.moved_m[axis] >= selftest::StickTest::kLeast_m;
+    right = right && test.moved_m[axis] >= selftest::StickTest::kMin_m;
   }
   return right ? kDone : kFailed;
 }

@@ -9,9 +9,9 @@
 namespace spidar::touch {
 
 Mailbox::Mailbox(double width_m, double height_m, size_t slots) {
-  if (slots < kLeastSlots) {
+  if (slots < kMinSlots) {
     throw std::invalid_argument("touch::Mailbox: slots must be at least " +
-                                std::to_string(kLeastSlots) + ", but is " + std::to_string(slots));
+                                std::to_string(kMinSlots) + ", but is " + std::to_string(slots));
   }
   frames_.reserve(slots);
   for (size_t i = 0; i < slots; ++i) frames_.emplace_back(width_m, height_m);

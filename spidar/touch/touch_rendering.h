@@ -42,10 +42,10 @@ struct Surface {
 /// because GStreamer's queues hold some of them before the sink.
 class Mailbox {
  public:
-  static constexpr size_t kLeastSlots = 3;
+  static constexpr size_t kMinSlots = 3;
 
   /// The picture measures `width_m` × `height_m` in the device frame. Throws std::invalid_argument
-  /// unless both are finite and above 0, and `slots` is at least kLeastSlots. Allocates 300 kB per
+  /// unless both are finite and above 0, and `slots` is at least kMinSlots. Allocates 300 kB per
   /// slot; no other method allocates.
   Mailbox(double width_m, double height_m, size_t slots);
   Mailbox(const Mailbox&) = delete;
@@ -94,13 +94,13 @@ class ShakeWatch {
   static constexpr double kFastest_Hz = 60;
   /// The velocity must reach this between two changes of sign. A force of 0.5 N moves a grip of 0.3
   /// kg as fast at 30 Hz; the steps of an encoder give errors of 1.5 mm/s.
-  static constexpr double kLeast_m_s = 0.008;
+  static constexpr double kMin_m_s = 0.008;
   static constexpr double kStroke_m_s = 0.05;
   /// This many even intervals in a row count as shaking.
   static constexpr int kIntervals = 8;
   /// The fraction of the stiffness that is left after each shaking.
   static constexpr double kLeft = 0.7;
-  static constexpr double kLeastFraction = 0.1;
+  static constexpr double kMinFraction = 0.1;
 
   /// A tick in contact, with the velocity of the grip and the unit normal of the surface.
   void update(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
@@ -114,12 +114,12 @@ class ShakeWatch {
     if (since_s_ > 0.5 / kSlowest_Hz || along_m_s > kStroke_m_s) intervals_ = 0;
     if ((shaken_m_s > 0) == rises_) return;
     rises_ = !rises_;
-    const bool even = since_s_ >= 0.5 / kFastest_Hz && most_m_s_ >= kLeast_m_s;
+    const bool even = since_s_ >= 0.5 / kFastest_Hz && most_m_s_ >= kMin_m_s;
     intervals_ = even ? intervals_ + 1 : 0;
     since_s_ = most_m_s_ = 0;
     if (intervals_ < kIntervals) return;
     intervals_ = 0;
-    fraction_ = std::max(kLeastFraction, kLeft * fraction_);
+    fraction_ = std::max(kMinFraction, kLeft * fraction_);
   }
 
   /// The fraction of the stiffness that is left: 1 until the grip was shaken. It does not rise

@@ -28,7 +28,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
 /// Buttons that ff::Position has room for.
-constexpr size_t kMostButtons = 32;
+constexpr size_t kMaxButtons = 32;
 
 LinkFault fault_of_input(int error) noexcept {
   switch (error) {
@@ -142,7 +142,7 @@ void EvdevTransport::open() {
 void EvdevTransport::find_buttons(const EvdevTraits& traits) {
   buttons_.clear();
   const auto add = [&](unsigned begin, unsigned end) {
-    for (unsigned code = begin; code < end && buttons_.size() < kMostButtons; ++code) {
+    for (unsigned code = begin; code < end && buttons_.size() < kMaxButtons; ++code) {
       if (has(traits.keys, code)) buttons_.push_back(static_cast<uint16_t>(code));
     }
   };

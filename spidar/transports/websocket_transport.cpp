@@ -26,7 +26,7 @@ constexpr size_t kLongest = 4096;
 /// tables for as many files as the process may open.
 constexpr unsigned kMostFiles = 16;
 /// Longest answer, bytes. What is longer is no answer of a service for devices.
-constexpr size_t kMost = 1 << 20;
+constexpr size_t kMax = 1 << 20;
 
 /// Wakes the loop of libwebsockets, which may look at its timers just before it waits.
 struct Alarm {
@@ -146,7 +146,7 @@ int WebSocketTransport::Connection::handle(lws* socket, lws_callback_reasons rea
 void WebSocketTransport::Connection::take(const uint8_t* bytes, size_t length) {
   if (complete_ || lws_is_first_fragment(socket_)) incoming_.clear();
   complete_ = false;
-  if (incoming_.size() + length <= kMost) incoming_.insert(incoming_.end(), bytes, bytes + length);
+  if (incoming_.size() + length <= kMax) incoming_.insert(incoming_.end(), bytes, bytes + length);
   complete_ = lws_is_final_fragment(socket_) != 0;
 }
 

@@ -23,7 +23,7 @@ using Eigen::Vector2d;
 /// What differs from the background by a pixel of a frame 480 lines high and by this fraction of
 /// how it moved moves by itself: of four thresholds tried, the one with which DIS is right most
 /// often.
-constexpr double kLeastFraction = 0.2;
+constexpr double kMinFraction = 0.2;
 constexpr double kReferenceLines = 480;
 
 cv::Mat as_mat(const ImageView& frame) {
@@ -261,7 +261,7 @@ Vector2d LargestRegion::find(const FlowGrid& flow, double px_of_480_lines) {
   for (size_t i = 0; i < flow.known.size(); ++i) {
     if (!flow.known[i]) continue;
     rest_px_[i] = flow.moved_px[i] - last_.displacement_px(flow.at_px(i));
-    moves_[i] = rest_px_[i].norm() > px_of_480_lines + kLeastFraction * flow.moved_px[i].norm();
+    moves_[i] = rest_px_[i].norm() > px_of_480_lines + kMinFraction * flow.moved_px[i].norm();
   }
   std::vector<size_t> largest;
   for (size_t i = 0; i < moves_.size(); ++i) {

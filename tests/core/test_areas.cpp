@@ -99,9 +99,9 @@ TEST(Areas, DoNotFollowWhatShowsItsOwnMotion) {
 TEST(PlainParts, TellAPanFromRestAndFromNoise) {
   const MotionModel pan = background_moved_by(kPan_px).model;
   const auto have_moved = [&](double stains, const Eigen::Vector2d& moved_px) {
-    const BlockField field = field_after(kMostBack + 1, stains, moved_px);
+    const BlockField field = field_after(kMaxBack + 1, stains, moved_px);
     PlainParts plain;
-    for (int n = 1; n < kMostBack; ++n) plain.remember(field, pan);
+    for (int n = 1; n < kMaxBack; ++n) plain.remember(field, pan);
     return plain.have_moved(field, nothing_before(), pan);
   };
   EXPECT_TRUE(have_moved(0.1, kPan_px));

@@ -14,7 +14,7 @@ namespace spidar::test::coded_films_test {
 namespace {
 
 /// Fraction of the pictures; coding differs from release to release.
-constexpr double kMost = 0.9;
+constexpr double kMax = 0.9;
 
 class CodedFilms : public testing::TestWithParam<const Coding*> {
  protected:
@@ -32,7 +32,7 @@ TEST_P(CodedFilms, AWallBehindALargeSquareRests) {
   if (pictures.empty()) GTEST_SKIP() << "no ffmpeg that codes " << film_.coding;
   const CodedFilmScore right = score(film_, pictures);
   EXPECT_EQ(right.camera, right.pictures);
-  EXPECT_GT(right.felt, kMost * right.pictures);
+  EXPECT_GT(right.felt, kMax * right.pictures);
 }
 
 TEST_P(CodedFilms, ThePanOverAFaintWallIsFound) {
@@ -44,8 +44,8 @@ TEST_P(CodedFilms, ThePanOverAFaintWallIsFound) {
   const std::vector<Picture> pictures = film_.pictures();
   if (pictures.empty()) GTEST_SKIP() << "no ffmpeg that codes " << film_.coding;
   const CodedFilmScore right = score(film_, pictures);
-  EXPECT_GT(right.camera, kMost * right.pictures);
-  EXPECT_GT(right.felt, kMost * right.pictures);
+  EXPECT_GT(right.camera, kMax * right.pictures);
+  EXPECT_GT(right.felt, kMax * right.pictures);
 }
 
 // Two thirds of the picture show nothing, so that most plain parts do not say that they move; the
@@ -57,7 +57,7 @@ TEST_P(CodedFilms, ThePanOverAMeadowBelowAPlainSkyIsFound) {
   const std::vector<Picture> pictures = film_.pictures();
   if (pictures.empty()) GTEST_SKIP() << "no ffmpeg that codes " << film_.coding;
   const CodedFilmScore right = score(film_, pictures);
-  EXPECT_GT(right.camera, kMost * right.pictures);
+  EXPECT_GT(right.camera, kMax * right.pictures);
 }
 
 // An area is larger than the square, and a third of those of such a small picture contain some of

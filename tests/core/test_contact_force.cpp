@@ -158,7 +158,7 @@ TEST(ContactForce, OfTextureIsBounded) {
         force.tick({&plane}, &steep, settings, {0, 0, std::max(-0.004, 0.001 - 1e-4 * n)}, kTick_s);
   }
   EXPECT_NEAR(last_N.x(),
-              -touch::ContactForce::kMostTextureSlope * touch::ContactForce::kMostTexture_N, 1e-6);
+              -touch::ContactForce::kMaxTextureSlope * touch::ContactForce::kMaxTexture_N, 1e-6);
   EXPECT_NEAR(last_N.z(), 2, 1e-6) << "what presses stays";
 }
 

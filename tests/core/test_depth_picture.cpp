@@ -214,7 +214,7 @@ TEST(DepthPicture, AWallHasNoReliefOfNoise) {
   flat.fill([](int, int) { return 1; });
   picture.reset();
   ASSERT_TRUE(picture.read(flat.view(), {true, -1, -1}, kFrame_s));
-  EXPECT_EQ(picture.near_sample() - picture.far_sample(), touch::DepthPicture::kLeastSpan);
+  EXPECT_EQ(picture.near_sample() - picture.far_sample(), touch::DepthPicture::kMinSpan);
   EXPECT_NEAR(level_at(picture, 0, 0), 0.5, kRounding);
 }
 

@@ -181,7 +181,7 @@ double step_px(const MotionBlock& block, double nearest_px) {
   const float weakest = block.weakest_texture();
   const bool is_round = weakest > 8 * MotionBlock::kRegularization &&
                         2 * weakest >= block.structure.trace() - weakest;
-  return is_round || nearest_px == 0 ? nearest_px : static_cast<double>(kMostOff_px);
+  return is_round || nearest_px == 0 ? nearest_px : static_cast<double>(kMaxOff_px);
 }
 
 /// The displacement of a block's middle, away from the rim, where the picture goes on as it began.

@@ -59,7 +59,7 @@ double worst_px(const Picture& before, const Picture& now, const Vector2d& by_px
   fine.keep_all(before);
   fine.see(now);
   const auto& found = fine.windows.find(now.view(), fine.field, fine.position);
-  EXPECT_GT(found.size(), FineWindows::kMost / 2);
+  EXPECT_GT(found.size(), FineWindows::kMax / 2);
   double worst = 0;
   for (const FineMotion& window : found) {
     worst = std::max(worst, (fine.position.scale * window.moved_px - by_px).norm());
@@ -91,7 +91,7 @@ TEST(FineWindows, WhatShowsSomethingElseOrTooLittleIsLeftOut) {
   const Picture now = moved({501.3, 333.7});  // unrelated
   fine.see(now);
   const size_t lucky = fine.windows.find(now.view(), fine.field, fine.position).size();
-  EXPECT_LT(lucky, FineWindows::kMost / 8);
+  EXPECT_LT(lucky, FineWindows::kMax / 8);
   Picture plain(kWidth, kHeight);
   plain.fill([](double, double) { return 100.0; });
   fine.keep_all(plain);

@@ -143,7 +143,7 @@ TEST(Hjif, ReadsOtherTimescalesPositionsAndGains) {
       hjif(band(keyframe("0", "0") + "," + keyframe("480", "1"), "Curve", "Linear", "96"),
            R"("timescale":48000,)");
   std::vector<std::string> others;
-  const std::vector<TrackSample> read = read_hjif(text, kMostHjifSamples, &others);
+  const std::vector<TrackSample> read = read_hjif(text, kMaxHjifSamples, &others);
   EXPECT_EQ(others, std::vector<std::string>{"perceptions[0] (Vibrotactile)"});
   ASSERT_EQ(read.size(), 13u) << "2 ms and 10 ms more";
   for (size_t ms = 0; ms < read.size(); ++ms) {

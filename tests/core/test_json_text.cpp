@@ -22,8 +22,8 @@ std::string nested(size_t depth) {
 }
 
 TEST(JsonText, IsReadUpToABoundOfDepth) {
-  EXPECT_EQ(why_not(nested(kMostJsonDepth)), "");
-  EXPECT_EQ(why_not("{\"a\":\n" + nested(kMostJsonDepth) + "}"),
+  EXPECT_EQ(why_not(nested(kMaxJsonDepth)), "");
+  EXPECT_EQ(why_not("{\"a\":\n" + nested(kMaxJsonDepth) + "}"),
             "its arrays and objects lie more than 64 deep in each other at line 2, column 64");
   // Also as a member before another one, where lists of members copied what they contain.
   for (const size_t depth : {size_t{100'000}, size_t{4'000'000}}) {

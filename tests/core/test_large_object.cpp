@@ -63,14 +63,14 @@ Right right_in(const CloseFilm& film) {
 }
 
 /// In more pictures than not; as the votes say, it would be in none.
-constexpr int kMost = (kFrames - 1) / 2;
+constexpr int kMax = (kFrames - 1) / 2;
 
 TEST(LargeObject, IsNotTakenForTheCamera) {
   for (const CloseFilm& film : {CloseFilm{{-4, 2}, {0, -1}}, CloseFilm{{0, 0}, {3, 0}},
                                 CloseFilm{{6, 0}, {1, 0}, kOutOfFocus}}) {
     const Right right = right_in(film);
-    EXPECT_GT(right.camera, kMost) << film.pan_px.transpose();
-    EXPECT_GT(right.felt, kMost) << film.pan_px.transpose();
+    EXPECT_GT(right.camera, kMax) << film.pan_px.transpose();
+    EXPECT_GT(right.felt, kMax) << film.pan_px.transpose();
   }
 }
 

@@ -93,8 +93,8 @@ TEST(OneEuroFilter, TheDefaultDelayOfASteadyChangeCannotBeFelt) {
 /// follows: what it lacks then, it lacks where the rate is small.
 TEST(OneEuroFilter, ASwayIsFollowedAtAnySizeAndRate) {
   const FilterSettings defaults;
-  constexpr double kLeastFraction = 2 / M_PI - 4 / (3 * M_PI) * 0.447;
-  const double most_px_s = 1 / (kTwoPi * defaults.beta_s_px * kLeastFraction);
+  constexpr double kMinFraction = 2 / M_PI - 4 / (3 * M_PI) * 0.447;
+  const double most_px_s = 1 / (kTwoPi * defaults.beta_s_px * kMinFraction);
   for (const double frame_s : {1.0 / 24, 1.0 / 30, 1.0 / 60})
     for (const double size_px_s : {50.0, 200.0, 800.0})
       for (const double rate_Hz : {0.25, 0.5, 1.0, 2.0}) {

@@ -122,15 +122,15 @@ class Player {
 };
 
 /// What a person asks for; the frames in which an object is not known yet are left out.
-constexpr double kMostFrames = 0.95;
+constexpr double kMaxFrames = 0.95;
 
 TEST(ObjectChoice, FollowsTheObjectOfEachRule) {
   Player player({large(), middle(), small()}, false);
   player.set_rules(rule_at(0, 1, small()) + rule_at(1, 2, large()) + rule_at(2, 3, middle()));
   player.play_to(kKnown);
-  EXPECT_GE(player.fraction_felt(2, 25), kMostFrames);
-  EXPECT_GE(player.fraction_felt(0, 50), kMostFrames);
-  EXPECT_GE(player.fraction_felt(1, 75), kMostFrames);
+  EXPECT_GE(player.fraction_felt(2, 25), kMaxFrames);
+  EXPECT_GE(player.fraction_felt(0, 50), kMaxFrames);
+  EXPECT_GE(player.fraction_felt(1, 75), kMaxFrames);
 }
 
 /// An object that rests is none for the tracker after a second.
@@ -142,7 +142,7 @@ TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   Player player({walker, middle()});
   player.set_rules(rule_at(0, 9, walker));
   player.play_to(kKnown);
-  EXPECT_GE(player.fraction_felt(0, 30), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 30), kMaxFrames);
   double felt_N = 0;
   for (int n = 40; n < 90; ++n) {
     const Frame& frame = player.next();
@@ -151,7 +151,7 @@ TEST(ObjectChoice, AnObjectThatRestsIsTheSameWhenItGoesOn) {
   }
   EXPECT_EQ(felt_N, 0);
   player.play_to(94 + kKnown);
-  EXPECT_GE(player.fraction_felt(0, 130), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 130), kMaxFrames);
 }
 
 TEST(ObjectChoice, TheOneThatBeginsToMoveLaterIsFound) {
@@ -163,7 +163,7 @@ TEST(ObjectChoice, TheOneThatBeginsToMoveLaterIsFound) {
   EXPECT_EQ(player.next().choice.state, Chosen::State::kNotThere) << "this is told";
   EXPECT_EQ(player.felt(), -1);
   player.play_to(50 + kKnown);
-  EXPECT_GE(player.fraction_felt(0, 110), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 110), kMaxFrames);
 }
 
 TEST(ObjectChoice, AnObjectThatHasLeftIsLostAndItsForceFades) {
@@ -337,9 +337,9 @@ TEST(ObjectChoice, AClickKeepsWhatIsThereAndComesBeforeRules) {
   EXPECT_EQ(player.felt(), 0);
   const Vector2d at_px = small().centre_px(19);
   player.click(1, {0.5 + at_px.x() / kWidth, 0.5 + at_px.y() / kHeight});
-  EXPECT_GE(player.fraction_felt(2, 60), kMostFrames);
+  EXPECT_GE(player.fraction_felt(2, 60), kMaxFrames);
   player.click(0, {0, 0});
-  EXPECT_GE(player.fraction_felt(0, 80), kMostFrames);
+  EXPECT_GE(player.fraction_felt(0, 80), kMaxFrames);
   player.click(2, {0.05, 0.95});
   player.next();
   EXPECT_EQ(player.felt(), 0) << "there is nothing";

@@ -240,7 +240,7 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
       large = change;
     }
     const Kind kind = repeated.look(before.view(), now.view());
-    if (stood > RepeatedPicture::kLeastDips) {
+    if (stood > RepeatedPicture::kMinDips) {
       EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kOther) << n;
     }
     if (kind == Kind::kOther) before = now;

@@ -45,7 +45,7 @@ TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
 
 TEST(TouchEnergy, NoContactGivesMuchOutWhereItIsStiffest) {
   touch::ContactSettings settings;
-  settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
+  settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
   settings.friction = 0.3;
   EXPECT_LE(explore_all(settings, false).worst_J, kStiffBound_J);
   EXPECT_LE(explore_all(settings, true).worst_J, kStiffBound_J) << "with texture";
@@ -56,7 +56,7 @@ TEST(TouchEnergy, ATapGivesNoneBackHoweverFast) {
   for (const Hand& hand : {kFirmHand, kLightHand, kLooseHand}) {
     settings.stiffness_N_m = 500;
     EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
-    settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
+    settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
     EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
   }
 }
@@ -65,7 +65,7 @@ TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
   touch::ContactSettings settings;
   settings.bounds_energy = false;
   EXPECT_GT(worst_tap_J(settings, kLightHand), kStiffBound_J);
-  settings.stiffness_N_m = touch::ContactSettings::kMostStiffness_N_m;
+  settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
   EXPECT_GT(worst_tap_J(settings, kFirmHand), kStiffBound_J);
   EXPECT_GT(worst_tap_J(settings, kLightHand), 10 * kStiffBound_J);
 }

@@ -129,16 +129,16 @@ TEST(TrackThinner, GivesMeansOfAsManySamplesAsComeInAMillisecond) {
 }
 
 TEST(TrackThinner, TheMeanOfTheLargestNumbersIsFinite) {
-  constexpr float kMost = std::numeric_limits<float>::max();
+  constexpr float kMax = std::numeric_limits<float>::max();
   TrackThinner thinner;
   for (const int rate_Hz : {2000, 3000, 7000, 8000}) {
     thinner.begin(rate_Hz);
     TrackSample sample;
     do {
-      sample = {kMost, -kMost};
+      sample = {kMax, -kMax};
     } while (!thinner.add(sample));
-    EXPECT_EQ(sample[0], kMost) << rate_Hz;
-    EXPECT_EQ(sample[1], -kMost) << rate_Hz;
+    EXPECT_EQ(sample[0], kMax) << rate_Hz;
+    EXPECT_EQ(sample[1], -kMax) << rate_Hz;
   }
 }
 

@@ -17,12 +17,12 @@ constexpr double kSwing = 1.2;  // rad/s, or 1/s
 /// Changes beyond the truth's are at most this fraction of the size of the motion.
 constexpr double kQuarter = 0.25 * kSwing;
 /// A swing of 8 s passes through zero ten times; it may go to none and come back each time.
-constexpr int kMostSwitches = 20;
+constexpr int kMaxSwitches = 20;
 /// Of a ball that does not turn: 12 times less than of one that does.
-constexpr double kMostOfNone = 0.1;
+constexpr double kMaxOfNone = 0.1;
 
 void expect_steady(const FollowedAxis& axis) {
-  EXPECT_LE(axis.switches(), kMostSwitches);
+  EXPECT_LE(axis.switches(), kMaxSwitches);
   EXPECT_LE(axis.jump(), kQuarter);
   EXPECT_LE(axis.error(0.99), kQuarter);
 }
@@ -30,20 +30,20 @@ void expect_steady(const FollowedAxis& axis) {
 TEST(TurningBall, OfSixFlatSectorsTurnsSmoothly) {
   const FollowedBall ball = follow({false, 36, kSwing, 0, false});
   expect_steady(ball.roll_rad_s);
-  EXPECT_LE(ball.growth_1_s.error(0.99), kMostOfNone);
+  EXPECT_LE(ball.growth_1_s.error(0.99), kMaxOfNone);
 }
 
 TEST(TurningBall, OfSixFlatSectorsGrowsSmoothlyInAHand) {
   const FollowedBall ball = follow({false, 36, 0, kSwing, true});
   expect_steady(ball.growth_1_s);
-  EXPECT_LE(ball.roll_rad_s.error(0.99), kMostOfNone);
+  EXPECT_LE(ball.roll_rad_s.error(0.99), kMaxOfNone);
 }
 
 TEST(TurningBall, ThatOnlyGoesRoundHasNoTorque) {
   const FollowedBall ball = follow({false, 36, 0, 0, false});
   for (const FollowedAxis& axis : {ball.roll_rad_s, ball.growth_1_s}) {
-    EXPECT_LE(axis.error(0.99), kMostOfNone);
-    EXPECT_LE(axis.switches(), kMostSwitches);
+    EXPECT_LE(axis.error(0.99), kMaxOfNone);
+    EXPECT_LE(axis.switches(), kMaxSwitches);
   }
 }
 

@@ -203,12 +203,12 @@ TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
 TEST(Overlay, ACurveBeginsAnewWithItsStreamAndHasARoundAxis) {
   ForceCurve curve;
   EXPECT_TRUE(curve.positions().empty());
-  EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
+  EXPECT_EQ(curve.axis().high, ForceCurve::kMinTop_N);
   curve.add(5'000'000, 2.1);
   EXPECT_EQ(curve.axis().high, 3) << "and not 5, at which the curve would jump to two thirds";
   curve.add(4'000'000, 0.1);
   EXPECT_EQ(curve.positions().size(), 1u);
-  EXPECT_EQ(curve.axis().high, ForceCurve::kLeastTop_N);
+  EXPECT_EQ(curve.axis().high, ForceCurve::kMinTop_N);
 }
 
 /// The pixels of the newtons beyond the tip of an arrow to the right, in a picture of 481 x 481, as

@@ -258,9 +258,9 @@ TEST(TouchProperties, ASlowDriveGetsLessStiffnessAndAWarning) {
   Profile profile = load_profile(kDefaultProfile);
   EXPECT_EQ(most_stiffness_N_m(profile), 200) << "until the lag was measured";
   profile.drive_lag_known = true;
-  EXPECT_EQ(most_stiffness_N_m(profile), touch::ContactSettings::kMostStiffness_N_m);
+  EXPECT_EQ(most_stiffness_N_m(profile), touch::ContactSettings::kMaxStiffness_N_m);
   profile.drive_lag_s = 0.0055;  // twice the delay of 3.5 ms
-  EXPECT_NEAR(most_stiffness_N_m(profile), touch::ContactSettings::kMostStiffness_N_m / 2, 1e-9);
+  EXPECT_NEAR(most_stiffness_N_m(profile), touch::ContactSettings::kMaxStiffness_N_m / 2, 1e-9);
   TouchProperties touch;
   touch.stiffness_N_m = 700;
   const touch::ContactSettings contact = filter::contact_settings(touch, profile);

@@ -68,7 +68,7 @@ TEST_F(Schedule, AChangeOfTheRateMovesWhatWaits) {
 
 TEST_F(Schedule, CountsWhatItRefuses) {
   constexpr size_t kRing = 256;
-  for (size_t n = 0; n < kRing + WrenchBacklog::kMostWaiting + 3; ++n) {
+  for (size_t n = 0; n < kRing + WrenchBacklog::kMaxWaiting + 3; ++n) {
     add(static_cast<int64_t>(n));
   }
   EXPECT_EQ(schedule.refused(), 3u);

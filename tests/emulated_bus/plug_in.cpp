@@ -88,10 +88,10 @@ void move(const Words& words) {
   }
   require(words, 4, "move X Y Z, or move about");
   // Beyond the frame the grip stays at its edge.
-  constexpr int kMost_mm = 1000;
+  constexpr int kMax_mm = 1000;
   std::array<int, 3> to_mm{};
   for (size_t i = 0; i < 3; ++i) {
-    to_mm[i] = number(words[i + 1], -kMost_mm, kMost_mm, "a position in mm");
+    to_mm[i] = number(words[i + 1], -kMax_mm, kMax_mm, "a position in mm");
   }
   for (size_t i = 0; i < 3; ++i) rehearsal.hand_um[i] = 1000 * to_mm[i];
   rehearsal.moves_about = false;

@@ -21,7 +21,7 @@ using namespace spidar;
 namespace {
 
 constexpr size_t kChannel = 1;
-constexpr int64_t kMostSamples = 10000;
+constexpr int64_t kMaxSamples = 10000;
 /// Of a line, of the rounding of its ends, and of floats.
 constexpr double kDifference = kFunscriptTolerance + 0.01 + 1e-6;
 
@@ -34,7 +34,7 @@ constexpr double kDifference = kFunscriptTolerance + 0.01 + 1e-6;
 void check_written(ScriptAxis axis) {
   axis.gain = 1;
   const int64_t end_ms = axis.points.back().at_ms + 1;
-  if (end_ms < 1 || end_ms > kMostSamples) return;
+  if (end_ms < 1 || end_ms > kMaxSamples) return;
   std::vector<TrackSample> samples(static_cast<size_t>(end_ms));
   for (int64_t i = 0; i < end_ms; ++i) samples[static_cast<size_t>(i)][kChannel] = axis.at(i);
   const ScriptAxis again = parse_funscript(write_funscript(samples, kChannel), 0).axes.at(0);
@@ -62,7 +62,7 @@ void read(const std::string& text) {
   for (const ScriptAxis& axis : script.axes) {
     if (axis.channel >= kTrackChannels || (channels >> axis.channel & 1U) != 0) fail("a channel");
     channels |= 1U << axis.channel;
-    if (!(axis.gain >= kLeastGain && axis.gain <= kMostGain)) fail("a gain out of its range");
+    if (!(axis.gain >= kMinGain && axis.gain <= kMaxGain)) fail("a gain out of its range");
     for (size_t i = 0; i < axis.points.size(); ++i) {
       const int64_t at_ms = axis.points[i].at_ms;
       if (i > 0 && at_ms <= axis.points[i - 1].at_ms) fail("times that do not rise");

@@ -17,12 +17,12 @@ using namespace spidar;
 
 namespace {
 
-constexpr size_t kMostSamples = 10000;
+constexpr size_t kMaxSamples = 10000;
 
 void read(const std::string& text) {
   try {
-    const std::vector<TrackSample> samples = read_hjif(text, kMostSamples);
-    bool sound = samples.size() <= kMostSamples;
+    const std::vector<TrackSample> samples = read_hjif(text, kMaxSamples);
+    bool sound = samples.size() <= kMaxSamples;
     for (const TrackSample& sample : samples) {
       for (const float value : sample) sound = sound && std::isfinite(value);
     }

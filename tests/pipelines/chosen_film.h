@@ -30,7 +30,7 @@ class ChosenFilm {
   /// Frames until an object is known.
   static constexpr int kKnown = 4;
   /// What a person asks for.
-  static constexpr double kMostFrames = 0.95;
+  static constexpr double kMaxFrames = 0.95;
 
   /// Three discs that go straight ahead, in px from the middle of the frame.
   static constexpr int kDiscs = 3;

@@ -46,7 +46,7 @@ TEST(Boxes, TheNamedOneChoosesTheObject) {
     add_region(frame, "dog", 0, n);
     add_region(frame, "face", 2, n);
   };
-  EXPECT_GE(fraction_felt(film, 2), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 2), Film::kMaxFrames);
   EXPECT_TRUE(film.warnings_.empty());
 }
 
@@ -71,7 +71,7 @@ TEST(Boxes, OfACroppedFrameAreThoseOfTheWholeOne) {
     crop->width = Film::kWidth * 3 / 4;
     crop->height = Film::kHeight;
   };
-  EXPECT_GE(fraction_felt(film, 0), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 0), Film::kMaxFrames);
 }
 
 TEST(Boxes, ThatAreMissingOrEmptyAreNamedOnceAndNothingIsFelt) {
@@ -104,7 +104,7 @@ TEST(Boxes, ThatMakeNoSenseHarmNothing) {
     gst_buffer_add_video_region_of_interest_meta(frame, "y", 100'000, 5, G_MAXUINT, G_MAXUINT);
     add_region(frame, "face", 1, n);
   };
-  EXPECT_GE(fraction_felt(film, 1), Film::kMostFrames);
+  EXPECT_GE(fraction_felt(film, 1), Film::kMaxFrames);
 }
 
 /// Where no rule asks for them, boxes change nothing.

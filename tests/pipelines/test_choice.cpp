@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Film = ChosenFilm;
 constexpr int kWidth = Film::kWidth, kHeight = Film::kHeight, kKnown = Film::kKnown;
-constexpr double kMostFrames = Film::kMostFrames;
+constexpr double kMaxFrames = Film::kMaxFrames;
 
 /// What a window of half the size sends that shows the picture mirrored.
 constexpr const char* kMirroredWindow =
@@ -58,7 +58,7 @@ TEST(Mouse, OnItsPathOverThreeObjectsEachIsFelt) {
       right += film.felt() == disc;
     }
   }
-  EXPECT_GE(right, kMostFrames * 3 * kFramesEach);
+  EXPECT_GE(right, kMaxFrames * 3 * kFramesEach);
   EXPECT_TRUE(film.warnings_.empty());
 }
 
@@ -76,7 +76,7 @@ TEST(Mouse, AClickKeepsTheObjectAndASecondOneLetsGo) {
       // Alone: the others have no part in its motion.
       right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
     }
-    EXPECT_GE(right, kMostFrames * 20);
+    EXPECT_GE(right, kMaxFrames * 20);
     const guint kept = film.object_;
     click(film, film.disc_position(0), 3);
     film.next();
@@ -148,7 +148,7 @@ TEST(Window, AClickKeepsTheObjectWhateverThePointerIs) {
     film.next();
     right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
   }
-  EXPECT_GE(right, kMostFrames * 20);
+  EXPECT_GE(right, kMaxFrames * 20);
   film.window().choose(std::nullopt);
   film.next();
   EXPECT_EQ(film.object_, 0u) << "all are felt again";
@@ -172,7 +172,7 @@ TEST(Feel, ChoosesLiveByRules) {
     film.next();
     right += film.object_ != 0 && film.felt() == (n < 20 ? 1 : 2);
   }
-  EXPECT_GE(right, kMostFrames * (40 - kKnown));
+  EXPECT_GE(right, kMaxFrames * (40 - kKnown));
   film.set("feel", "1.6- " + object_at(0, 40));
   film.play_to(42);
   EXPECT_EQ(film.felt(), 0) << "set while it plays";
@@ -199,7 +199,7 @@ TEST(Feel, WhatIsSavedHoldsAtOnce) {
     film.next();
     right += film.felt() == (n < 25 ? 1 : 2);
   }
-  EXPECT_GE(right, kMostFrames * 30) << "the rule that was cut goes on with its object";
+  EXPECT_GE(right, kMaxFrames * 30) << "the rule that was cut goes on with its object";
   EXPECT_TRUE(film.warnings_.empty());
   window::ElementState state;
   film.window().read(state);

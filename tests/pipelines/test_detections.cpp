@@ -45,7 +45,7 @@ TEST(Detections, ChooseTheObject) {
       film.next();
       right += film.object_ != 0 && film.felt() == disc;
     }
-    EXPECT_GE(right, Film::kMostFrames * (kFrames - Film::kKnown));
+    EXPECT_GE(right, Film::kMaxFrames * (kFrames - Film::kKnown));
     EXPECT_TRUE(film.warnings_.empty());
   }
 }

@@ -17,12 +17,12 @@
 namespace spidar::test::delivered_limit_test {
 namespace {
 
-constexpr double kMost_m = 0.02;
+constexpr double kMax_m = 0.02;
 constexpr double kFastest_Hz = 3.7;
 
-/// kMost_m, or what there is room for: beyond, the grip passes the exits of its strings.
+/// kMax_m, or what there is room for: beyond, the grip passes the exits of its strings.
 double room_m(const Profile& profile) {
-  return std::min(kMost_m, half_room_m(profile.geometry).minCoeff());
+  return std::min(kMax_m, half_room_m(profile.geometry).minCoeff());
 }
 
 /// Goes about within `reach_m` and 20° in sines of these frequencies, at up to 0.5 m/s.

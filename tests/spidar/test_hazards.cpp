@@ -46,11 +46,11 @@ constexpr int kGuardianTry_ms = 10;
 constexpr int kFade_ms = 14;
 /// Three time constants of the drives, after which a force of three times the limit is within it.
 constexpr int kLag_ms = 6;
-constexpr int kMostAbove_ms = PoseTrust::kMaxMisses + 1 + kFade_ms + kLag_ms;
+constexpr int kMaxAbove_ms = PoseTrust::kMaxMisses + 1 + kFade_ms + kLag_ms;
 /// Where the pose was lost before the player died. A string needs up to TensionSlew::kRange_s more
 /// when it passes through its whole range.
 constexpr int kSlew_ms = 20;
-constexpr int kMostAfter_ms = kFade_ms + kSlew_ms + kGuardian_ms + kGuardianTry_ms;
+constexpr int kMaxAfter_ms = kFade_ms + kSlew_ms + kGuardian_ms + kGuardianTry_ms;
 /// Forces that differ by less are the same: rounding of the D/A converter, and the pull at rest
 /// while the motors follow.
 constexpr double kMargin_N = 0.1;
@@ -254,8 +254,8 @@ TEST(Hazards, InPairs) {
     const std::string where = profile.name + ", " + kNames[first] + " and " + kNames[second] +
                               ", round " + std::to_string(n) +
                               ", SPIDAR_SEED=" + std::to_string(seed);
-    EXPECT_LE(worst.above_acting_ms, kMostAbove_ms) << where;
-    EXPECT_LE(worst.after_acting_ms, kMostAfter_ms) << where;
+    EXPECT_LE(worst.above_acting_ms, kMaxAbove_ms) << where;
+    EXPECT_LE(worst.after_acting_ms, kMaxAfter_ms) << where;
     // Faster than that, the force rests even if somebody seems to hold the grip.
     EXPECT_LE(worst.speed_m_s, brake::kFastest_m_s) << where;
     if (std::getenv("SPIDAR_SHOW") != nullptr)

@@ -66,7 +66,7 @@ TEST_F(LineWriterPipe, WhatAReaderThatStandsStillDoesNotTakeIsDroppedAndCounted)
   ASSERT_EQ(writer.open(path, kLine), "");
   // Twice what may wait, and what a pipe holds is little beside it. It takes no longer than the
   // standstill: with a wait for each line this would take hours.
-  const uint64_t lines = 2 * LineWriter::kMostWaiting_bytes / kLine.size();
+  const uint64_t lines = 2 * LineWriter::kMaxWaiting_bytes / kLine.size();
   for (uint64_t i = 0; i < lines; ++i) writer.add(kLine);
   const LineWriter::Status status = writer.close();
   EXPECT_EQ(status.error, 0);
@@ -87,7 +87,7 @@ TEST_F(LineWriterPipe, ASlowReaderGetsEveryLine) {
     std::this_thread::sleep_for(LineWriter::kPeriod);
     text = read_all(reader);
   });
-  const uint64_t lines = 2 * LineWriter::kMostWaiting_bytes / kLine.size();
+  const uint64_t lines = 2 * LineWriter::kMaxWaiting_bytes / kLine.size();
   for (uint64_t i = 0; i < lines; ++i) writer.add(kLine);
   const LineWriter::Status status = writer.close();
   reading.join();

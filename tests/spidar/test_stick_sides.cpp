@@ -132,7 +132,7 @@ TEST_F(StickSides, ADriverThatPushesToTheOtherSideIsFound) {
     tests[i] = std::async(std::launch::async, tested, i, kSticks[i].option, kSticks[i].right,
                           kSticks[i].up);
   const auto side = [](double m) {
-    return (m >= selftest::StickTest::kLeast_m) - (m <= -selftest::StickTest::kLeast_m);
+    return (m >= selftest::StickTest::kMin_m) - (m <= -selftest::StickTest::kMin_m);
   };
   for (size_t i = 0; i < kSticks.size(); ++i) {
     SCOPED_TRACE(i);

@@ -91,7 +91,7 @@ TEST(TouchMailbox, RefusesWhatCannotWork) {
 /// while the writer fills the third slot.
 TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
   constexpr int64_t kFrames = 1000;
-  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kLeastSlots);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kMinSlots);
   std::thread writer([&] {
     for (int64_t n = 1; n <= kFrames; ++n) {
       while (!publish(mailbox, n)) std::this_thread::yield();
@@ -120,7 +120,7 @@ TEST(TouchMailbox, NothingIsTornOrLostBetweenThreads) {
 /// A third thread forgets what there is, as a flush does. What is begun after that is seen.
 TEST(TouchMailbox, ForgettingReachesTheReaderFromAnyThread) {
   constexpr uint32_t kTimes = 1000;
-  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kLeastSlots);
+  touch::Mailbox mailbox(kWidth_m, kHeight_m, touch::Mailbox::kMinSlots);
   std::atomic<bool> done{false};
   std::thread flusher([&] {
     for (uint32_t n = 0; n < kTimes; ++n) {

@@ -47,7 +47,7 @@ TEST(TouchStrings, NoContactGivesAnyOut) {
   EXPECT_LE(explore_all(touch).worst_J, kBound_J);
   touch.texture = true;
   EXPECT_LE(explore_all(touch).worst_J, kBound_J) << "with texture";
-  touch = touch_of(touch::ContactSettings::kMostStiffness_N_m);
+  touch = touch_of(touch::ContactSettings::kMaxStiffness_N_m);
   EXPECT_LE(explore_all(touch).worst_J, kStiffBound_J) << "where it is stiffest";
 }
 
@@ -102,7 +102,7 @@ TEST(TouchStrings, ALightTouchOnTheWayOutGivesNothing) {
 
 /// Of a hand that explores a plane with 800 N/m for so many ticks.
 double fraction_after(const Hand& hand, double mass_kg, double more_lag_s, long ticks = 15'000) {
-  StringTouch touch = touch_of(touch::ContactSettings::kMostStiffness_N_m);
+  StringTouch touch = touch_of(touch::ContactSettings::kMaxStiffness_N_m);
   touch.mass_kg = mass_kg;
   touch.more_lag_s = more_lag_s;
   const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
@@ -136,7 +136,7 @@ TEST(ShakeWatch, NoticesShakingAndNothingElse) {
   for (const double rate_Hz : {18.0, 25.0, 40.0, 55.0}) {
     EXPECT_LT(fraction_of(sine(rate_Hz, 0.02)), 1) << rate_Hz;
     // The slow part that is left out takes at most a third at 18 Hz.
-    EXPECT_EQ(fraction_of(sine(rate_Hz, 0.75 * touch::ShakeWatch::kLeast_m_s)), 1) << rate_Hz;
+    EXPECT_EQ(fraction_of(sine(rate_Hz, 0.75 * touch::ShakeWatch::kMin_m_s)), 1) << rate_Hz;
     EXPECT_EQ(fraction_of(sine(rate_Hz, 0.02), 2 * touch::ShakeWatch::kStroke_m_s), 1) << "strokes";
   }
   // A hand trembles at 8 to 12 Hz; what is faster than 60 Hz is no motion of the grip.
@@ -152,7 +152,7 @@ TEST(ShakeWatch, NoticesShakingAndNothingElse) {
   touch::ShakeWatch watch;
   for (int i = 0; i < 10'000; ++i)
     watch.update({0, 0, 0.02 * std::sin(2 * M_PI * 0.025 * i)}, Eigen::Vector3d::UnitZ(), 1e-3);
-  EXPECT_EQ(watch.fraction(), touch::ShakeWatch::kLeastFraction);
+  EXPECT_EQ(watch.fraction(), touch::ShakeWatch::kMinFraction);
 }
 
 TEST(TouchStrings, WithoutDampingItIsSeen) {

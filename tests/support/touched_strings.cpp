@@ -130,7 +130,7 @@ class Pair {
   Pair(const TouchScene& scene, const StringTouch& touch, const Hand& hand)
       : model_(model_of(hand, touch)),
         film_N_(touch.film_N),
-        mailbox_(kPictureWidth_m, kPictureHeight_m, touch::Mailbox::kLeastSlots) {
+        mailbox_(kPictureWidth_m, kPictureHeight_m, touch::Mailbox::kMinSlots) {
     if (touch.wall_N_m > 0) {
       loop_->callback().set(wall_of(touch), touch.passive, profile_.drive_lag_s);
     } else {

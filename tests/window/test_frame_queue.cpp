@@ -73,10 +73,10 @@ TEST(FrameQueue, KeepsTheEndOfAFilmThatAnotherFollowsWithoutAGap) {
 
 TEST(FrameQueue, ShowsTheOldestWhenTooManyWait) {
   Frames frames;
-  constexpr auto kMost = static_cast<int64_t>(window::FrameQueue::kMost);
-  for (int64_t i = 1; i <= kMost; ++i) frames.pass(10 * i);
+  constexpr auto kMax = static_cast<int64_t>(window::FrameQueue::kMax);
+  for (int64_t i = 1; i <= kMax; ++i) frames.pass(10 * i);
   EXPECT_EQ(frames.show(0), -1);
-  frames.pass(10 * (kMost + 1));
+  frames.pass(10 * (kMax + 1));
   EXPECT_EQ(frames.show(0), 10);
   EXPECT_EQ(frames.show(0), -1);
 }

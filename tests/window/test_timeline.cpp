@@ -55,11 +55,11 @@ TEST(Timeline, PlotsMoreOrFewerSecondsWithinBounds) {
   timeline.zoom(0.25);
   EXPECT_NEAR(timeline.plotted().front().time_s, 97.5, kRounding + 0.1);
   timeline.zoom(1e-9);
-  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kLeastPlotted_s);
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMinPlotted_s);
   timeline.zoom(1e9);
-  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMostPlotted_s);
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMaxPlotted_s);
   timeline.clear();
-  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMostPlotted_s) << "the choice stays";
+  EXPECT_EQ(timeline.plotted_s(), window::Timeline::kMaxPlotted_s) << "the choice stays";
 }
 
 TEST(Timeline, TheLargestSpeedStaysUntilAnotherStreamForgetsAll) {

@@ -13,14 +13,14 @@ namespace {
 
 /// An object in front of a plain background hardly has more than this fraction of the picture's
 /// votes.
-constexpr double kMostObject = 0.2;
+constexpr double kMaxObject = 0.2;
 /// If this fraction of all votes is cast, two objects cannot have them all.
-constexpr double kTexturedFraction = 2 * kMostObject;
+constexpr double kTexturedFraction = 2 * kMaxObject;
 
 /// A vote that deviates by more than kOutlierSigmas times the noise of a displacement, and by at
-/// least kLeastReach_px of the picture in which motion is measured, is an outlier.
+/// least kMinReach_px of the picture in which motion is measured, is an outlier.
 constexpr double kOutlierSigmas = 2.5;
-constexpr double kLeastReach_px = 0.45;
+constexpr double kMinReach_px = 0.45;
 
 /// A model explains the votes when most of them are inliers and their mean ρ is below kExplained;
 /// the ρ of an outlier is 4.
@@ -31,7 +31,7 @@ constexpr double kExplained = 0.3;
 constexpr double kConnected_px = 1.5 * kBlock_px;
 /// A thing is cut by so many borders of the picture at most, as a person of whom half is visible. A
 /// part of the scene that a straight edge bounds, as ground, ice or a wall, is cut by two or more.
-constexpr int kMostBorders = 1;
+constexpr int kMaxBorders = 1;
 
 ModelKind next(ModelKind kind, int step) {
   return static_cast<ModelKind>(static_cast<int>(kind) + step);
@@ -40,7 +40,7 @@ ModelKind next(ModelKind kind, int step) {
 }  // namespace
 
 double vote_reach_px(double noise_px) {
-  return std::max(kLeastReach_px, kOutlierSigmas * noise_px);
+  return std::max(kMinReach_px, kOutlierSigmas * noise_px);
 }
 
 double BackgroundVotes::sum() const {
@@ -50,11 +50,11 @@ double BackgroundVotes::sum() const {
 }
 
 bool BackgroundVotes::are_few() const {
-  return cast.size() < kLeastVotes || sum() < kMostObject * all;
+  return cast.size() < kMinVotes || sum() < kMaxObject * all;
 }
 
 bool BackgroundVotes::are_many() const {
-  return cast.size() >= kLeastVotes && sum() >= kTexturedFraction * all;
+  return cast.size() >= kMinVotes && sum() >= kTexturedFraction * all;
 }
 
 Background in_pixels_of(const Background& background, double scale) {
@@ -66,10 +66,10 @@ Background in_pixels_of(const Background& background, double scale) {
 }
 
 BackgroundEstimator::BackgroundEstimator() {
-  evidence_.points.reserve(kMostDisplacements);
-  evidence_.weights.reserve(kMostDisplacements);
-  residuals_px_.reserve(kMostDisplacements);
-  positions_px_.reserve(kMostDisplacements);
+  evidence_.points.reserve(kMaxDisplacements);
+  evidence_.weights.reserve(kMaxDisplacements);
+  residuals_px_.reserve(kMaxDisplacements);
+  positions_px_.reserve(kMaxDisplacements);
   known_.reserve(2);
   reset();
 }
@@ -117,24 +117,24 @@ void BackgroundEstimator::take_connected_to(const Eigen::Vector2d& middle_px,
       return (other_px - *it).cwiseAbs().maxCoeff() < kConnected_px;
     });
   }
-  if (left + right + above + below > kMostBorders) return;
+  if (left + right + above + below > kMaxBorders) return;
   positions_px_.erase(positions_px_.begin(), end);
 }
 
 /// Whether the positions_px_, which it empties, are of more than one object in front of a plain
-/// background, or of more than two if the model is above a translation. That is so when kLeastVotes
-/// are left after the objects have been taken away: circles that cover kMostObject of the
+/// background, or of more than two if the model is above a translation. That is so when kMinVotes
+/// are left after the objects have been taken away: circles that cover kMaxObject of the
 /// picture, each around a position with the most others in it; and, if they all move alike, what is
 /// connected to that position.
 bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
                                         const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
-  const double radius_px2 = kMostObject * size_px.prod() / M_PI;
+  const double radius_px2 = kMaxObject * size_px.prod() / M_PI;
   for (int n = 0; n < objects; ++n) {
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
     // Of many positions, every second one, and so on: this bounds the time.
-    const size_t step = 1 + positions_px_.size() / kMostTries;
+    const size_t step = 1 + positions_px_.size() / kMaxTries;
     for (size_t i = 0; i < positions_px_.size(); i += step) {
       size_t near = 0;
       for (const Eigen::Vector2d& other_px : positions_px_) {
@@ -144,14 +144,14 @@ bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
       most = near;
       middle_px = positions_px_[i];
     }
-    if (positions_px_.size() < most + kLeastVotes) return false;
+    if (positions_px_.size() < most + kMinVotes) return false;
     if (move_alike) take_connected_to(middle_px, size_px);
     const auto is_its = [&](const Eigen::Vector2d& position_px) {
       return (position_px - middle_px).squaredNorm() <= radius_px2;
     };
     positions_px_.erase(std::remove_if(positions_px_.begin(), positions_px_.end(), is_its),
                         positions_px_.end());
-    if (positions_px_.size() < kLeastVotes) return false;
+    if (positions_px_.size() < kMinVotes) return false;
   }
   return true;
 }
@@ -162,7 +162,7 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   double sum = 0;
   positions_px_.clear();
   for (const BackgroundVote& vote : votes.cast) {
-    if (point_cost(scored.model, vote.point, evidence_.sigma_px) >= kMostCost) continue;
+    if (point_cost(scored.model, vote.point, evidence_.sigma_px) >= kMaxCost) continue;
     sum += vote.votes();
     positions_px_.push_back(vote.point.at_px);
   }
@@ -178,12 +178,12 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 /// picture is new. What has been taken for objects moves alike: it is left out, lest it count as
 /// several.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
-  if (chosen.coverage * votes.all >= kMostObject * voting_) return true;
-  if (votes.with_edges || voting_ < kMostObject * votes.all) return !votes.are_lost;
+  if (chosen.coverage * votes.all >= kMaxObject * voting_) return true;
+  if (votes.with_edges || voting_ < kMaxObject * votes.all) return !votes.are_lost;
   positions_px_.clear();
   for (const BackgroundVote& vote : votes.cast) {
     const bool is_its =
-        of_objects_ && point_cost(of_objects_->model, vote.point, evidence_.sigma_px) < kMostCost;
+        of_objects_ && point_cost(of_objects_->model, vote.point, evidence_.sigma_px) < kMaxCost;
     if (!is_its) positions_px_.push_back(vote.point.at_px);
   }
   return !is_background(ModelKind::kSimilarity, false, votes.size_px);
@@ -210,8 +210,8 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
   double cost = 0;
   for (size_t i = 0; i < evidence_.points.size(); ++i) {
     const double rho = point_cost(model, evidence_.points[i], evidence_.sigma_px);
-    (rho < kMostCost ? inliers : outliers) += evidence_.weights[i];
-    if (rho >= kMostCost) continue;
+    (rho < kMaxCost ? inliers : outliers) += evidence_.weights[i];
+    if (rho >= kMaxCost) continue;
     cost += evidence_.weights[i] * rho;
   }
   return inliers > outliers && cost < kExplained * inliers;
@@ -253,8 +253,8 @@ void BackgroundEstimator::learn_noise() {
   if (!background_.is_known) return;
   double found_px = kUsualNoise_px;
   const bool is_textured_rest = is_textured_ && background_.model.kind == ModelKind::kStill;
-  if (residuals_px_.size() >= kLeastVotes &&
-      (is_textured_rest || background_.coverage >= kMostObject)) {
+  if (residuals_px_.size() >= kMinVotes &&
+      (is_textured_rest || background_.coverage >= kMaxObject)) {
     found_px = median(residuals_px_.begin(), residuals_px_.end()) / kRayleighMedian;
   }
   noise_px_ += kNewestWeight * (std::max(found_px, kSharedError_px) - noise_px_);
@@ -263,7 +263,7 @@ void BackgroundEstimator::learn_noise() {
 Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   fitted_ = 0;
   of_objects_.reset();
-  if (votes.cast.size() < kLeastVotes) return {MotionModel(), noise_px_, 0, !votes.are_lost};
+  if (votes.cast.size() < kMinVotes) return {MotionModel(), noise_px_, 0, !votes.are_lost};
   weigh(votes);
   known_.assign({MotionModel(), background_.model});
   const MotionModel start = fitter_.start(evidence_, known_);

@@ -16,7 +16,7 @@ constexpr double kBorderVotes = 2;
 /// Weight of the newest frame in what is learnt from frame to frame.
 constexpr double kNewestWeight = 0.4;
 /// The least number of votes that say anything about the background.
-constexpr size_t kLeastVotes = 12;
+constexpr size_t kMinVotes = 12;
 
 /// The deviation beyond which a vote is an outlier if the noise is `noise_px`, px of the field's
 /// picture.

@@ -64,16 +64,16 @@ bool collect(const BlockField& field, const PreviousFrame& past, bool with_edges
     const double texture = static_cast<double>(block.weakest_texture());
     const bool may_vote =
         votes.with_edges ? block.has_texture() && texture > 0 : block.has_corners();
-    if (!may_vote || votes.cast.size() >= kMostDisplacements) continue;
+    if (!may_vote || votes.cast.size() >= kMaxDisplacements) continue;
     if (past.is_burned_in(i)) continue;
     double weight = weight_of(block, 1, past.persistence_of(field.origin_of(i)));
     // Right to half a pixel, as all motion is before it is refined.
-    const bool rests = std::hypot(block.moved_px.x(), block.moved_px.y()) < kMostOff_px / 2;
+    const bool rests = std::hypot(block.moved_px.x(), block.moved_px.y()) < kMaxOff_px / 2;
     if (at_border && !rests) weight *= kBorderVotes;
     votes.cast.push_back(vote_of(block, weight, at_border, i));
     together += block.structure / block.structure.trace();
   }
-  return static_cast<double>(roundness(together)) > MotionBlock::kLeastRoundness;
+  return static_cast<double>(roundness(together)) > MotionBlock::kMinRoundness;
 }
 
 /// Whether most of the blocks of an area vote themselves. `middle_px` is from the picture's corner.
@@ -91,7 +91,7 @@ bool has_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
   return corners > kCoarser * kCoarser / 2;
 }
 
-/// Whether more of the picture is lost than found, and at least kLeastVotes of it: a ball that
+/// Whether more of the picture is lost than found, and at least kMinVotes of it: a ball that
 /// bounces before a plain wall may be all that is lost.
 bool is_new(const BlockField& field) {
   size_t lost = 0;
@@ -101,7 +101,7 @@ bool is_new(const BlockField& field) {
     lost += match == BlockField::Match::kLost;
     found += match == BlockField::Match::kFound;
   }
-  return lost > found && lost >= kLeastVotes;
+  return lost > found && lost >= kMinVotes;
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ void collect_areas(const BlockField& field, const std::vector<MotionBlock>& area
     if (inside_px < -kCoarser) continue;
     const bool at_border = inside_px < kBorderBlocks * kBlock_px;
     votes.all += at_border ? kBorderVotes : 1;
-    if (area.weakest_texture() < kAreaTextureScale * MotionBlock::kLeastTexture) continue;
+    if (area.weakest_texture() < kAreaTextureScale * MotionBlock::kMinTexture) continue;
     const size_t middle = field.grid().block_at(centre_px + picture_px / 2);
     if (past.is_burned_in(middle) || has_corners(field, centre_px + picture_px / 2)) continue;
     const double weight = weight_of(area, static_cast<double>(kAreaTextureScale),

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRingBlocks = 2;
 /// The largest number of borders that cut an object, one in a corner. What more of them cut is a
 /// part of the scene that was taken for an object.
-constexpr int kMostOfObject = 2;
+constexpr int kMaxOfObject = 2;
 
 /// Standard deviation of | a | − | b | over that of a and b, which are normal and independent:
 /// √(2 (1 − 2 / π)).
@@ -72,11 +72,11 @@ Eigen::Vector2f motion_of(const BlockField& field, size_t block, const MotionMod
 }
 
 /// A line across a block is the least that shows whether it stays.
-constexpr int kLeastStaying = kBlock_px;
+constexpr int kMinStaying = kBlock_px;
 
 /// A block whose own motion is so near to a model's fits it, px of the field's picture: as far as
 /// motion is off before it is refined.
-constexpr float kFits_px = kMostOff_px / 2;
+constexpr float kFits_px = kMaxOff_px / 2;
 
 bool shows_graphics(const BlockField& field, size_t block, const Eigen::Vector2f& moved_px) {
   return are_graphics(field.staying_pixels(block, moved_px), kExactOfGraphics);
@@ -86,7 +86,7 @@ bool shows_graphics(const BlockField& field, size_t block, const Eigen::Vector2f
 
 bool are_graphics(const StayingPixels& staying, double least_exact) {
   const double near = staying.near;
-  return near >= kLeastStaying && staying.exact > least_exact * near + std::sqrt(near) / 2;
+  return near >= kMinStaying && staying.exact > least_exact * near + std::sqrt(near) / 2;
 }
 
 bool border_has_moved(const BlockField& field, const PreviousFrame& past,
@@ -102,7 +102,7 @@ bool border_has_moved(const BlockField& field, const PreviousFrame& past,
     const uint32_t object = past.object_of(field.origin_of(i));
     if (object != 0 && object != asked) {
       asked = object;
-      is_left_out = borders_of(object, field, past) <= kMostOfObject;
+      is_left_out = borders_of(object, field, past) <= kMaxOfObject;
     }
     if (object != 0 && is_left_out) {
       ++left_out;
@@ -138,7 +138,7 @@ double share_border(const BlockField& field, const PreviousFrame& past,
     const Eigen::Vector2f first_px = motion_of(field, i, models.front());
     const float off_px2 = (field.blocks()[i].moved_px - first_px).squaredNorm();
     if (is_single && off_px2 < kFits_px * kFits_px) return;
-    std::array<int, kMostModels> differences{};
+    std::array<int, kMaxModels> differences{};
     int least = field.blocks()[i].difference;
     int most = 0;
     for (size_t k = 0; k < models.size(); ++k) {

@@ -31,7 +31,7 @@ constexpr double kExactOfGraphics = 0.5;
 bool are_graphics(const StayingPixels& staying, double least_exact);
 
 /// Largest number of models that are compared.
-constexpr size_t kMostModels = 4;
+constexpr size_t kMaxModels = 4;
 
 /// Sets `shares` to the fraction of the border's blocks that each model explains. A block counts if
 /// it fits some motion clearly better than another, and is divided among the models that fit it.

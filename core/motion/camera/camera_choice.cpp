@@ -21,7 +21,7 @@ constexpr double kMovedShare = 0.4;
 constexpr int kMoreOften = 2;
 /// Fewer blocks say nothing: kMovedShare of so many has a standard deviation of 0.08, half of what
 /// lies between the two cases above.
-constexpr int kLeastPlain = 40;
+constexpr int kMinPlain = 40;
 
 }  // namespace
 
@@ -75,7 +75,7 @@ bool PlainParts::have_moved(const BlockField& field, const PreviousFrame& past,
     better += *gain > kClearly;
     worse += *gain < -kClearly;
   }
-  return all >= kLeastPlain && better > kMovedShare * all && better > kMoreOften * worse;
+  return all >= kMinPlain && better > kMovedShare * all && better > kMoreOften * worse;
 }
 
 namespace {
@@ -97,13 +97,13 @@ constexpr double kDoubt = 0.5;
 /// change by this fraction of its speed. All but two choose it of 0.1, 0.3 and 0.6.
 constexpr double kChanges = 0.3;
 /// A smaller difference is no second motion, but another depth or an error of the blocks, px.
-constexpr double kRivals_px = kMostOff_px;
+constexpr double kRivals_px = kMaxOff_px;
 /// Fewer votes make no rival.
-constexpr size_t kLeastOfRival = kLeastVotes / 2;
+constexpr size_t kMinOfRival = kMinVotes / 2;
 
 /// Whether a vote is an inlier of a model.
 bool agrees(const BackgroundVote& vote, const MotionModel& model, double sigma_px) {
-  return point_cost(model, vote.point, sigma_px) < kMostCost;
+  return point_cost(model, vote.point, sigma_px) < kMaxCost;
 }
 
 /// How far the motions of two models are apart, on the mean over a grid of 3 × 3 positions, px.
@@ -121,13 +121,13 @@ double models_apart_px(const MotionModel& a, const MotionModel& b, const Eigen::
 }  // namespace
 
 CameraChoice::CameraChoice() {
-  votes_.cast.reserve(kMostDisplacements);
-  area_votes_.cast.reserve(kMostDisplacements);
-  rival_votes_.cast.reserve(kMostDisplacements);
-  evidence_.points.reserve(kMostDisplacements);
-  evidence_.weights.reserve(kMostDisplacements);
-  models_.reserve(kMostModels);
-  shares_.reserve(kMostModels);
+  votes_.cast.reserve(kMaxDisplacements);
+  area_votes_.cast.reserve(kMaxDisplacements);
+  rival_votes_.cast.reserve(kMaxDisplacements);
+  evidence_.points.reserve(kMaxDisplacements);
+  evidence_.weights.reserve(kMaxDisplacements);
+  models_.reserve(kMaxModels);
+  shares_.reserve(kMaxModels);
 }
 
 void CameraChoice::reset() {
@@ -149,7 +149,7 @@ void CameraChoice::add_rival(const Background& chosen, const BackgroundVotes& vo
     evidence_.points.push_back(vote.point);
     evidence_.weights.push_back(vote.weight);
   }
-  if (evidence_.points.size() < kLeastOfRival) return;
+  if (evidence_.points.size() < kMinOfRival) return;
   const MotionModel start = fitter_.start(evidence_, {});
   const std::optional<MotionModel> found =
       fitter_.refine(ModelKind::kTranslation, start, evidence_);

@@ -29,7 +29,7 @@ class PlainParts {
  private:
   void go_back(const BlockField& field, const MotionModel& model);
 
-  std::array<MotionModel, kMostBack - 1> models_;  ///< of earlier pictures, the latest first
+  std::array<MotionModel, kMaxBack - 1> models_;  ///< of earlier pictures, the latest first
   std::vector<Eigen::Vector2d> moved_px_;  ///< of each block, since the picture that is compared
   std::vector<Eigen::Vector2d> steps_px_;  ///< the same, since each picture before it
   int back_ = 0;                           ///< how many pictures ago that was; 0: none

@@ -211,7 +211,7 @@ double robust_cost(const MotionModel& model, const WeightedDisplacements& eviden
 }
 
 RobustFitter::RobustFitter() {
-  weights_.reserve(kMostDisplacements);
+  weights_.reserve(kMaxDisplacements);
 }
 
 MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
@@ -230,7 +230,7 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
   if (n < 2) return best;
   // std::minstd_rand gives the same numbers on every machine; the distributions of <random> do not.
   std::minstd_rand random;
-  for (size_t k = 0; k < kMostTries; ++k) {
+  for (size_t k = 0; k < kMaxTries; ++k) {
     const Displacement& a = evidence.points[random() % n];
     const Displacement& b = evidence.points[random() % n];
     if (a.at_px != b.at_px) consider(through(a, b));

@@ -33,7 +33,7 @@ struct Displacement {
 };
 
 /// Largest number of displacements that are used in a frame, which bounds its cost.
-constexpr size_t kMostDisplacements = 512;
+constexpr size_t kMaxDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not
 /// have are exactly zero.
@@ -86,7 +86,7 @@ struct WeightedDisplacements {
 
 /// Number of pairs of points that are tried. When half of the votes belong to the background, one
 /// pair in four has no outlier; the probability that all pairs tried have one is 1e-5.
-constexpr size_t kMostTries = 40;
+constexpr size_t kMaxTries = 40;
 
 /// Noise of a displacement where it has not been measured, each coordinate, px of the field's
 /// picture: that of blocks with much texture, and of points in a picture with noise.
@@ -99,18 +99,18 @@ constexpr double kSharedError_px = 0.025;
 /// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a pair, and d = 2,
 /// the dimension of the set of pairs that a model allows. Every point that deviates by more than 2
 /// σ is an outlier and costs the same.
-constexpr double kMostCost = 4;
+constexpr double kMaxCost = 4;
 
 inline double point_cost(const MotionModel& model, const Displacement& point, double sigma_px) {
   const double e2 = (point.moved_px - model.displacement_px(point.at_px)).squaredNorm();
-  return std::min(e2 / (sigma_px * sigma_px), kMostCost);
+  return std::min(e2 / (sigma_px * sigma_px), kMaxCost);
 }
 
 /// Σ w ρ over the points, with ρ = point_cost().
 double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence);
 
 /// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives
-/// the same model, bit for bit. Allocates nothing for up to kMostDisplacements points.
+/// the same model, bit for bit. Allocates nothing for up to kMaxDisplacements points.
 class RobustFitter {
  public:
   RobustFitter();

@@ -15,7 +15,7 @@ namespace {
 /// Largest fraction of the picture on one side, to the nearest line: that of a film of 4:3 in a
 /// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
 /// scene without noise would pass for a film in a frame.
-constexpr double kMostOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
+constexpr double kMaxOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
 /// Fraction of the positions along the edge of a film that change while a bar beside them does not:
 /// the rest may be plain or dark.
@@ -48,7 +48,7 @@ struct Side {
 
   /// How many lines stand, from the side on; 0 when it is more than a bar.
   int standing() const {
-    const auto most = static_cast<int>(std::lround(kMostOfSide * lines()));
+    const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
     while (n <= most && stands(n)) ++n;
     return n > most ? 0 : n;
@@ -70,20 +70,20 @@ struct Side {
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
 /// needs a fraction halfway to all of them.
 constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
-/// The search can find a block with static graphics to move by up to kMostOff_px, because part of
+/// The search can find a block with static graphics to move by up to kMaxOff_px, because part of
 /// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
 /// picture, count as not moved.
-constexpr float kInPlace_px = kMostOff_px / 2;
+constexpr float kInPlace_px = kMaxOff_px / 2;
 /// A block that has moved, but in which so many pixels stay in place, shows graphics and the film
 /// behind them together, and its motion is neither: a tenth of the block, more than a line across
 /// it.
 constexpr int kMixedPixels = 24;
 /// A dark or still part of a picture has less noise than the rest. The noise around a block is that
 /// of the blocks up to kAround_blocks away that move with the background to kWithBackground_px, px
-/// of the field's picture, if there are kLeastAround of them.
+/// of the field's picture, if there are kMinAround of them.
 constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
-constexpr size_t kLeastAround = 8;
+constexpr size_t kMinAround = 8;
 /// A block that has moved by less than kStill_px, px of the field's picture, is unexplained from
 /// 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
 /// follows an object so exactly.
@@ -94,7 +94,7 @@ constexpr float kStillCost = 1.4F;
 /// for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
-constexpr int kMostScore = 3 * kGain;
+constexpr int kMaxScore = 3 * kGain;
 /// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
 /// outside.
 constexpr int kBeside_px = kBlock_px / 4;
@@ -164,14 +164,14 @@ std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const
     const float apart_px2 = (other.moved_px - block.background_px).squaredNorm();
     if (apart_px2 < kWithBackground_px * kWithBackground_px) nearby_.push_back(other.residual);
   });
-  if (nearby_.size() < kLeastAround) return std::nullopt;
+  if (nearby_.size() < kMinAround) return std::nullopt;
   return median(nearby_.begin(), nearby_.end());
 }
 
 /// Whether neither noise nor the block's motion explains its pixels. Noise explains twice its
 /// standard deviation.
 bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float moved_px) {
-  const auto most = static_cast<float>(kMostCost);
+  const auto most = static_cast<float>(kMaxCost);
   const float residual = field.blocks()[block.index].residual;
   if (residual > most * field.noise_grey2()) return true;
   const std::optional<float> around_grey2 = noise_around_grey2(field, block);
@@ -193,7 +193,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
   const float moved_px = std::hypot(own.moved_px.x(), own.moved_px.y());
   const StayingPixels staying = field.staying_pixels(block.index, block.background_px);
   Sign& sign = signs_[block.index];
-  if (are_graphics(staying, moved_px < kMostOff_px ? kExactOfGraphics : kExactElsewhere)) {
+  if (are_graphics(staying, moved_px < kMaxOff_px ? kExactOfGraphics : kExactElsewhere)) {
     sign = Sign::kStays;
   } else if (is_unexplained(field, block, moved_px)) {
     const bool is_mixed = block.is_slow && staying.near >= kMixedPixels;
@@ -208,7 +208,7 @@ void BurnedIn::look(const BlockField& field, const Block& block) {
 void BurnedIn::end(const BlockGrid& grid) {
   for (size_t i = 0; i < signs_.size(); ++i) {
     const int change = signs_[i] == Sign::kStays ? kGain : -1;
-    lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMostScore));
+    lasting_[i] = static_cast<uint8_t>(std::clamp(lasting_[i] + change, 0, kMaxScore));
   }
   contained_.assign(signs_.size(), 0);
   occluded_.assign(signs_.size(), 0);

@@ -129,7 +129,7 @@ class BurnedIn {
 
   Margins margins_;
   std::vector<Sign> signs_;
-  std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMostScore
+  std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMaxScore
   std::vector<uint8_t> contained_;
   std::vector<uint8_t> occluded_;
   bool camera_moves_ = false;

@@ -34,14 +34,14 @@ Eigen::Vector2f direction_of(const std::vector<Eigen::Vector2f>& moved_px, float
 constexpr float kIndependentPixels = 16;
 /// Variance of a block's mean difference that remains where its own motion explains every pixel,
 /// grey²: that of rounding and of light that changes a little from position to position.
-constexpr float kLeastVariance_grey2 = 0.5f;
+constexpr float kMinVariance_grey2 = 0.5f;
 
 /// Squared Mahalanobis distance from which on a block moves by itself. The distance of two Gaussian
 /// coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
-constexpr float kLeastDistance2 = 13;
+constexpr float kMinDistance2 = 13;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
-/// is right to kMostOff_px. Nearer, the differences of pixels do not separate them.
-constexpr float kDifferentPixels_px = 2 * kMostOff_px;
+/// is right to kMaxOff_px. Nearer, the differences of pixels do not separate them.
+constexpr float kDifferentPixels_px = 2 * kMaxOff_px;
 /// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
 /// distribution: much of a scene is further from its model than the middle of it suggests.
 constexpr float kDepths = 4;
@@ -59,7 +59,7 @@ constexpr float kWorseFraction = 0.15f;
 constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 
 /// A block that stands out moves if this many around it do: errors seldom lie side by side.
-constexpr int kLeastNeighbours = 3;
+constexpr int kMinNeighbours = 3;
 
 /// How much a block must have stood out in the last frames, 0 … 1, see remember_what_stood_out():
 /// in two of them to need only one moving neighbour, in four of them to need none.
@@ -72,7 +72,7 @@ constexpr float kLastingAlone = 0.8f;
 /// too, whose S has none.
 float distance2(const RelativeBlock& relative, const MotionBlock& block,
                 const Eigen::Matrix2f& noise_px2) {
-  const float v = block.residual / kIndependentPixels + kLeastVariance_grey2;
+  const float v = block.residual / kIndependentPixels + kMinVariance_grey2;
   const Eigen::Matrix2f both = v * Eigen::Matrix2f::Identity() + noise_px2 * block.structure;
   return (block.structure * relative.moved_px).dot(both.inverse() * relative.moved_px);
 }
@@ -100,7 +100,7 @@ float least_worse(const BlockField& field, const MotionBlock& block) {
 bool pixels_tell(const BlockField& field, size_t index, const RelativeBlock& relative,
                  bool expected) {
   // Both are right to half a pixel.
-  if (std::hypot(relative.moved_px.x(), relative.moved_px.y()) < kMostOff_px / 2) return false;
+  if (std::hypot(relative.moved_px.x(), relative.moved_px.y()) < kMaxOff_px / 2) return false;
   const float least =
       expected ? least_worse(field, field.blocks()[index]) : kFarWorse_grey * kBlockArea_px;
   const std::optional<int> worse = worse_with_background(field, index, relative);
@@ -202,7 +202,7 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   const MotionBlock& block = field.blocks()[index];
   const RelativeBlock& relative = relative_[index];
   if (!relative.shows_motion) return false;
-  const float least2 = expected ? kSlower * kSlower * kLeastDistance2 : kLeastDistance2;
+  const float least2 = expected ? kSlower * kSlower * kMinDistance2 : kMinDistance2;
   if (distance2(relative, block, noise_px2) < least2) return false;
   if (relative.was_outside) return false;
   // Of a slow block the pixels say nothing, and a moving camera moves many blocks of a scene with
@@ -211,7 +211,7 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   if (is_slow) {
     if (expected || camera_is_still_) return true;
     const Eigen::Matrix2f depths_px2 = kDepths * parallax_.covariance_px2();
-    if (distance2(relative, block, depths_px2) < kLeastDistance2) return false;
+    if (distance2(relative, block, depths_px2) < kMinDistance2) return false;
   }
   const std::optional<int> worse = worse_with_background(field, index, relative);
   if (!worse) return false;
@@ -242,7 +242,7 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
     RelativeBlock& block = relative_[i];
     block.lasts = stands_out && stood_out_[i].fraction > kLastingAlone;
     block.moves =
-        block.lasts || (stands_out && (moving >= kLeastNeighbours ||
+        block.lasts || (stands_out && (moving >= kMinNeighbours ||
                                        (moving > 0 && stood_out_[i].fraction > kLastingBesideOne)));
   }
 }

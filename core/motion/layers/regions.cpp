@@ -138,7 +138,7 @@ double LayerEvidence::ratio() const {
 
 double salience(const Region& region, const LayerEvidence& evidence, bool camera_moves,
                 bool was_followed) {
-  if (region.roundness < MotionBlock::kLeastRoundness) return 0;
+  if (region.roundness < MotionBlock::kMinRoundness) return 0;
   const double speed_px = region.relative_px.norm();
   const double side_px = std::sqrt(region.blocks * kBlockArea_px);
   const double score = side_px * speed_px;

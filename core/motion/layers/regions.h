@@ -39,7 +39,7 @@ constexpr int16_t kNoRegion = -1;
 /// Finds the regions of a field. Each block is connected with its eight neighbours.
 class RegionFinder {
  public:
-  RegionFinder() { regions_.reserve(kMostRegions); }
+  RegionFinder() { regions_.reserve(kMaxRegions); }
 
   /// Finds the regions of the blocks that move, down to single blocks.
   const std::vector<Region>& find(const BlockField& field,
@@ -48,7 +48,7 @@ class RegionFinder {
   /// The region of each block, or kNoRegion.
   const std::vector<int16_t>& labels() const { return labels_; }
 
-  static constexpr size_t kMostRegions = 128;  ///< for which memory is reserved
+  static constexpr size_t kMaxRegions = 128;  ///< for which memory is reserved
 
  private:
   int root_of(int block);

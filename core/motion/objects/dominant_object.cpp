@@ -7,8 +7,8 @@
 namespace spidar {
 namespace {
 
-/// Memory for the objects of a frame, see ObjectTracker::kMostObjects.
-constexpr size_t kMostRivals = 16;
+/// Memory for the objects of a frame, see ObjectTracker::kMaxObjects.
+constexpr size_t kMaxRivals = 16;
 
 /// The rate at which a reason grows, see the class.
 double growth(double prominence, double of_followed) {
@@ -37,8 +37,8 @@ bool DominantObject::may_be_it(const MovingObject& object) const {
 }
 
 DominantObject::DominantObject() {
-  rivals_.reserve(kMostRivals);
-  next_.reserve(kMostRivals);
+  rivals_.reserve(kMaxRivals);
+  next_.reserve(kMaxRivals);
 }
 
 void DominantObject::reset() {

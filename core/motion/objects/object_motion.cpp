@@ -12,13 +12,13 @@ namespace {
 
 /// Windows are used instead of the blocks if there are this many that move as the blocks do: two
 /// more than determine a similarity.
-constexpr size_t kLeastWindows = 4;
+constexpr size_t kMinWindows = 4;
 
 }  // namespace
 
 ObjectMeter::ObjectMeter() {
-  collected_.points.reserve(kMostDisplacements);
-  collected_.weights.reserve(kMostDisplacements);
+  collected_.points.reserve(kMaxDisplacements);
+  collected_.weights.reserve(kMaxDisplacements);
 }
 
 /// Collects the blocks of an object that show how they move.
@@ -28,7 +28,7 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     const RelativeBlock& relative = evidence.relative[i];
     if (evidence.owners[i] != key || !relative.shows_motion) continue;
-    if (collected_.points.size() >= kMostDisplacements) break;
+    if (collected_.points.size() >= kMaxDisplacements) break;
     const Eigen::Vector2d moved_px = relative.moved_px.cast<double>();
     collected_.points.push_back({blocks[i].centre_px.cast<double>() - moved_px, moved_px});
   }
@@ -51,7 +51,7 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
   }
   collected_.weights.assign(collected_.points.size(), 1.0);
   collected_.sigma_px = kUsualNoise_px;
-  return collected_.points.size() >= kLeastWindows;
+  return collected_.points.size() >= kMinWindows;
 }
 
 /// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
@@ -101,8 +101,8 @@ bool is_around(const Region& region, const Eigen::Vector2d& at_px) {
 }  // namespace
 
 ErrorBound::ErrorBound() {
-  squares_px2_.reserve(kMostDisplacements);
-  beside_px_.reserve(kMostDisplacements);
+  squares_px2_.reserve(kMaxDisplacements);
+  beside_px_.reserve(kMaxDisplacements);
 }
 
 /// Variance of each coordinate that comes from the object's blocks: of their median, and of the
@@ -127,7 +127,7 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
   const auto n = static_cast<double>(squares_px2_.size());
   const double middle_px2 = median(squares_px2_.begin(), squares_px2_.end());
   const double texture =
-      static_cast<double>(std::max(smaller_eigenvalue(structure), MotionBlock::kLeastTexture));
+      static_cast<double>(std::max(smaller_eigenvalue(structure), MotionBlock::kMinTexture));
   return kMedianVariance * middle_px2 / (kRayleighMedian * kRayleighMedian * n) +
          static_cast<double>(residual) / (n * kBlockArea_px * texture);
 }

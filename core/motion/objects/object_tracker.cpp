@@ -16,7 +16,7 @@ namespace {
 /// boxes' sides.
 constexpr double kReach = 0.75;
 /// Fewer blocks are no region of an object yet, see is_enough().
-constexpr int kLeastBlocks = 2;
+constexpr int kMinBlocks = 2;
 
 /// Fraction of its usual blocks that an object at rest still has where it was.
 constexpr double kRemainingFraction = 0.5;
@@ -24,10 +24,10 @@ constexpr double kRemainingFraction = 0.5;
 }  // namespace
 
 ObjectTracker::ObjectTracker() {
-  lives_.reserve(kMostObjects);
-  region_keys_.reserve(RegionFinder::kMostRegions);
-  order_.reserve(RegionFinder::kMostRegions);
-  objects_.reserve(kMostObjects);
+  lives_.reserve(kMaxObjects);
+  region_keys_.reserve(RegionFinder::kMaxRegions);
+  order_.reserve(RegionFinder::kMaxRegions);
+  objects_.reserve(kMaxObjects);
 }
 
 void ObjectTracker::reset() {
@@ -73,7 +73,7 @@ ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame&
 
 /// The key of a new object; 0 when there are too many.
 uint32_t ObjectTracker::create(const Region& region) {
-  if (lives_.size() >= kMostObjects) return 0;
+  if (lives_.size() >= kMaxObjects) return 0;
   lives_.emplace_back();
   ObjectLife& life = lives_.back();
   life.key = next_key_++;
@@ -101,7 +101,7 @@ std::optional<int> ObjectTracker::resting_blocks(const ObjectLife& life,
 /// object stands still beside it, it comes to rest: the block is its rim.
 bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
                               const BlockField& field) const {
-  if (region.blocks >= kLeastBlocks) return true;
+  if (region.blocks >= kMinBlocks) return true;
   if (!life || !life->is_born()) return region.lasts;
   const bool is_rim = life->is_rim(region) && resting_blocks(*life, field);
   return !life->is_layer && !is_rim;
@@ -129,7 +129,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       life = nullptr;
     }
     if (!life || !life->is_born()) {
-      ObjectLife* back = region.blocks < kLeastBlocks ? nullptr : expected_at(region, frame);
+      ObjectLife* back = region.blocks < kMinBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
       if (back || (life && !life->moves_like(region, frame.interval_s))) life = back;
     }

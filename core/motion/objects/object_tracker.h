@@ -74,13 +74,13 @@ struct ObjectLife {
     state = next;
   }
 
-  /// Whether the region moves as the object did: like alike_px(), but with kMostOff_px, the
+  /// Whether the region moves as the object did: like alike_px(), but with kMaxOff_px, the
   /// largest error of a block's motion, in place of its noise.
   bool moves_like(const Region& other, double interval_s) const {
     const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
     const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
     return (other.relative_px - expected_px).norm() <
-           kAlikeFraction * fastest_px + static_cast<double>(kMostOff_px);
+           kAlikeFraction * fastest_px + static_cast<double>(kMaxOff_px);
   }
   /// Whether the visible region is only a rim of the object.
   bool is_rim(const Region& visible) const {
@@ -181,7 +181,7 @@ class ObjectTracker {
   void reset();
 
   static constexpr double kForgotten_s = ObjectLife::kForgotten_s;
-  static constexpr size_t kMostObjects = 16;
+  static constexpr size_t kMaxObjects = 16;
 
  private:
   void claim(const FieldInFrame& frame);

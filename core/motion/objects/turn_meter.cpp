@@ -29,12 +29,12 @@ constexpr float kSlopeSigmas = 3;
 constexpr float kSlopeError = 0.14F;
 /// With less than this fraction of what seems to determine a parameter, errors of the slopes do:
 /// the rim of a plain disc does not show how it turns.
-constexpr double kLeastReliable = 0.75;
+constexpr double kMinReliable = 0.75;
 /// Fraction of the pixels of a rigid thing that are within two standard deviations.
 constexpr double kRigid = 0.95;
 /// How far what a similarity does not explain may be from where the rest of it has it, px of the
 /// field's picture: half of what the motion of a block may be off.
-constexpr double kBends_px = kMostOff_px / 2.0;
+constexpr double kBends_px = kMaxOff_px / 2.0;
 
 /// Grey level between pixels; nothing outside of the picture.
 struct Sample {
@@ -112,9 +112,9 @@ void thin_out(std::vector<Value>& values, size_t most) {
 }  // namespace
 
 TurnMeter::TurnMeter() {
-  slopes_.reserve(kMostBlocks * kBlockArea_px);
-  pixels_.reserve(kMostPixels);
-  sums_.reserve(kMostBlocks);
+  slopes_.reserve(kMaxBlocks * kBlockArea_px);
+  pixels_.reserve(kMaxPixels);
+  sums_.reserve(kMaxBlocks);
 }
 
 void TurnMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
@@ -123,7 +123,7 @@ void TurnMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   for (size_t i = 0; i < evidence.owners.size(); ++i) {
     if (evidence.owners[i] == key) blocks_.push_back(i);
   }
-  thin_out(blocks_, kMostBlocks);
+  thin_out(blocks_, kMaxBlocks);
   const auto n = static_cast<double>(blocks_.size());
   const auto centre_px = [&](size_t block) -> Vector2d {
     return evidence.field.blocks()[block].centre_px.cast<double>();
@@ -153,7 +153,7 @@ void TurnMeter::collect_slopes(const BlockField& field) {
       }
     }
   }
-  thin_out(slopes_, kMostPixels);
+  thin_out(slopes_, kMaxPixels);
 }
 
 inline Vector2f TurnMeter::before_px(const Pixel& pixel, const Eigen::Vector4f& motion) const {
@@ -291,7 +291,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   const auto estimate = [&](double value, int parameter) {
     const float of_noise_px2 = covariance(parameter, parameter);
     const double reliable = 1 - static_cast<double>(all.noise * of_noise_px2);
-    if (!(reliable > kLeastReliable)) return Estimate{value};
+    if (!(reliable > kMinReliable)) return Estimate{value};
     const double px2 =
         std::max(static_cast<double>(of_noise_px2), of_blocks_px2[parameter]) / squared(reliable) +
         squared(bends_px);

@@ -48,8 +48,8 @@ class TurnMeter {
 
   /// Limits that bound the time for a frame: of more blocks or pixels, every second one is used,
   /// and so on.
-  static constexpr size_t kMostBlocks = 32;
-  static constexpr size_t kMostPixels = 1024;
+  static constexpr size_t kMaxBlocks = 32;
+  static constexpr size_t kMaxPixels = 1024;
 
  private:
   /// A pixel with a slope.

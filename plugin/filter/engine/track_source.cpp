@@ -13,7 +13,7 @@ namespace spidar::filter {
 namespace {
 
 /// Where frames are missing for longer, so are the samples that they would be shown with.
-constexpr int64_t kMostMissing_ns = 500'000'000;
+constexpr int64_t kMaxMissing_ns = 500'000'000;
 
 /// Backwards, the track is read in pieces of so much.
 constexpr int64_t kPiece_ns = 4'000'000'000;
@@ -141,7 +141,7 @@ void TrackReplay::play(const FrameStamp& frame,
   if (!has_track() || frame.rate == 0 || !std::isfinite(frame.rate)) return;
   const int64_t at_ns = first_ns(frame);
   const bool is_anew = frame.epoch != epoch_;
-  const bool is_gap = std::llabs(at_ns - expected_ns_) > kMostMissing_ns;
+  const bool is_gap = std::llabs(at_ns - expected_ns_) > kMaxMissing_ns;
   const bool backwards = frame.rate < 0;
   if (is_anew || is_gap || frame.rate != rate_) given_ns_ = at_ns;
   if (is_anew) late_ = false;

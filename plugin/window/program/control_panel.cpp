@@ -10,9 +10,9 @@
 namespace spidar::window {
 namespace {
 
-/// A slider is logarithmic if its range exceeds kMostLinearRange, or if its default would be in the
+/// A slider is logarithmic if its range exceeds kMaxLinearRange, or if its default would be in the
 /// first kFarLeft of it.
-constexpr double kMostLinearRange = 1e6, kFarLeft = 0.1;
+constexpr double kMaxLinearRange = 1e6, kFarLeft = 0.1;
 constexpr double kTooltip_px = 340, kNameFraction = 0.4;
 /// Room for a value to the right of its slider: "0.0025 s/px".
 constexpr double kValue_px = 84;
@@ -43,7 +43,7 @@ bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp |
-      (range > kMostLinearRange || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
+      (range > kMaxLinearRange || is_far_left ? ImGuiSliderFlags_Logarithmic : 0);
   const char* const format = setting.kind == Setting::Kind::kWhole ? "%.0f" : "%.4g";
   const bool is_typing = ImGui::GetIO().WantTextInput;
   ImGui::BeginGroup();

@@ -25,7 +25,7 @@ namespace spidar::window {
 namespace {
 
 /// At a scale of 1: what is smaller cannot be read.
-constexpr int kLeastWidth = 640, kLeastHeight = 480;
+constexpr int kMinWidth = 640, kMinHeight = 480;
 constexpr double kNote_s = 4;
 /// So long after a frame the plots stand still, so that the end of a film stays to be looked at.
 constexpr double kIdle_s = 1;
@@ -101,8 +101,8 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwSwapInterval(0);  // the program keeps the pace itself
   ImGui::CreateContext();
   screen_scale_ = screen_scale(window_);
-  glfwSetWindowSizeLimits(window_, static_cast<int>(kLeastWidth * screen_scale_),
-                          static_cast<int>(kLeastHeight * screen_scale_), GLFW_DONT_CARE,
+  glfwSetWindowSizeLimits(window_, static_cast<int>(kMinWidth * screen_scale_),
+                          static_cast<int>(kMinHeight * screen_scale_), GLFW_DONT_CARE,
                           GLFW_DONT_CARE);
   ImGui::GetIO().IniFilename = nullptr;
   set_scale(screen_scale_);

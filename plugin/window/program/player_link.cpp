@@ -27,7 +27,7 @@ void FrameQueue::add(QueuedFrame frame) {
 std::optional<QueuedFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
   const auto is_due = [&](const QueuedFrame& frame) {
     return !running_ns || frame.report.frame.stamp.running_ns <= *running_ns ||
-           waiting_.size() > kMost;
+           waiting_.size() > kMax;
   };
   std::optional<QueuedFrame> shown;
   while (!waiting_.empty() && is_due(waiting_.front())) {

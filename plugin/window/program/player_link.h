@@ -30,7 +30,7 @@ class FrameQueue {
  public:
   /// With more frames, as between the element and a sink with a long queue, the oldest is shown
   /// although it is not on the screen yet.
-  static constexpr size_t kMost = 8;
+  static constexpr size_t kMax = 8;
 
   /// An earlier running time than before is another stream, or a seek: all that waits is forgotten.
   void add(QueuedFrame frame);

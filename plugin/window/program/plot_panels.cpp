@@ -12,7 +12,7 @@
 namespace spidar::window {
 namespace {
 
-constexpr double kLeastForce_N = 0.1, kLeastSpeed_px_s = 100, kHeadroom = 1.1;
+constexpr double kLeastForce_N = 0.1, kMinSpeed_px_s = 100, kHeadroom = 1.1;
 constexpr int kCurvePoints = 64;
 
 std::string number(const char* format, double value) {
@@ -74,7 +74,7 @@ double largest_N(const std::vector<ForceColumn>& columns) {
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
-  return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kLeastSpeed_px_s);
+  return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kMinSpeed_px_s);
 }
 
 /// The speeds whose force is weaker than kFeltForce_N. `adaptive` is drawn with the dead zone of an

@@ -43,13 +43,13 @@ std::string film_time(int64_t ns) {
 }
 
 /// The part of the panel with the whole film.
-constexpr double kStrip_px = 9, kLeastMark_px = 4;
+constexpr double kStrip_px = 9, kMinMark_px = 4;
 
 Rect mark_rect(const Brush& brush, const Rect& position, const FilmStrip& strip,
                const StripMark& mark) {
   const double from = position.x + strip.fraction(mark.rule.from_ns) * position.width;
   const double to = position.x + strip.fraction(mark.rule.to_ns) * position.width;
-  return {from, position.y, std::max(to - from, kLeastMark_px * brush.scale), position.height};
+  return {from, position.y, std::max(to - from, kMinMark_px * brush.scale), position.height};
 }
 
 void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip) {
@@ -73,7 +73,7 @@ void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip,
   ImGui::InvisibleButton("film", im(position.width, position.height + 4 * brush.scale));
   if (!ImGui::IsItemHovered()) return;
   const double fraction = (ImGui::GetIO().MousePos.x - position.x) / position.width;
-  const StripMark* const mark = strip.at(fraction, kLeastMark_px * brush.scale / position.width);
+  const StripMark* const mark = strip.at(fraction, kMinMark_px * brush.scale / position.width);
   if (!mark) {
     const auto at_ns = static_cast<int64_t>(fraction * static_cast<double>(strip.length_ns));
     ImGui::SetTooltip("A click plays from %s.", film_time(at_ns).c_str());

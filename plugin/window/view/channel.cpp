@@ -89,7 +89,7 @@ void Channel::flush() {
 void Channel::fill() {
   std::array<uint8_t, kReadBytes> bytes;
   alignas(cmsghdr) std::array<char, CMSG_SPACE(kMostFiles * sizeof(int))> space;
-  while (!is_gone_ && received_.size() - taken_ <= sizeof(Header) + kMostBytes) {
+  while (!is_gone_ && received_.size() - taken_ <= sizeof(Header) + kMaxBytes) {
     iovec room{bytes.data(), bytes.size()};
     msghdr message{};
     message.msg_iov = &room;
@@ -118,7 +118,7 @@ std::optional<std::vector<uint8_t>> Channel::next() {
   const Header own;
   if (received_.size() - taken_ < sizeof header) return std::nullopt;
   std::memcpy(&header, received_.data() + taken_, sizeof header);
-  if (header.magic != own.magic || header.version != own.version || header.bytes > kMostBytes) {
+  if (header.magic != own.magic || header.version != own.version || header.bytes > kMaxBytes) {
     is_gone_ = is_not_understood_ = true;
     return std::nullopt;
   }
@@ -126,7 +126,7 @@ std::optional<std::vector<uint8_t>> Channel::next() {
   const auto first = received_.begin() + static_cast<ptrdiff_t>(taken_ + sizeof header);
   std::vector<uint8_t> packet(first, first + header.bytes);
   taken_ += sizeof header + header.bytes;
-  if (taken_ == received_.size() || taken_ > kMostBytes) {
+  if (taken_ == received_.size() || taken_ > kMaxBytes) {
     received_.erase(received_.begin(), received_.begin() + static_cast<ptrdiff_t>(taken_));
     taken_ = 0;
   }

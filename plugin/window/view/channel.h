@@ -16,7 +16,7 @@ namespace spidar::window {
 class Channel {
  public:
   /// More than any picture's report takes. The other end is broken if it sends more.
-  static constexpr uint32_t kMostBytes = 64 << 20;
+  static constexpr uint32_t kMaxBytes = 64 << 20;
 
   /// Takes over the socket (AF_UNIX, SOCK_STREAM).
   explicit Channel(int socket) : socket_(socket) {}

@@ -283,7 +283,7 @@ void transfer(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
 template <typename Wire>
 void transfer(Wire& wire, PictureMemory& memory) {
   wire(memory.id, memory.caps, memory.slots, memory.slot_bytes);
-  if (memory.slots > PictureMemory::kMostSlots) wire.fail();
+  if (memory.slots > PictureMemory::kMaxSlots) wire.fail();
 }
 
 template <typename Wire>

@@ -29,7 +29,7 @@ constexpr uint16_t kProtocol = 5;
 
 /// Memory for pictures, which replaces any before it. Its file comes with the message.
 struct PictureMemory {
-  static constexpr uint32_t kMostSlots = 64;
+  static constexpr uint32_t kMaxSlots = 64;
 
   uint32_t id = 0;
   std::string caps;  ///< format and size of each picture, as GStreamer writes it

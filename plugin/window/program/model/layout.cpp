@@ -82,8 +82,8 @@ PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double
 
 GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry)
     : centre_px_(panel.x + panel.width / 2, panel.y + panel.height / 2) {
-  constexpr double kLeast_m = 1e-3;
-  Eigen::Vector2d reach_m(kLeast_m, kLeast_m);
+  constexpr double kMin_m = 1e-3;
+  Eigen::Vector2d reach_m(kMin_m, kMin_m);
   for (int i = 0; i < geometry.count; ++i) {
     reach_m = reach_m.cwiseMax(flat_m(geometry.exit_m[static_cast<size_t>(i)]).cwiseAbs());
   }

@@ -68,7 +68,7 @@ void Timeline::clear() {
 }
 
 void Timeline::zoom(double factor) {
-  plotted_s_ = std::clamp(plotted_s_ * factor, kLeastPlotted_s, kMostPlotted_s);
+  plotted_s_ = std::clamp(plotted_s_ * factor, kMinPlotted_s, kMaxPlotted_s);
 }
 
 double Timeline::remembered_s() const {

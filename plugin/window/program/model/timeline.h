@@ -41,7 +41,7 @@ class Timeline {
  public:
   static constexpr double kMemory_s = 60;  ///< older moments are forgotten
   static constexpr double kPlotted_s = 5;  ///< what the plots show at first, up to the newest
-  static constexpr double kLeastPlotted_s = 0.5, kMostPlotted_s = 20;
+  static constexpr double kMinPlotted_s = 0.5, kMaxPlotted_s = 20;
 
   /// Moments in order of time.
   void add(const Moment& moment);
