@@ -78,6 +78,20 @@ TEST(FineWindows, AreFoundToAFewHundredthsOfAPixelOfTheFrame) {
   }
 }
 
+TEST(FineWindows, AreNeverMoreThanThereIsRoomFor) {
+  Fine fine;
+  const Picture picture = moved({0, 0});
+  fine.see(picture);
+  const BlockGrid& grid = fine.field.grid();
+  const size_t block = grid.index(grid.columns / 2, grid.rows / 2);
+  // Of 97, every second one is 49.
+  for (const size_t count : {FineWindows::kMax, 2 * FineWindows::kMax + 1}) {
+    fine.windows.keep(picture.view(), fine.field, fine.position, std::vector<size_t>(count, block));
+    EXPECT_EQ(fine.windows.find(picture.view(), fine.field, fine.position).size(),
+              FineWindows::kMax);
+  }
+}
+
 TEST(FineWindows, ABrightnessCommonToAllPixelsIsNoMotion) {
   const Vector2d by_px(3.4, 1.7);
   EXPECT_LT(worst_px(moved({0, 0}, 0.8), moved(by_px, 0.8, 20), by_px), kTolerance_px);
