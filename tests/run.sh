@@ -213,14 +213,14 @@ case ${1-} in
         # The tests there execute something of each source.
         begin_check "sources executed" tests/check_executed.py build-ci-address
     fi
-    begin_check "clang-tidy" tests/check_tidy.sh
+    begin_check "names and braces" tests/check_tidy.sh --quick
     # Doxygen reads the public headers, and Sphinx the pages, without a warning. The site stays in docs/site there.
     begin_check "site" meson compile -C build-ci-address docs
     say "thread sanitizer: the 1 kHz loop and the queues to and from it"
     ! build build-ci-thread "$threaded" || run_tests build-ci-thread 8 --suite threaded
     end_check "sources executed"
     end_check "site"
-    end_check "clang-tidy"
+    end_check "names and braces"
     say "left out of all three: suite films, which takes an hour; suite hazards, which takes some minutes; suite kernel," \
         "a virtual machine that needs QEMU and a kernel image; suite library, which installs Slurm and takes ten" \
         "minutes; suite mpeg, which needs MPEG's reference software; suite packages, which builds the Debian packages in" \
