@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tells the thread sanitizer in which order GLib's locks, reference counts and queues put what
-/// threads do. GLib is not built with the sanitizer and makes its locks of futexes, so that
-/// everything that they protect would look like a race. A program that is linked with this calls
-/// these functions in place of GLib's, and so do GStreamer's libraries in it.
+/// Tells the thread sanitizer how GLib's locks and reference counts order the work of threads. GLib
+/// is not built with the sanitizer and makes its locks of futexes, so that everything that they
+/// protect would look like a race. A program that is linked with this file, and GStreamer's
+/// libraries in it, call these functions in place of GLib's.
 #include <dlfcn.h>
 
 #include <glib.h>
