@@ -8,6 +8,7 @@ event and, at 1 kHz, forces and position (_physio.tsv.gz). Each table has a JSON
 import csv
 import gzip
 import json
+import os
 import re
 import shutil
 from collections import defaultdict
@@ -15,9 +16,10 @@ from pathlib import Path
 
 from delivery import AXES, MS_NS, rows_of
 from perception import THRESHOLDS
-from records import read_answers, read_rows, read_settings
+from records import append_row, read_answers, read_rows, read_settings, utc_now
 from trials import CONDITIONS, QUESTIONS, STEPS
 
+EXPORT_COLUMNS = ["folder", "time_utc"]
 BIDS_VERSION = "1.10.0"
 MODELS = Path(__file__).with_name("models.R")
 HANDEDNESS = {"both": "ambidextrous"}  # BIDS's word
@@ -69,9 +71,13 @@ def write_table(path, columns, rows):
         writer.writerows([[str(row.get(name, "")) or "n/a" for name in columns] for row in rows])
 
 
+def label_of(participant):
+    return re.sub("[^A-Za-z0-9]", "", participant)
+
+
 def labels_of(participants):
     """Letters and digits are all that BIDS allows. Raises ValueError if two become the same."""
-    labels = {each: re.sub("[^A-Za-z0-9]", "", each) for each in participants}
+    labels = {each: label_of(each) for each in participants}
     if len(set(labels.values()) - {""}) < len(labels):
         raise ValueError("the codes of participants are not told apart by their letters and digits, which is all that BIDS "
                          f"allows: {', '.join(sorted(labels))}")
@@ -121,7 +127,7 @@ def write_runs(answers, participant, label, folder, trials):
 
 
 def export(path, folder):
-    """Raises ValueError if there are no answers, and FileExistsError rather than to mix with an older folder."""
+    """Raises ValueError if there are no answers, or rather than to mix with an older folder."""
     answers, settings = read_answers(path), read_settings(path)
     if not answers:
         raise ValueError(f"{path}: there are no answers in it")
@@ -129,7 +135,11 @@ def export(path, folder):
     for answer in answers:
         of[answer.participant].append(answer)
     labels, folder = labels_of(of), Path(folder)
+    if os.path.lexists(folder) or not folder.parent.is_dir():
+        raise ValueError(f"{folder}: " + ("exists; name a new folder, or remove that one" if os.path.lexists(folder) else
+                                          f"there is no folder {folder.parent}"))
     folder.mkdir()
+    append_row(f"{path}.exports", EXPORT_COLUMNS, [folder.resolve(), utc_now()])
     write_json(folder / "dataset_description.json", {
         "Name": "A study of haptic feedback for films, with gst-spidar", "BIDSVersion": BIDS_VERSION, "DatasetType": "raw",
         "GeneratedBy": [{"Name": "gst-spidar", "Version": settings["version"]}]})
@@ -160,3 +170,13 @@ def export(path, folder):
                 vars(answer) | {"clip": Path(answer.clip).name, "response": answer.answer}
                 for answer in given if answer.part == part])
         write_runs(path, participant, label, own, {answer.trial: answer for answer in given})
+
+
+def exports_with(path, participant):
+    """For each earlier export: where this participant still is, and what to do; nothing if the folder is without them."""
+    for row in read_rows(f"{path}.exports"):
+        folder = Path(row["folder"])
+        if (folder / f"sub-{label_of(participant)}").exists():
+            yield f"{folder} still has what was exported of {participant}: remove it, and export again"
+        elif not folder.exists():
+            yield f"what was exported to {folder} on {row['time_utc']} has been moved or removed: look for copies of it"

@@ -3,12 +3,13 @@
 """The files of a study: answers, participants, presentations, and the settings that everything was made with.
 
 Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .preview.json, .participants,
-.presentations, .briefings, .thresholds, .traces/."""
+.presentations, .briefings, .thresholds, .exports, .traces/."""
 
 import csv
 import hashlib
 import json
 import os
+import re
 from dataclasses import dataclass, fields
 from datetime import datetime, timezone
 from pathlib import Path
@@ -125,6 +126,8 @@ class Participants:
         """Deletes all that is kept of a participant but that somebody has left. Raises ValueError if nothing is."""
         if not any(row["participant"] == participant for row in self.rows):
             raise ValueError(f'{self.answers}: nobody in it is called "{participant}"')
+        for trace in self.traces_of(participant):
+            trace.unlink()
         for name in "", ".presentations", ".briefings", ".thresholds", ".participants":
             path = Path(f"{self.answers}{name}")
             if not path.exists():
@@ -137,9 +140,16 @@ class Participants:
                 rows = [row for row in rows if row[0] != participant]
             text = [",".join(csv_field(value) for value in row) + "\n" for row in [header, *rows]]
             replace_file(path, "".join(text))
-        for trace in Path(f"{self.answers}.traces").glob("*.csv"):
-            if trace.name.startswith(participant + "-") and trace.name[len(participant) + 1:][:1].isdigit():
-                trace.unlink()
+
+    def traces_of(self, participant):
+        """As the presentations say; of what was interrupted before it was one, by the longest code that the name has."""
+        shown = {row["trace"]: row["participant"] for row in read_rows(f"{self.answers}.presentations")}
+        codes = sorted((row["participant"] for row in self.rows if row["participant"]), key=len, reverse=True)
+        for trace in list(Path(f"{self.answers}.traces").glob("*.csv")):
+            name = trace.name.removesuffix(".csv").removesuffix(".haptic")
+            by_name = (code for code in codes if re.fullmatch(re.escape(code) + r"-\d+(-\d+)?", name))
+            if (shown.get(name) or next(by_name, None)) == participant:
+                yield trace
 
 
 def csv_field(value):

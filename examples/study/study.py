@@ -280,8 +280,12 @@ def execute(options, properties):
         Study(options, properties).begin()
         print(registration.text(read_settings(options.answers), options.participants))
     elif options.command == "withdraw":
+        from export import exports_with
+
         Participants(options.answers).withdraw(options.participant)
         print(f"{options.participant} is removed; the next participant takes this place")
+        for exported in exports_with(options.answers, options.participant):
+            print(exported)
     elif options.command == "threshold":
         Study(options, properties).measure_thresholds()
     elif options.command == "design":
@@ -301,7 +305,8 @@ def main(arguments):
         print(reason)
         return 1
     except (OSError, RuntimeError, ValueError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        what = f"{error.filename}: {error.strerror}" if getattr(error, "filename", None) else error
+        print(f"error: {what}", file=sys.stderr)
         return 2 if isinstance(error, ValueError) else 1
     return 0
 

@@ -119,7 +119,7 @@ class File(InFolder):
 
     def test_who_withdraws_leaves_nothing_and_blocks_nobody(self):
         begun = {}
-        for name in "P1", "P2", "P11":
+        for name in "P1", "P2", "P11", "P1-2":
             index = records.Participants(self.path).index_of(name)
             records.Participants(self.path).register(name)
             begun[name] = trials.schedule(CLIPS, index, 1)
@@ -127,19 +127,21 @@ class File(InFolder):
             records.append_row(f"{self.path}.briefings", ["participant", "check"], [name, "consent"])
             records.append_row(f"{self.path}.presentations", records.PRESENTATION_COLUMNS,
                                [name, 1, f"{name}-1", 1, "a, b", "", ""])
-            trace = Path(f"{self.path}.traces/{name}-1.haptic.csv")
-            trace.parent.mkdir(exist_ok=True)
-            trace.touch()
+            # The last one was interrupted before it was a presentation.
+            for trace in f"{name}-1.haptic.csv", f"{name}-12.csv":
+                Path(f"{self.path}.traces").mkdir(exist_ok=True)
+                Path(f"{self.path}.traces/{trace}").touch()
         participants = records.Participants(self.path)
         with self.assertRaisesRegex(ValueError, 'nobody in it is called "P3"'):
             participants.withdraw("P3")
         participants.withdraw("P1")
+        self.assertEqual({file.name for file in Path(f"{self.path}.traces").iterdir()},
+                         {f"{name}-{rest}.csv" for name in ("P2", "P11", "P1-2") for rest in ("1.haptic", "12")})
         for file in self.path.parent.rglob("*"):
-            self.assertNotIn("P1-", file.name)
             if file.is_file():
-                self.assertNotRegex(file.read_text(), r"\bP1\b", file)
+                self.assertNotRegex(file.read_text(), r"\bP1\b(?!-2)", file)
         answers = records.read_answers(self.path)
-        self.assertEqual([answer.participant for answer in answers], ["P2", "P11"])
+        self.assertEqual([answer.participant for answer in answers], ["P2", "P11", "P1-2"])
         participants = records.Participants(self.path)
         self.assertEqual(participants.withdrew(), 1)
         for name, index in ("P2", 1), ("P11", 2):
@@ -147,7 +149,7 @@ class File(InFolder):
             trials.open_questions(answers, name, begun[name], {})  # goes on as it began
         self.assertEqual(participants.index_of("P4"), 0, "the next one takes the place")
         participants.register("P4")
-        self.assertEqual(records.Participants(self.path).index_of("P5"), 3)
+        self.assertEqual(records.Participants(self.path).index_of("P5"), 4)
 
     def test_settings_stay_as_they_were(self):
         settings = {"seed": 1, "clips_sha256": {"a.avi": "1f"}, "device": "sim"}

@@ -115,10 +115,23 @@ class Export(unittest.TestCase):
         self.assertEqual((event["onset"], event["duration"], event["trial_type"]), ("0", "0.605", "linear"))
 
     def test_refuses_what_bids_cannot_tell_apart_and_what_is_there(self):
-        with self.assertRaises(FileExistsError):
+        with self.assertRaisesRegex(ValueError, "bids: exists; name a new folder"):
             export.export(self.answers, self.out)
+        with self.assertRaisesRegex(ValueError, "there is no folder .*/none"):
+            export.export(self.answers, self.out.parent / "none" / "bids")
         with self.assertRaisesRegex(ValueError, "not told apart by their letters and digits.*P 1, P1"):
             export.labels_of(["P1", "P 1"])
+
+    def test_says_what_it_still_has_of_whom(self):
+        copy = Path(f"{self.answers}.2")
+        records.append_row(f"{copy}.exports", export.EXPORT_COLUMNS, [self.out, "2026-01-01T00:00:00Z"])
+        records.append_row(f"{copy}.exports", export.EXPORT_COLUMNS, ["/no/folder", "2026-01-02T00:00:00Z"])
+        still, gone = export.exports_with(copy, "P-1")
+        self.assertIn(f"{self.out} still has what was exported of P-1: remove it", still)
+        self.assertIn("/no/folder on 2026-01-02T00:00:00Z has been moved or removed", gone)
+        self.assertEqual(len(list(export.exports_with(copy, "P-99"))), 1, "who is not in the folder")
+        made, = export.exports_with(self.answers, "P-1")
+        self.assertEqual(made, still, "an export is noted")
 
     def test_the_models_of_r_find_what_the_report_finds(self):
         if not has_r():
