@@ -11,7 +11,9 @@ const [data, script] = [...fs.readFileSync(process.argv[2], "utf8")
   .matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map((found) => found[1]);
 
 let places = [], tip = null, origin = null, box = null, pulses = [], vibrated_ms = [], every = null, next = null;
+let scale = null;  // pixels of the canvas in one of the page
 const pen = {
+  setTransform(across, _0, _1, down) { scale = [across, down]; },
   beginPath() { places = []; },
   moveTo(x, y) { places.push([x, y]); },
   lineTo(x, y) { places.push([x, y]); },
@@ -59,6 +61,27 @@ const moments = process.argv.slice(3).map((time) => {
   every();
   return { tip, origin, box, said: parts.said.textContent, pulses, vibrated_ms };
 });
+/** The strongest of ten pulses, after the first three, while the film is so and its time runs or stands. */
+const strongest = (state, step_s) => {
+  Object.assign(film, state);
+  pulses = [];
+  vibrated_ms = [];
+  for (let i = 0; i < 13; ++i) {
+    if (i === 3) pulses = [];
+    film.currentTime += step_s;
+    every();
+  }
+  return Math.max(0, ...pulses);
+};
+const waiting = [{ readyState: 2 }, { seeking: true }, {}].map((state) => {
+  const rests = strongest(state, 0);
+  return [rests, strongest({ readyState: 4, seeking: false }, .001)];
+});
+const canvases = [1, 2, 1.25].map((fineness) => {
+  page.devicePixelRatio = fineness;
+  next();
+  return [parts.arrow.width, parts.arrow.height, ...scale];
+});
 film.paused = true;
 pulses = [];
 vibrated_ms = [];
@@ -76,5 +99,5 @@ let poster_s = null;
 const begins_s = playedFrom(() => { poster_s = film.currentTime; });
 const sought_s = playedFrom(() => { film.currentTime = poster_s / 2; });
 console.log(JSON.stringify({
-  poster_s, begins_s, sought_s, moments, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
+  poster_s, begins_s, sought_s, moments, waiting, canvases, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
   about: parts.pad.textContent, wide: !parts.wide.hidden, most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));

@@ -197,6 +197,25 @@ class FilmPage(track_case.TrackCase):
         self.assertEqual(self.run_page(.15)["paused"], {"pulses": [0], "vibrated_ms": [0]})
         self.assertEqual(self.run_page(.15, 7)["paused"], {"pulses": [], "vibrated_ms": []})
 
+    @track_case.needs("node")
+    def test_a_film_that_waits_for_data_is_at_rest(self):
+        """Also where the browser only lets its time stand."""
+        self.make_film()
+        self.make_track("film.avi.haptic.wav")
+        self.export("film.avi")
+        for rests, goes_on in self.run_page(.15)["waiting"]:
+            self.assertEqual(rests, 0)
+            self.assertGreater(goes_on, 0)
+
+    @track_case.needs("node")
+    def test_it_is_drawn_in_the_pixels_of_the_screen(self):
+        """Which change with the zoom, and on another screen."""
+        self.make_film()
+        self.make_track("film.avi.haptic.wav")
+        self.export("film.avi")
+        self.assertEqual(self.run_page(.15)["canvases"],
+                         [[round(800 * fine), round(480 * fine), fine, fine] for fine in (1, 2, 1.25)])
+
     @track_case.needs("node", "ffmpeg")
     def test_a_film_whose_times_are_others_than_those_of_its_track_is_followed(self):
         """In a transport stream the pictures begin later."""
