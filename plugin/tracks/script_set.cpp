@@ -10,6 +10,7 @@
 
 #include <glib.h>
 
+#include "plugin/tracks/name_form.h"
 #include "plugin/tracks/track_summary.h"
 #include "spidar/text.h"
 #include "spidar/whole_file.h"
@@ -50,7 +51,7 @@ std::vector<ScriptFile> list_set(const std::string& film) {
   std::vector<ScriptFile> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    const auto axis = axis_in(name, path.filename().string());
+    const auto axis = axis_in(composed(name), composed(path.filename().string()));
     if (axis) files.push_back({(path.parent_path() / name).string(), *axis});
   }
   std::sort(files.begin(), files.end(), [](const ScriptFile& a, const ScriptFile& b) {

@@ -10,9 +10,11 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "plugin/films/file_pipeline.h"
+#include "plugin/tracks/name_form.h"
 
 namespace spidar {
 namespace {
@@ -33,8 +35,8 @@ std::vector<std::string> list_beside(const std::string& film,
   const std::string stem = fs::path(film).replace_extension().string();
   for (const std::string& name : {film, stem}) {
     for (const char* const end : ends) {
-      std::error_code ignored;
-      if (fs::exists(name + end, ignored)) files.push_back(name + end);
+      std::string file = tracks::existing(name + end);
+      if (!file.empty()) files.push_back(std::move(file));
     }
   }
   return files;

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 import time
+import unicodedata
 import unittest
 
 import track_case
@@ -78,6 +79,29 @@ class Files(track_case.TrackCase):
             self.assertEqual(len(self.samples(name + ".haptic.flac")), 1000)
         self.path(name).rename(self.path("x" + name))
         self.assert_said("name too long", "record", "x" + name)
+
+    def test_what_lies_beside_a_film_is_found_in_either_form_of_its_name(self):
+        """Letters with accents as one character or two, also in the names of folders."""
+        composed, decomposed = (unicodedata.normalize(form, "Café") for form in ("NFC", "NFD"))
+        self.make_film("film.avi")
+        tracks = dict(os.environ, SPIDAR_TRACK_PATH=str(self.path("tracks")))
+        for film, other in ((composed, decomposed), (decomposed, composed)):
+            self.path(film).mkdir()
+            self.path("film.avi").rename(self.path(f"{film}/{film}.avi"))
+            for track, env in ((f"{film}/{other}.avi.haptic.wav", None), (f"tracks/{other}/{other}.haptic.wav", tracks)):
+                self.path(track).parent.mkdir(parents=True, exist_ok=True)
+                self.make_track(track)
+                self.assertIn("the haptic track is ", self.spidartrack("info", f"{film}/{film}.avi", env=env))
+                self.path(track).unlink()
+            self.path(f"tracks/{other}").rmdir()
+            for script in (other, other + ".roll"):
+                script = self.path(f"{film}/{script}.funscript")
+                script.write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
+                said = self.run_in_folder(f"gst-launch-1.0 filesrc location={film}/{film}.avi ! decodebin ! videoconvert ! "
+                                          "spidarmotion device=none track=auto ! fakesink")
+                self.assertIn(f"{script.name}: ", said)
+                script.unlink()
+            self.path(f"{film}/{film}.avi").rename(self.path("film.avi"))
 
     def test_nothing_that_lies_at_the_name_of_a_part_file_is_written_into(self):
         self.make_film()
