@@ -15,6 +15,9 @@ import gi
 gi.require_version("Gst", "1.0")
 from gi.repository import GLib, Gst  # noqa: E402
 
+from full_screen import FullScreen  # noqa: E402
+from screen import Screen  # noqa: E402
+
 Gst.init(None)
 
 SINKS = {"window": "autovideosink", "headless": "fakesink sync=true", "fast": "fakesink sync=false"}
@@ -22,6 +25,7 @@ SOUNDS = {"window": "autoaudiosink", "headless": "fakesink sync=true", "fast": "
 # Frames are analysed before they are due, so that a busy machine is not late at once. 4 at 25/s are 160 ms.
 AHEAD = "queue max-size-buffers=4 max-size-bytes=0 max-size-time=0"
 PIPE_BYTES = 1 << 20  # two seconds of rows, which are dropped if nobody takes them
+OPENING_S = 5
 TRACE_LATE_S = 2  # how long to wait for the trace's rows, which are written every 50 ms
 
 
@@ -108,7 +112,7 @@ class TickRecorder:
         self.pipe = os.open(self.path, os.O_RDONLY | os.O_NONBLOCK)
         fcntl.fcntl(self.pipe, fcntl.F_SETPIPE_SZ, PIPE_BYTES)
         self.header = self.rest = b""
-        self.file, self.last_ns, self.until_ns = None, 0, 0
+        self.file, self.last_ns, self.device = None, 0, b""
         self.is_closed = False
         self.changed = threading.Condition()
         self.thread = threading.Thread(target=self.run, daemon=True)
@@ -130,14 +134,16 @@ class TickRecorder:
                 if lines:
                     if self.file:
                         self.file.write(b"".join(line + b"\n" for line in lines))
-                    self.last_ns = int(lines[-1].split(b",")[1])
+                    row = lines[-1].split(b",")
+                    self.last_ns, self.device = int(row[1]), row[self.header.split(b",").index(b"device")]
                     self.changed.notify_all()
             for line in lines if self.streams else ():
                 self.streams.add(dict(zip(self.header.decode().split(","), line.decode().split(","))))
 
     def start(self, path):
+        """When the device gives what it is asked for: its strings become taut over some tenths of a second."""
         with self.changed:
-            self.changed.wait_for(lambda: self.header, TRACE_LATE_S)
+            self.changed.wait_for(lambda: self.device == b"running", OPENING_S)
             self.file = open(path, "wb")
             self.file.write(self.header + b"\n")
 
@@ -200,8 +206,10 @@ class Player:
         self.pipeline = Gst.parse_launch(
             "uridecodebin name=source force-sw-decoders=true "
             f"videoconvert name=before ! videoflip video-direction={turn} name=turned "
-            f"videoflip video-direction={turn} name=back ! videoconvert ! {AHEAD} ! {SINKS[self.output]}")
+            f"videoflip video-direction={turn} name=back ! videoconvert ! videoscale ! {AHEAD} name=ahead ! {SINKS[self.output]}")
         get = self.pipeline.get_by_name
+        self.screen = Screen(self.pipeline, get("ahead").get_static_pad("src"))
+        self.full_screen = FullScreen(self.pipeline) if self.output == "window" else None
         self.pipeline.add(self.filter)
         get("turned").link(self.filter)
         self.filter.link(get("back"))
@@ -228,9 +236,11 @@ class Player:
         self.pipeline.set_state(Gst.State.NULL)
         self.filter.set_state(Gst.State.READY)
         self.pipeline.remove(self.filter)
+        if self.full_screen:
+            self.full_screen.close()
         self.pipeline = None
 
-    def play(self, clip, properties, is_turned=False, haptic_trace=None):
+    def play(self, clip, properties, is_turned=False, haptic_trace=None, screen_trace=None):
         """Plays to the end; returns False if the window was closed. Raises RuntimeError.
 
         `properties`: name=value, of this clip on.
@@ -246,6 +256,8 @@ class Player:
         finally:
             if haptic_trace:
                 self.recorder.stop()
+            if screen_trace:
+                self.screen.write(screen_trace)
             self.close_clip()
 
     def wait(self, clip):

@@ -1,30 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Whether a hand got the force that a presentation should have had, by its traces."""
+"""Whether a hand got the force and torque that a presentation should have had, at the time of the picture, by its traces.
+
+In each millisecond, what was delivered must be what was wanted as far as a hand can tell (perception.py). It may come
+earlier or later than its picture by what is not noticed, but evenly: else all that a fast motion passes through would be
+right at any time.
+"""
 
 import csv
 import math
 from collections import Counter
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from scipy.interpolate import CubicHermiteSpline
+from scipy.ndimage import maximum_filter1d, minimum_filter1d, uniform_filter1d
 
-from perception import FELT_N, LATE_MS, TURNED_DEG, WEBER
+from perception import FELT_N, FELT_NM, FROZEN_MS, LATE_MS, TURNED_DEG, WEBER, WEBER_OF_TORQUE
 
 AXES = "xyz"
+WRENCH = [f"{part}_{axis}_{unit}" for part, unit in (("force", "N"), ("torque", "Nm")) for axis in AXES]
 MS_NS = 1_000_000
-# Of a tick, whose force then stands for that millisecond. The loop runs at 1 kHz, and its ticks are late by some
-# milliseconds on a machine that is not real-time.
-MOST_AGE_MS = 10
-MOST_STALL_MS = 100
-STEP_MS = 5  # of the lags that are tried, up to
-MOST_LAG_MS = 200
-# A lag is one if the force fits so much better with it; of a steady force, none does.
-BETTER = 0.8
-STANDS = 0.05  # a force stands where it moves by less than this part of what it should
-NEARER = 0.5  # to its own condition (1) than to another (0)
-BANDS_HZ = (8, 16, 32, 64, 128, 256, 500)  # faster than films ask for, up to half of 1 kHz
+EVEN_MS = 200  # for so long one lag must fit, but for
+JITTER_MS = 10  # by which ticks are late on a machine that is not real-time
+MOST_LAG_MS, STEP_MS = 200, 5  # of the lags that are tried, to say why a force was wrong
+BETTER = 0.8  # a lag is the reason if the force fits so much better with it
+SHAKES_MS = 125  # and faster, 8 Hz, is a vibration: neither films nor filters ask for it
 
 
 def rows_of(path):
@@ -33,7 +33,7 @@ def rows_of(path):
 
 
 def between(samples, time_ns):
-    """Forces at times between samples, which are rows of time and force: monotone, as the loop has them
+    """Values at times between samples, which are rows of time and values: monotone, as the loop has them
     (core/force/wrench_timeline.h)."""
     samples = np.asarray(samples, float)
     times_ns, first = np.unique(samples[:, 0], return_index=True)
@@ -49,155 +49,156 @@ def between(samples, time_ns):
     return CubicHermiteSpline(times_ns, values, np.concatenate([slope[:1], inner, slope[-1:]]))(time_ns)
 
 
+def size(vectors):
+    return np.linalg.norm(vectors, axis=-1)
+
+
+def times_noticed(delivered, wanted):
+    """By how many times more than is noticed each wrench differs from the wanted one: in strength, direction, torque."""
+    force, torque = wanted[:, :3], wanted[:, 3:]
+    amount_N = size(force)
+    unit = force / np.maximum(amount_N, 1e-12)[:, None]
+    along_N = (delivered[:, :3] * unit).sum(axis=1)
+    across_N = size(delivered[:, :3] - along_N[:, None] * unit)
+    return np.max([abs(along_N - amount_N) / np.maximum(FELT_N, WEBER * amount_N),
+                   across_N / np.maximum(FELT_N, math.tan(math.radians(TURNED_DEG)) * amount_N),
+                   size(delivered[:, 3:] - torque) / np.maximum(FELT_NM, WEBER_OF_TORQUE * size(torque))], axis=0)
+
+
+def picture_late_ms(wanted, ticks, screen):
+    """For each tick, for how long the picture that should be on the screen has not been shown; and for how long one stood,
+    at most. `screen`: running_ns of each frame, and shown_ns, empty if it was dropped."""
+    frames_ns = [wanted[0][0]]
+    for time_ns, *_ in wanted[1:-1]:  # of the motion, halfway since the frame before; the last row is the clip's end
+        frames_ns.append(2 * time_ns - frames_ns[-1])
+    shown = np.array([[int(row["running_ns"]), int(row["shown_ns"])] for row in screen if row["shown_ns"]] or [[0, 2**62]])
+    newest = np.searchsorted(shown[:, 1], ticks["monotonic_ns"], side="right") - 1
+    on_screen_ns = np.where(newest >= 0, shown[newest, 0], -MS_NS)
+    due_ns = np.append(frames_ns, 2**62)[np.searchsorted(frames_ns, on_screen_ns + MS_NS // 2)]
+    frame_ns = float(np.median(np.diff(frames_ns))) if len(frames_ns) > 1 else 0
+    stood_ns = np.diff([ticks["monotonic_ns"][0], *shown[:, 1], ticks["monotonic_ns"][-1] - frame_ns]).max()
+    return (np.maximum(0, ticks["running_ns"] - due_ns) / MS_NS).astype(int), stood_ns / MS_NS, frame_ns / MS_NS
+
+
 class Hand:
     """What a hand should have got and what it got in each millisecond of a clip's own time, from first to last frame.
 
-    `wanted`: rows of time, ns, and force, N, one for each frame. A millisecond is not `shown`, and has no force, if no tick
-    of the playing clip is for it, or one whose frame is held or too old: the picture or the device stood still. Of a
-    muted clip the trace does not tell how old a frame is.
+    `wanted`: rows of time, ns, and wrench, one for each frame. What a tick delivers lasts until the next one that the
+    device has acknowledged.
     """
 
-    def __init__(self, haptic_trace, wanted, is_muted):
+    def __init__(self, haptic_trace, screen_trace, wanted, is_muted):
         playing = [row for row in rows_of(haptic_trace) if row["playing"] == "1"]
         self.device, self.count = Counter(row["device"] for row in playing), len(playing)
+        playing = [row for row in playing if row["acknowledged"] == "1"]
+        if not playing:
+            self.count = 0
+            return
+        self.ticks = {name: np.array([int(row[name]) for row in playing]) for name in ("running_ns", "monotonic_ns")}
+        self.found = np.array([row["found"] for row in playing])
         self.time_ns = np.arange(wanted[0][0], wanted[-1][0] + 1, MS_NS)
         self.wanted = (0 if is_muted else 1) * between(wanted, self.time_ns)
-        numbers = lambda name: np.array([float(row[name]) for row in playing] or [np.nan])
-        moves = np.array([row["found"] in ("exact", "interpolated") or is_muted for row in playing] or [False])
-        running_ns, force_N = numbers("running_ns"), [numbers(f"delivered_force_{axis}_N") for axis in AXES]
-        newest = np.maximum(np.searchsorted(running_ns, self.time_ns + MS_NS, side="left") - 1, 0)
-        self.shown = moves[newest] & (np.abs(self.time_ns - running_ns[newest]) <= MOST_AGE_MS * MS_NS)
-        self.delivered = np.where(self.shown[:, None], np.stack(force_N, axis=1)[newest], 0)
-        # How long the clip stood still before the tick of each millisecond.
-        self.waited_ms = np.diff(numbers("monotonic_ns"), prepend=np.nan)[newest] / MS_NS
+        self.newest = np.maximum(np.searchsorted(self.ticks["running_ns"], self.time_ns + MS_NS, side="left") - 1, 0)
+        wrenches = np.array([[float(row[f"delivered_{name}"]) for name in WRENCH] for row in playing])
+        self.delivered = np.nan_to_num(wrenches, nan=1e9)[self.newest]  # what is no number is surely noticed
+        late_ms, self.stood_ms, self.frame_ms = picture_late_ms(wanted, self.ticks, rows_of(screen_trace))
+        self.late_ms = late_ms[self.newest]
 
-    def felt(self):
-        return np.linalg.norm(self.wanted, axis=1) >= FELT_N
+    def later(self, lag_ms):
+        """The wanted wrench, so much later."""
+        return self.wanted[np.clip(np.arange(len(self.wanted)) - lag_ms, 0, len(self.wanted) - 1)]
 
     def share(self):
-        """Of the time in which something is to be felt, the part of the wanted force that came, in its direction."""
-        wanted, delivered = self.wanted[self.felt()], self.delivered[self.felt()]
-        if not len(wanted):
+        """The part of the wanted force that came, in its direction, with the lag that fits best; 1 if none is to be felt."""
+        if size(self.wanted[:, :3]).max() < FELT_N:
             return 1.0
-        return float(np.clip((wanted * delivered).sum(axis=1) / (wanted**2).sum(axis=1), -1, 1).mean())
+        got_N2 = max((self.later(lag)[:, :3] * self.delivered[:, :3]).sum() for lag in range(-LATE_MS, LATE_MS + 1, STEP_MS))
+        return float(np.clip(got_N2 / (self.wanted[:, :3]**2).sum(), -1, 1))
 
-    def longest_stall_ms(self):
-        """Of the picture, or of a force that should be felt."""
-        is_weak = self.felt() & (np.linalg.norm(self.delivered, axis=1) < np.linalg.norm(self.wanted, axis=1) / 2)
-        longest = run = 0
-        for stands in ~self.shown | is_weak:
-            run = run + 1 if stands else 0
-            longest = max(longest, run)
-        return max(longest, np.nanmax(self.waited_ms, initial=0))
+    def waited_ms(self, part=slice(None)):
+        """The longest time without a tick, of the clip and of the clock."""
+        newest = self.newest[part]
+        ages_ns = abs(self.time_ns[part] - self.ticks["running_ns"][newest])
+        gaps_ns = np.diff(self.ticks["monotonic_ns"][newest[0]:newest[-1] + 2])
+        return max(ages_ns.max(), gaps_ns.max(initial=0)) / MS_NS
 
+    def noticed(self):
+        """times_noticed() around each millisecond, of the picture on the screen, with the lag that fits best."""
+        reach = LATE_MS + JITTER_MS
+        times = np.stack([times_noticed(self.delivered, self.later(self.late_ms + lag)) for lag in range(-reach, reach + 1)])
+        times = minimum_filter1d(times, 2 * JITTER_MS + 1, axis=0)[JITTER_MS:-JITTER_MS]
+        return maximum_filter1d(times, EVEN_MS, axis=1).min(axis=0)
 
     def lag_ms(self):
         """By how much the delivered force is later than the wanted one; 0 where that is too little to be noticed."""
-        def error(lag):
-            count = len(self.wanted) - abs(lag)
-            return root_mean_square(self.delivered[max(0, lag):][:count] - self.wanted[max(0, -lag):][:count])
-
-        most = min(MOST_LAG_MS, len(self.wanted) // 4)
-        errors = {lag: error(lag) for lag in range(-(most // STEP_MS) * STEP_MS, most + 1, STEP_MS)}
+        errors = {lag: size((self.delivered - self.later(lag))[:, :3]).mean() for lag in
+                  range(-MOST_LAG_MS, MOST_LAG_MS + 1, STEP_MS)}
         best = min(errors, key=errors.get)
         unnoticed = min(error for lag, error in errors.items() if abs(lag) <= LATE_MS)
         return best if errors[best] < BETTER * unnoticed else 0
 
-    def turned_deg(self):
-        """Between wanted and delivered force, the median, by the square of the wanted one."""
-        wanted, delivered = self.wanted[self.felt()], self.delivered[self.felt()]
-        lengths = np.linalg.norm(wanted, axis=1) * np.linalg.norm(delivered, axis=1)
-        if not lengths.any():
-            return 0.0
-        angles = np.arccos(np.clip((wanted * delivered).sum(axis=1)[lengths > 0] / lengths[lengths > 0], -1, 1))
-        order, weights = np.argsort(angles), (wanted[lengths > 0]**2).sum(axis=1)
-        reached = np.cumsum(weights[order])
-        return float(np.degrees(angles[order][np.searchsorted(reached, reached[-1] / 2)]))
-
-    def frozen(self):
-        """Whether the delivered force stood at any level for MOST_STALL_MS while the wanted one moved."""
-        if len(self.wanted) <= MOST_STALL_MS:
-            return False
-        moved = lambda force_N: np.linalg.norm(np.ptp(sliding_window_view(force_N, MOST_STALL_MS, axis=0), axis=-1), axis=1)
-        wanted_N = moved(self.wanted)
-        return bool(((wanted_N > FELT_N / 4) & (moved(self.delivered) < STANDS * wanted_N)).any())
-
     def nearness(self, other):
         """1 where the force is the wanted one, 0 where it is `other`, in the milliseconds in which a hand tells them apart;
         how strong it is as a whole does not matter as far as a hand does not notice."""
-        other = between(other, self.time_ns)
-        larger = np.maximum(np.linalg.norm(self.wanted, axis=1), np.linalg.norm(other, axis=1))
-        apart = (larger >= FELT_N) & (np.linalg.norm(self.wanted - other, axis=1) > WEBER * larger) & self.shown
+        wanted, delivered, other = self.wanted[:, :3], self.delivered[:, :3], between(other, self.time_ns)[:, :3]
+        larger = np.maximum(size(wanted), size(other))
+        apart = (larger >= FELT_N) & (size(wanted - other) > WEBER * larger)
         if not apart.any():
             return 1.0
-        wanted, other, delivered = self.wanted[apart], other[apart], self.delivered[apart]
+        wanted, other, delivered = wanted[apart], other[apart], delivered[apart]
         strength = np.clip((delivered * wanted).sum() / max(1e-9, (wanted**2).sum()), 1 - WEBER, 1 + WEBER)
         return float(((delivered / strength - other) * (wanted - other)).sum() / ((wanted - other)**2).sum())
 
-    def buzz(self):
-        """Amplitude, N, and band, Hz, of what is most above what a hand feels of a force that should not be there."""
-        spectrum = lambda force_N: (abs(np.fft.rfft(force_N, axis=0))**2).sum(axis=1)
-        hz = np.fft.rfftfreq(len(self.wanted), MS_NS / 1e9)
-        # Both sides of the spectrum; the amplitude of a sine is √2 of its root mean square.
-        amplitude = lambda power, band: 2 * math.sqrt(power[band].sum()) / len(self.wanted)
-        more, asked, found = spectrum(self.delivered - self.wanted), spectrum(self.wanted), []
-        for low, high in zip(BANDS_HZ, BANDS_HZ[1:]):
-            band = (hz >= low) & (hz < high)
-            amount_N = amplitude(more, band)
-            found.append((amount_N - FELT_N - WEBER * amplitude(asked, band), amount_N, low, high))
-        above, *most = max(found)
-        return most if above > 0 else None
+    def shakes_N(self):
+        """The largest amplitude of what is faster than SHAKES_MS and that the film does not ask for, over four times that."""
+        def amplitude(force_N):
+            fast = force_N - uniform_filter1d(force_N, SHAKES_MS, axis=0)
+            return np.sqrt(2 * np.maximum(0, uniform_filter1d((fast**2).sum(axis=1), 4 * SHAKES_MS)))
+
+        asked = maximum_filter1d(amplitude(self.wanted[:, :3]), 2 * SHAKES_MS)
+        return float((amplitude(self.delivered[:, :3]) - (1 + WEBER) * asked).max())
 
 
-def root_mean_square(vectors):
-    return float(np.sqrt((vectors**2).sum(axis=1).mean()))
-
-
-def cause(haptic_trace, frame_trace, lag_ms):
-    """What the traces say of a force that did not come, in brackets, or nothing."""
-    found = Counter(row["found"] for row in rows_of(haptic_trace) if row["playing"] == "1")
+def cause(hand, frame_trace, part):
+    """What the traces say of a force that was not right in a part of the clip, in brackets, or nothing."""
+    lag_ms = hand.lag_ms() if hand.wanted.any() else 0
     reasons = [f"{abs(lag_ms)} ms too {'late' if lag_ms > 0 else 'early'}"] * (lag_ms != 0)
-    reasons += [f"frames were late in {100 * found['expired'] / found.total():.0f} % of the time"] * (found["expired"] > 0)
+    for what, amount_ms in ("the picture stood for", hand.late_ms[part].max()), ("no tick came for", hand.waited_ms(part)):
+        reasons += [f"{what} {amount_ms:.0f} ms too long"] if amount_ms > JITTER_MS else []
+    late = np.isin(hand.found[hand.newest[part]], ("held", "expired")).mean()
+    reasons += [f"frames were late in {100 * late:.0f} % of that time"] * bool(late)
     limits = Counter(row["device_no_force_reason"] for row in rows_of(frame_trace))
     limits.pop("none", None)
     reasons += [f"of the device or the playback: {limit}" for limit, _ in limits.most_common(1)]
     return f" ({', '.join(reasons)})" if reasons else ""
 
 
-def judge(haptic_trace, frame_trace, wanted, is_muted, others=()):
+def judge(haptic_trace, frame_trace, screen_trace, wanted, is_muted, others=()):
     """The share of the force that was delivered, and what was wrong; nothing if the presentation was as it should be.
 
     `wanted`: of the clip with this condition, as its preview found it (`Hand`); `others`: with those that it is compared
-    to. `is_muted`: there should be no force. A hand does not notice less than FELT_N, nor a change by less than WEBER.
+    to. `is_muted`: there should be no force.
     """
-    hand = Hand(haptic_trace, wanted, is_muted)
+    hand = Hand(haptic_trace, screen_trace, wanted, is_muted)
     if hand.count == 0:
         return 0.0, "the device did not run while the clip played"
     share = 0.0 if is_muted else hand.share()
-    lag_ms = 0 if is_muted else hand.lag_ms()
-    because = cause(haptic_trace, frame_trace, lag_ms)
     not_running = 1 - hand.device["running"] / hand.count
     if not_running > WEBER:
         state = (hand.device - Counter(running=hand.count)).most_common(1)[0][0]
         return share, f"the device was {state} in {100 * not_running:.0f} % of the time"
-    if share < 1 - WEBER and not is_muted:
-        return share, f"{100 * share:.0f} % of the clip's force was delivered{because}"
-    if hand.shown.mean() < 1 - WEBER:
-        return share, f"{100 * hand.shown.mean():.0f} % of the clip was shown{because}"
-    if hand.longest_stall_ms() > MOST_STALL_MS:
-        return share, f"picture or force stood still for {hand.longest_stall_ms():.0f} ms{because}"
-    delivered_N, wanted_N = root_mean_square(hand.delivered), root_mean_square(hand.wanted)
-    if delivered_N > max(FELT_N, (1 + WEBER) * wanted_N):
-        return share, f"there was a force of {delivered_N:.3f} N rms, and there should be {wanted_N:.3f} N"
-    if not is_muted:
-        if lag_ms:
-            return share, f"the force was not in time{because}"
-        if hand.turned_deg() > TURNED_DEG:
-            return share, f"the force was turned by {hand.turned_deg():.0f}°"
-        if hand.frozen():
-            return share, f"the force stood still for more than {MOST_STALL_MS} ms while it should move{because}"
-        if min((hand.nearness(other) for other in others), default=1) < NEARER:
-            return share, "the force was that of another condition as much as its own"
-    if buzz := hand.buzz():
-        return share, "there was a vibration of {:.3f} N at {} to {} Hz, and there should be none".format(*buzz)
+    if hand.stood_ms > max(FROZEN_MS, 2 * hand.frame_ms):
+        return share, f"the picture stood still for {hand.stood_ms:.0f} ms"
+    if hand.waited_ms() > FROZEN_MS:
+        return share, f"the device stood still, or was elsewhere in the clip, for {hand.waited_ms():.0f} ms"
+    noticed = hand.noticed()
+    worst = int(noticed.argmax())
+    if noticed[worst] > 1 or share < 1 - WEBER and not is_muted:
+        part = slice(max(0, worst - EVEN_MS), worst + EVEN_MS)
+        return share, (f"{100 * share:.0f} % of the clip's force was delivered, and at {worst / 1000:.1f} s it was "
+                       f"{noticed[worst]:.1f} times as far from what it should be as is noticed{cause(hand, frame_trace, part)}")
+    if not is_muted and min((hand.nearness(other) for other in others), default=1) < 1 - WEBER:
+        return share, "the force was in part that of another condition"
+    if hand.shakes_N() > FELT_N:
+        return share, f"there was a vibration of {hand.shakes_N():.3f} N that the film does not ask for"
     return share, ""

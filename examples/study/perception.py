@@ -11,6 +11,10 @@ import numpy as np
 # Of forces that were attended to (docs/bibliography.md): the least that is felt, and the least change of it, PubMed
 # 24808327; with a picture that moves as they do, their delay (Vogels) and their direction (Barbagli).
 FELT_N, WEBER, LATE_MS, TURNED_DEG = 0.04, 0.11, 45, 18.4
+# Of a torque, the least change (Jandura), and as the least one, that of FELT_N at the surface of a grip, whose radius is
+# 22.5 mm: kTorqueArm_m of core/force. A knob's is 0.1 to 8 mN m (Yang).
+WEBER_OF_TORQUE, FELT_NM = 0.127, 0.0225 * FELT_N
+FROZEN_MS = 100  # viewers see from 80 to 200 ms on that a picture stands still (AVEQ)
 THRESHOLDS = ("felt_N", "weber", "turned_deg", "late_ms")  # the same four of a person, as they are measured and kept
 
 # A staircase whose level falls after two right answers and rises after a wrong one settles where 70.7 % are right.

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from clip_player import analyse, make_filter
+from delivery import WRENCH
 from perception import FELT_N, told_apart
 
 # Of the frames in which something is felt. Below this, the two controllers are the same for most of a clip, and an
@@ -41,7 +42,7 @@ class Clip:
     stronger: float  # share of these in which the nonlinear force is the larger one
     rms_N: dict
     max_force_N: dict
-    frames: dict = field(default_factory=dict)  # by force, of each frame: time, ns, and its force as it is played, N
+    frames: dict = field(default_factory=dict)  # by force, of each frame: time, ns, and its wrench as it is played, N and N m
 
 
 def root_mean_square(values):
@@ -81,13 +82,13 @@ class Progress:
 
 
 def read_trace(trace):
-    """Force, N, of each frame, and the time, ns, of its motion: halfway since the frame before. Last the end of the clip,
-    where the force is at rest."""
+    """Force, N, and torque, N m, of each frame, and the time, ns, of its motion: halfway since the frame before. Last the
+    end of the clip, where they are at rest."""
     with open(trace, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     times_ns = [int(row["running_time_ns"]) for row in rows]
-    end = [[2 * times_ns[-1] - times_ns[-2:][0], 0.0, 0.0, 0.0]] if rows else []
-    return [[(before_ns + time_ns) // 2, *(float(row[f"force_{axis}_N"]) for axis in "xyz")]
+    end = [[2 * times_ns[-1] - times_ns[-2:][0], *[0.0] * len(WRENCH)]] if rows else []
+    return [[(before_ns + time_ns) // 2, *(float(row[name]) for name in WRENCH)]
             for before_ns, time_ns, row in zip(times_ns[:1] + times_ns, times_ns, rows)] + end
 
 
@@ -110,12 +111,12 @@ def measure(clip, properties, limit_N, is_matched, alphas, progress):
     progress.end()
     for alpha in alphas:
         frames = {"linear": by_force["linear", None]} | {name: by_force[name, alpha] for name in FORCES[1:]}
-        found[alpha] = compare({name: [math.hypot(*force_N) for _, *force_N in rows[:-1]]
+        found[alpha] = compare({name: [math.hypot(*row[1:4]) for row in rows[:-1]]
                                 for name, rows in frames.items()}, limit_N, is_matched)
-        # A force is proportional to max-force.
+        # A wrench is proportional to max-force.
         gain = {name: max_N / limit_N for name, max_N in found[alpha].max_force_N.items()}
-        found[alpha].frames = {name: [[time_ns, *(gain[name] * each_N for each_N in force_N)]
-                                      for time_ns, *force_N in rows] for name, rows in frames.items()}
+        found[alpha].frames = {name: [[time_ns, *(gain[name] * each for each in wrench)]
+                                      for time_ns, *wrench in rows] for name, rows in frames.items()}
     return found
 
 

@@ -146,7 +146,7 @@ class Participants:
         shown = {row["trace"]: row["participant"] for row in read_rows(f"{self.answers}.presentations")}
         codes = sorted((row["participant"] for row in self.rows if row["participant"]), key=len, reverse=True)
         for trace in list(Path(f"{self.answers}.traces").glob("*.csv")):
-            name = trace.name.removesuffix(".csv").removesuffix(".haptic")
+            name = re.sub(r"(\.(haptic|screen))?\.csv$", "", trace.name)
             by_name = (code for code in codes if re.fullmatch(re.escape(code) + r"-\d+(-\d+)?", name))
             if (shown.get(name) or next(by_name, None)) == participant:
                 yield trace

@@ -103,7 +103,7 @@ def describe_thresholds(path):
     if "felt_N" in median and "weber" in median:
         lines.append("with these, linear and nonlinear differ in")
         for name, clip in read_settings(path, "preview").items():
-            amounts = [[math.hypot(*force_N) for _, *force_N in clip["frames"][force]] for force in ("linear", "nonlinear")]
+            amounts = [[math.hypot(*row[1:4]) for row in clip["frames"][force]] for force in ("linear", "nonlinear")]
             apart = told_apart(list(zip(*amounts)), median["felt_N"], median["weber"])[2]
             lines.append(f"{100 * apart:6.0f} % of the felt frames of {name}")
     return lines

@@ -9,7 +9,8 @@ and asks. It goes on where this participant stopped. `register` fixes what `run`
 registry. `threshold` measures what a participant tells apart at least. `report` prints shares, means and what differs,
 `export` writes a folder for R and others, and `withdraw` removes a participant. docs/study.md says more.
 
-Needs python3-gi, gir1.2-gstreamer-1.0 and python3-scipy, and GST_PLUGIN_PATH as in docs/start.md.
+Needs python3-gi, gir1.2-gstreamer-1.0, gir1.2-gst-plugins-base-1.0 and python3-scipy, and GST_PLUGIN_PATH as in
+docs/start.md.
 """
 
 import hashlib
@@ -148,17 +149,17 @@ class Study:
         from delivery import judge
 
         trace = self.trace_name(trial)
-        frames, ticks = f"{trace}.csv", f"{trace}.haptic.csv"
+        frames, ticks, screen = (f"{trace}{kind}.csv" for kind in ("", ".haptic", ".screen"))
         force = self.preview.force_of(trial.condition)
         share, problem = 0.0, "stopped"
         try:
             properties = ["mute=false", *self.preview.PROPERTIES[trial.condition], f"trace={frames}",
                           f"max-force={clip.max_force_N[force]:.6f}"]
             self.mark(f"begin trial {trial.number} code {trial.code}")
-            if not player.play(trial.clip, properties, trial.condition == "sham", ticks):
+            if not player.play(trial.clip, properties, trial.condition == "sham", ticks, screen):
                 raise Stopped
             others = {self.preview.force_of(each) for each in CONDITIONS[trial.part]} - {force}
-            share, problem = judge(ticks, frames, clip.frames[force], trial.condition == "without",
+            share, problem = judge(ticks, frames, screen, clip.frames[force], trial.condition == "without",
                                    [clip.frames[each] for each in sorted(others)])
         except RuntimeError as error:
             problem = str(error)
