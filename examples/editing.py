@@ -3,6 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """A film in GStreamer Editing Services, felt: editing.py FILM."""
 
+import signal
 import sys
 
 import gi
@@ -11,6 +12,7 @@ gi.require_version("Gst", "1.0")
 gi.require_version("GES", "1.0")
 from gi.repository import Gst, GES  # noqa: E402
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 GES.init()
 timeline, show = GES.Timeline.new_audio_video(), GES.Pipeline()

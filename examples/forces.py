@@ -3,6 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """The force of each frame of a film, why there is none, and when the device is opened, lost or back: forces.py FILM."""
 
+import signal
 import sys
 
 import gi
@@ -10,6 +11,7 @@ import gi
 gi.require_version("Gst", "1.0")
 from gi.repository import Gst  # noqa: E402
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 player = Gst.parse_launch("playbin audio-sink=fakesink video-sink=autovideosink video-filter=spidarmotion")
 player.set_property("uri", Gst.filename_to_uri(sys.argv[1]))

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Plays a film beside a window of GTK 4 with its force as an arrow: gtk_arrow.py FILE-OR-URI
@@ -7,6 +7,7 @@ The arrow is that of the frame on the screen: a message is used at its `running-
 Needs python3-gi, gir1.2-gstreamer-1.0 and gir1.2-gtk-4.0.
 """
 import math
+import signal
 import sys
 from collections import deque
 
@@ -16,6 +17,7 @@ gi.require_version("Gst", "1.0")
 gi.require_version("Gtk", "4.0")
 from gi.repository import GLib, Gst, Gtk  # noqa: E402
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 name = sys.argv[1]
 player = Gst.ElementFactory.make("playbin")

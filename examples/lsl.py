@@ -1,7 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Sends force and pose of each millisecond to the Lab Streaming Layer, with a marker for each frame that is reached:
+"""Sends force, torque and pose of each millisecond to the Lab Streaming Layer, with a marker for each frame that is reached:
 
     examples/lsl.py PIPE &
     gst-launch-1.0 playbin uri=file:///path/film.mp4 video-filter="spidarmotion haptic-trace=PIPE"
@@ -16,8 +16,9 @@ import csv
 import os
 import sys
 
-UNITS = {"force": "N", "position": "m", "orientation": ""}
-CHANNELS = ([f"delivered_force_{axis}_N" for axis in "xyz"] + [f"position_{axis}_m" for axis in "xyz"]
+UNITS = {"force": "N", "torque": "Nm", "position": "m", "orientation": ""}
+CHANNELS = ([f"delivered_force_{axis}_N" for axis in "xyz"] + [f"delivered_torque_{axis}_Nm" for axis in "xyz"]
+            + [f"position_{axis}_m" for axis in "xyz"]
             + [f"orientation_{axis}" for axis in "wxyz"])
 RATE_HZ = 1000  # of the haptic loop
 
@@ -71,6 +72,8 @@ def main():
         with open(path, encoding="utf-8", newline="") as trace:
             for row in csv.DictReader(trace):
                 streams.add(row)
+    except KeyboardInterrupt:
+        sys.exit(130)
     finally:
         os.unlink(path)
 

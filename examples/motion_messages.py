@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Plays a film and prints the force of each frame when the frame is shown: motion_messages.py [--headless] FILE-OR-URI
@@ -6,6 +6,7 @@
 A message `spidar-motion` comes when its frame is analysed. Behind a queue, as in playbin, that is up to a second before
 the frame is shown; its `running-time` says when to use it. Needs python3-gi and gir1.2-gstreamer-1.0.
 """
+import signal
 import sys
 from collections import deque
 
@@ -14,6 +15,7 @@ import gi
 gi.require_version("Gst", "1.0")
 from gi.repository import GLib, Gst  # noqa: E402
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 headless = "--headless" in sys.argv
 name = sys.argv[-1]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Plays a film, renders its motion as force, and shows it: player.py [--headless] FILE-OR-URI
@@ -8,6 +8,7 @@ d40 force 40 ms later, q quit. Needs python3-gi and gir1.2-gstreamer-1.0, and GS
 docs/start.md.
 """
 import re
+import signal
 import sys
 import threading
 
@@ -20,6 +21,7 @@ headless = "--headless" in sys.argv
 names = [argument for argument in sys.argv[1:] if argument != "--headless"]
 if len(names) != 1 or names[0].startswith("-"):
     sys.exit(__doc__)
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 motion = Gst.parse_launch("spidarmotion overlay=force")
 screen = Gst.parse_launch("fakesink sync=true" if headless else "autovideosink")

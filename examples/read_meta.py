@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 """Prints what spidarmotion attaches to each frame of FILE, or of the ball of videotestsrc.
@@ -6,6 +6,7 @@
 Needs python3-gi, gir1.2-gstreamer-1.0 and gir1.2-gst-plugins-base-1.0, and GST_PLUGIN_PATH as in docs/start.md.
 """
 import argparse
+import signal
 import sys
 
 import gi
@@ -43,6 +44,7 @@ def read(_pad, info):
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("FILE", nargs="?")
 file = parser.parse_args().FILE
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 source = "filesrc name=file ! decodebin" if file else "videotestsrc pattern=ball num-buffers=30"
 pipeline = Gst.parse_launch(f"{source} ! videoconvert ! spidarmotion device=none attach-meta=true "

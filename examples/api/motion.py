@@ -4,6 +4,8 @@
 """From pictures to a wrench: a textured square moves to the right over a textured background, 4 px in each of 25
 pictures a second; prints the wrench that would be felt. Any bytes will do for a picture, also an array of NumPy."""
 
+import signal
+
 import gst_spidar
 
 WIDTH, HEIGHT, SIDE = 320, 240, 96
@@ -24,6 +26,7 @@ def picture(left, top):
     return pixels
 
 
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 motion = gst_spidar.MotionToWrench()
 for frame in range(20):
     found = motion.analyze(picture(40 + 4 * frame, 72), WIDTH, HEIGHT, time_s=frame / 25)

@@ -6,11 +6,13 @@
 Needs nothing but the module gst_spidar, which comes with libgst-spidar."""
 
 import math
+import signal
 import sys
 import time
 
 import gst_spidar
 
+signal.signal(signal.SIGINT, lambda *_: sys.exit(130))  # Ctrl+C: the device comes to rest
 with gst_spidar.Device(sys.argv[1] if len(sys.argv) > 1 else "sim") as device:
     device.set_limits(2.0, 0.05)
     strongest_N = 0

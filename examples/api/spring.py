@@ -6,6 +6,7 @@
 The spring is found in the thread that drives the device, a thousand times a second. The library keeps it passive:
 a hand gets no more energy from it than it has put in."""
 
+import signal
 import sys
 import time
 
@@ -19,6 +20,7 @@ def spring(grip):
     return -STIFFNESS_N_m * x, -STIFFNESS_N_m * y, -STIFFNESS_N_m * z
 
 
+signal.signal(signal.SIGINT, lambda *_: sys.exit(130))  # Ctrl+C: the device comes to rest
 with gst_spidar.Device(sys.argv[1] if len(sys.argv) > 1 else "sim") as device:
     if not device.wait_until_running(30):
         sys.exit(f"no pose: {device.last_fault() or 'the readings of the device do not agree'}")

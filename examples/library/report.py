@@ -23,8 +23,8 @@ def row(line, folder):
 
 
 def write_report(names, output):
-    # A job that was tried again appends; the last line counts.
-    lines = [json.loads(Path(name).read_text().splitlines()[-1]) for name in names]
+    # A job that was tried again appends; the last line counts. In JSON, U+2028 ends none.
+    lines = [json.loads(Path(name).read_text(encoding="utf-8").rstrip("\n").split("\n")[-1]) for name in names]
     failed = [line for line in lines if line["result"] == "failed"]
     hours = sum(line.get("duration_s", 0) for line in lines) / 3600
     lines.sort(key=lambda line: (line["result"] != "failed", line["film"]))

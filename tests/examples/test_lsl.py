@@ -103,7 +103,7 @@ class Lsl(unittest.TestCase):
         self.assertTrue(before < stamps[0] and stamps[-1] < after, "CLOCK_MONOTONIC, when the tick began")
         self.assertGreater(max(math.hypot(*sample[:3]) for _, sample, _ in ticks), 0.04)
         for _, sample, _ in ticks:
-            self.assertAlmostEqual(math.hypot(*sample[6:]), 1, 6, "an orientation")
+            self.assertAlmostEqual(math.hypot(*sample[9:]), 1, 6, "an orientation")
         texts = [sample[0] for _, sample, _ in frames]
         self.assertGreater(len(texts), 5)
         self.assertEqual(len(texts), len(set(texts)), "each frame once")

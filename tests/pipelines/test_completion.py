@@ -53,6 +53,9 @@ class Completion(unittest.TestCase):
 
     def test_devices(self):
         self.assertIn("sim", completed(PROGRAMS["SPIDARCTL"], "monitor", "s"))
+        self.assertEqual(completed(PROGRAMS["SPIDARCTL"], "info", "sim", ":", "sh"), ["sh4"])  # as bash divides it
+        self.assertEqual(completed(PROGRAMS["SPIDARCTL"], "info", "sim", ":"),
+                         [name[4:] for name in completed(PROGRAMS["SPIDARCTL"], "info", "sim") if name != "sim"])
         # The second word of this one is a file or a profile.
         self.assertEqual(completed(PROGRAMS["SPIDARTRACK"], "info", "s"), [])
 

@@ -5,14 +5,26 @@
 # shellcheck shell=bash
 
 _gst_spidar() {
-    local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+    # Bash takes a colon for a word of its own, as in sim:sh4; zsh does not.
+    local typed=() glue="" part i
+    for ((i = 0; i <= COMP_CWORD; ++i)); do
+        part=${COMP_WORDS[i]}
+        if [[ -n $glue || $part == :* ]] && ((${#typed[@]} > 0)); then
+            typed[${#typed[@]} - 1]+=$part
+        else
+            typed+=("$part")
+        fi
+        if [[ $part == *: ]]; then glue=1; else glue=""; fi
+    done
+    local at=$((${#typed[@]} - 1))
+    local program=${typed[0]} word=${typed[at]} before=${typed[at - 1]}
     local command=() help words=""
-    if [[ $program != *spidar-feel ]] && ((COMP_CWORD > 1)); then command=("${COMP_WORDS[1]}"); fi
+    if [[ $program != *spidar-feel ]] && ((at > 1)); then command=("${typed[1]}"); fi
     help=$("$program" "${command[@]}" --help 2>/dev/null)
     # Bash takes the = of NAME=VALUE for a word of its own, zsh does not.
     local property="" front=""
     if [[ $before == = ]]; then
-        property=${COMP_WORDS[COMP_CWORD - 2]}
+        property=${typed[at - 2]}
     elif [[ $word == = ]]; then
         property=$before word=""
     elif [[ $word == *=* ]]; then
@@ -25,9 +37,9 @@ _gst_spidar() {
     elif [[ $before == --* ]]; then
         # --axis CHANNEL:{fx,fy,fz}
         words=$(sed -nE "s/^ *(-[a-z],)?$before .*\{(.*)\}.*/\2/p" <<<"$help" | tr , ' ')
-    elif ((COMP_CWORD == 1)) && [[ $program != *spidar-feel ]]; then
+    elif ((at == 1)) && [[ $program != *spidar-feel ]]; then
         words=$(sed -nE '/^Subcommands:/,/^$/s/^  ([a-z]+) .*/\1/p' <<<"$help")
-    elif ((COMP_CWORD == 2)) && grep -q '^  DEVICE ' <<<"$help"; then
+    elif ((at == 2)) && grep -q '^  DEVICE ' <<<"$help"; then
         words=$("$program" list --json 2>/dev/null | sed -nE 's/^ *"device": "(.*)",?$/\1/p')
     elif [[ $program == *spidar-feel && -z $(compgen -f -- "$word") ]]; then
         words=$("$program" --properties 2>/dev/null | sed 's/=.*/=/')
@@ -36,7 +48,7 @@ _gst_spidar() {
     COMPREPLY=($(compgen -W "$words" -- "$word"))
     # The value follows at once. There is no completion to change where a test calls this.
     if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2>/dev/null; fi
-    # Bash takes what is before a colon for a word of its own.
-    if type __ltrimcolon_completions >/dev/null 2>&1; then __ltrimcolon_completions "$word"; fi
+    # What bash replaces begins after the last colon.
+    if [[ $word == *:* && ${COMP_WORDBREAKS-} == *:* ]]; then COMPREPLY=("${COMPREPLY[@]#"${word%"${word##*:}"}"}"); fi
 }
 complete -o bashdefault -o default -F _gst_spidar spidarctl spidartrack spidar-feel
