@@ -86,40 +86,40 @@ def is_yes(text):
             return line == "yes"
 
 
-def note_answer(record, participant, check, answer):
-    append_row(record, ["participant", "check", "answer", "time_utc"], [participant, check, answer, utc_now()])
+def note_answer(path, participant, check, answer):
+    append_row(path, ".briefings", ["participant", "check", "answer", "time_utc"], [participant, check, answer, utc_now()])
 
 
-def still_open(record, participant, checks):
-    known = {row["check"] for row in read_rows(record) if row["participant"] == participant}
+def still_open(path, participant, checks):
+    known = {row["check"] for row in read_rows(f"{path}.briefings") if row["participant"] == participant}
     return [check for check in checks if check not in known]
 
 
-def describe(record, participant):
+def describe(path, participant):
     """Asks the participant about themselves, once."""
-    for check in still_open(record, participant, PERSON):
+    for check in still_open(path, participant, PERSON):
         question, answers = PERSON[check]
-        note_answer(record, participant, check, answers[ask(question, answers) - 1])
+        note_answer(path, participant, check, answers[ask(question, answers) - 1])
 
 
-def debrief(record, participant):
+def debrief(path, participant):
     """After the last clip: what the participant thinks it was about, before anything is said of the sham."""
-    for check in still_open(record, participant, ["guess", "believed"]):
+    for check in still_open(path, participant, ["guess", "believed"]):
         if check == "guess":
             answer = read_line("What do you think differed when a clip was shown again? In your own words\n> ")
         else:
             answer = BELIEFS[ask("Which of these do you believe of the force?", BELIEFS) - 1]
-        note_answer(record, participant, check, answer)
+        note_answer(path, participant, check, answer)
 
 
-def brief(record, participant, force_N, while_taut):
+def brief(path, participant, force_N, while_taut):
     """Asks the experimenter what must be right before a participant holds the grip. Raises TakesNoPart.
 
-    Every answer is on the disk, in `record`, before the next question. `while_taut` makes a context in which the strings
+    Every answer is on the disk, in `path`.briefings, before the next question. `while_taut` makes a context in which the strings
     are tight; it is None if nothing pulls, as with a simulated device.
     """
 
-    note = lambda check, answer: note_answer(record, participant, check, answer)
+    note = lambda check, answer: note_answer(path, participant, check, answer)
 
     def require(check, is_right):
         note(check, "yes" if is_right else "no")

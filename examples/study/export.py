@@ -17,6 +17,7 @@ from pathlib import Path
 from delivery import AXES, MS_NS, rows_of
 from perception import THRESHOLDS
 from records import append_row, read_answers, read_rows, read_settings, utc_now
+from report import misfits
 from trials import CONDITIONS, QUESTIONS, STEPS
 
 EXPORT_COLUMNS = ["folder", "time_utc"]
@@ -107,8 +108,7 @@ def write_physio(path, haptic_trace):
         values = [int(tick["running_ns"]) / 1e9, *(float(tick[f"{name}_N"]) for name in PHYSIO if "force" in name),
                   *(float(tick[f"{name}_m"]) for name in PHYSIO if "position" in name)]
         lines.append("\t".join(f"{value:.6g}" for value in values) + "\n")
-    with gzip.GzipFile(path, "wb", mtime=0) as file:  # the same each time
-        file.write("".join(lines).encode())
+    path.write_bytes(gzip.compress("".join(lines).encode(), mtime=0))  # the same each time
     return len(lines) / 1000
 
 
@@ -139,13 +139,14 @@ def export(path, folder):
         raise ValueError(f"{folder}: " + ("exists; name a new folder, or remove that one" if os.path.lexists(folder) else
                                           f"there is no folder {folder.parent}"))
     folder.mkdir()
-    append_row(f"{path}.exports", EXPORT_COLUMNS, [folder.resolve(), utc_now()])
+    append_row(path, ".exports", EXPORT_COLUMNS, [folder.resolve(), utc_now()])
     write_json(folder / "dataset_description.json", {
         "Name": "A study of haptic feedback for films, with gst-spidar", "BIDSVersion": BIDS_VERSION, "DatasetType": "raw",
         "GeneratedBy": [{"Name": "gst-spidar", "Version": settings["version"]}]})
     (folder / "README").write_text(
         "What was asked and felt in each presentation that counts; docs/study.md of gst-spidar says how it was carried out.\n"
-        "code/settings.json has all settings and the hash of each clip. `Rscript code/models.R .` fits mixed models.\n",
+        "code/settings.json has all settings and the hash of each clip. `Rscript code/models.R .` fits mixed models.\n"
+        + "Files were changed after they were written: `study.py report` names them.\n" * bool(misfits([path])),
         encoding="utf-8")
     (folder / "code").mkdir()
     write_json(folder / "code/settings.json", settings)
@@ -154,13 +155,6 @@ def export(path, folder):
     write_json(folder / "participants.json", PARTICIPANT)
     asked = {name: text for questions in settings["questions"].values() for name, text in questions.items()}
     behaviour = BEHAVIOUR | {"question": column("what was asked", levels=asked)}
-    for part in CONDITIONS:
-        task = {"TaskName": part}
-        write_json(folder / f"task-{part}_beh.json", task | behaviour)
-        write_json(folder / f"task-{part}_events.json", task | EVENT)
-        write_json(folder / f"task-{part}_physio.json", task | {
-            "SamplingFrequency": 1000, "StartTime": 0, "Columns": list(PHYSIO),
-            "ManufacturersModelName": f"{settings['device']} {settings['profile']}".strip()} | PHYSIO)
     for participant, given in of.items():
         label = labels[participant]
         own = folder / f"sub-{label}" / "beh"
@@ -170,6 +164,13 @@ def export(path, folder):
                 vars(answer) | {"clip": Path(answer.clip).name, "response": answer.answer}
                 for answer in given if answer.part == part])
         write_runs(path, participant, label, own, {answer.trial: answer for answer in given})
+    for part in CONDITIONS:
+        described = {"beh": behaviour, "events": EVENT, "physio": {
+            "SamplingFrequency": 1000, "StartTime": 0, "Columns": list(PHYSIO),
+            "ManufacturersModelName": f"{settings['device']} {settings['profile']}".strip()} | PHYSIO}
+        for kind, content in described.items():
+            if next(folder.glob(f"sub-*/beh/*_task-{part}_*{kind}.tsv*"), None):  # BIDS has none without what it describes
+                write_json(folder / f"task-{part}_{kind}.json", {"TaskName": part} | content)
 
 
 def exports_with(path, participant):

@@ -3,19 +3,22 @@
 """The files of a study: answers, participants, presentations, and the settings that everything was made with.
 
 Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .preview.json, .participants,
-.presentations, .briefings, .thresholds, .exports, .traces/."""
+.presentations, .briefings, .thresholds, .exports, .traces/, and .chain (chain.py)."""
 
 import csv
 import hashlib
+import io
 import json
 import os
 import re
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from datetime import datetime, timezone
 from pathlib import Path
 
+import chain
+from chain import replace_file
 from perception import THRESHOLDS
-from trials import CONDITIONS, STEPS
+from trials import CONDITIONS, STEPS, Trial, schedule
 
 
 @dataclass
@@ -31,36 +34,35 @@ class Answer:
     answer: int
     time_utc: str
 
+    def shown(self):
+        return Trial(self.trial, self.part, self.condition, self.code, self.clip)
+
 
 COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
 THRESHOLD_COLUMNS = ["participant", *THRESHOLDS, "trials", "time_utc"]  # empty where not asked, or the answers did not settle
-PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "settings_sha256", "time_utc"]
+PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
 
 
 def utc_now():
     return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
-def append_row(path, header, row):
-    """Appends a line, after the header in a new file, and flushes it to the disk."""
-    with open(path, "a", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
+def line_of(row):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="").writerow(row)
+    return text.getvalue().replace("\n", " ")
+
+
+def append_row(answers, table, header, row):
+    """Appends a line to one of chain.TABLES, after the header in a new file, and flushes it to the disk."""
+    chain.add(answers, table, line_of(row).encode())
+    with open(f"{answers}{table}", "a", encoding="utf-8", newline="") as file:
         if file.tell() == 0:
-            writer.writerow(header)
-        writer.writerow(row)
+            file.write(line_of(header) + "\n")
+        file.write(line_of(row) + "\n")
         file.flush()
         os.fsync(file.fileno())
-
-
-def replace_file(path, text):
-    """The file has the old or the new content, whatever happens."""
-    new = Path(f"{path}.new")
-    with open(new, "w", encoding="utf-8", newline="") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(new, path)
 
 
 def parse_answer(row):
@@ -94,6 +96,29 @@ def read_answers(path):
     return answers
 
 
+def names_of(paths):
+    """For each of several files of answers, what becomes of the codes in it: with the machine, where there are more.
+    Raises ValueError if they cannot be put together."""
+    first, machines = read_settings(paths[0]), []
+    for path in paths if len(paths) > 1 else ():
+        settings = read_settings(path) or {}
+        require_same(path, first | {"host": ""}, settings | {"host": ""})
+        if settings["host"] in machines:
+            raise ValueError(f"{path}: is of the machine {settings['host']}, as another one is whose codes it may share")
+        machines.append(settings["host"])
+    return [(path, lambda code, machine=machine: f"{code}@{machine}" if code else code) for path, machine in
+            zip(paths, machines)] or [(paths[0], lambda code: code)]
+
+
+def read_merged(paths):
+    """All answers. Raises ValueError if there are none, or as names_of()."""
+    answers = [replace(answer, participant=name(answer.participant)) for path, name in names_of(paths)
+               for answer in read_answers(path)]
+    if not answers:
+        raise ValueError(f"{paths[0]}: there are no answers in it")
+    return answers
+
+
 def read_rows(path):
     """Rows by the names of their columns; none if there is no such file."""
     if not Path(path).exists():
@@ -117,7 +142,7 @@ class Participants:
 
     def register(self, participant):
         if not any(row["participant"] == participant for row in self.rows):
-            append_row(self.path, PARTICIPANT_COLUMNS, [participant, self.index_of(participant), utc_now()])
+            append_row(self.answers, ".participants", PARTICIPANT_COLUMNS, [participant, self.index_of(participant), utc_now()])
 
     def withdrew(self):
         return sum(not row["participant"] for row in self.rows)
@@ -126,20 +151,21 @@ class Participants:
         """Deletes all that is kept of a participant but that somebody has left. Raises ValueError if nothing is."""
         if not any(row["participant"] == participant for row in self.rows):
             raise ValueError(f'{self.answers}: nobody in it is called "{participant}"')
-        for trace in self.traces_of(participant):
+        traces = list(self.traces_of(participant))
+        rows = {table: [row for row in chain.rows_of(self.answers, table) if next(csv.reader([row]))[0] == participant]
+                for table in chain.TABLES}
+        chain.forget(self.answers, rows, [f".traces/{trace.name}" for trace in traces])
+        for trace in traces:
             trace.unlink()
-        for name in "", ".presentations", ".briefings", ".thresholds", ".participants":
-            path = Path(f"{self.answers}{name}")
-            if not path.exists():
-                continue
-            with open(path, encoding="utf-8", newline="") as file:
-                header, *rows = csv.reader(file)
-            if name == ".participants":
-                rows = [["" if row[0] == participant else row[0], *row[1:]] for row in rows]
-            else:
-                rows = [row for row in rows if row[0] != participant]
-            text = [",".join(csv_field(value) for value in row) + "\n" for row in [header, *rows]]
-            replace_file(path, "".join(text))
+        for table, gone in rows.items():
+            path = Path(f"{self.answers}{table}")
+            header, *lines, _ = path.read_text(encoding="utf-8").split("\n") if gone else [""] * 2
+            if table == ".participants":
+                left = line_of(["", *next(csv.reader(gone))[1:]])
+                chain.add(self.answers, table, left.encode())
+                lines = [left if line in gone else line for line in lines]
+            if gone:
+                replace_file(path, "\n".join([header, *(line for line in lines if line not in gone), ""]))
 
     def traces_of(self, participant):
         """As the presentations say; of what was interrupted before it was one, by the longest code that the name has."""
@@ -150,10 +176,6 @@ class Participants:
             by_name = (code for code in codes if re.fullmatch(re.escape(code) + r"-\d+(-\d+)?", name))
             if (shown.get(name) or next(by_name, None)) == participant:
                 yield trace
-
-
-def csv_field(value):
-    return '"' + value.replace('"', '""') + '"' if any(c in value for c in ',"\n\r') else value
 
 
 def differences(old, new, name=""):
@@ -182,13 +204,22 @@ def digest_of(settings):
     return hashlib.sha256(json.dumps(settings, ensure_ascii=False, sort_keys=True).encode()).hexdigest()
 
 
-def with_other_settings(answers, path, settings):
-    """Participants with an answer whose presentations were not all made with these settings."""
-    made = {}
-    for row in read_rows(f"{path}.presentations"):
-        made.setdefault(row["participant"], set()).add(row.get("settings_sha256"))
-    return sorted({answer.participant for answer in answers
-                   if made.get(answer.participant) != {digest_of(settings)}})
+def unfit(answers, path, settings):
+    """Answers that belong to no presentation that counts, or to another one than was shown, in sentences."""
+    counted = {(row["participant"], row["trial"]) for row in read_rows(f"{path}.presentations") if not row["problem"]}
+    clips = [clip for clip in settings["clips_sha256"] if clip != settings["practice"]]
+    participants, shown, asked = Participants(path), {}, set()
+    for answer in answers:
+        who, said = answer.participant, f"{answer.participant}, trial {answer.trial}, {answer.question}"
+        if who not in shown:
+            shown[who] = schedule(clips, participants.index_of(who), settings["seed"])
+        if (who, answer.trial, answer.question) in asked:
+            yield f"{said}: answered twice, as where files of two machines were put together; give both files to report"
+        elif (who, str(answer.trial)) not in counted:
+            yield f"{said}: no presentation of it counts"
+        elif answer.shown() not in shown[who]:
+            yield f"{said}: {answer.condition} of {answer.clip} was not what was shown"
+        asked.add((who, answer.trial, answer.question))
 
 
 def require_same(answers, old, new):
@@ -203,3 +234,5 @@ def write_settings(answers, settings, clips):
     """`clips`: what their preview found."""
     replace_file(f"{answers}.preview.json", json.dumps(clips, ensure_ascii=False) + "\n")
     replace_file(f"{answers}.settings.json", json.dumps(settings, ensure_ascii=False, indent=1) + "\n")
+    for file in chain.FILES:
+        chain.add_file(answers, file)

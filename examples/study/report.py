@@ -7,12 +7,14 @@ import statistics
 from collections import Counter, defaultdict
 from dataclasses import replace
 
+import chain
 from briefing import BELIEFS, RIGHT_BELIEF
 from inference import FEW_CLIPS, difference, holm
 from perception import THRESHOLDS, told_apart
-from records import Participants, read_rows, read_settings, with_other_settings
+from records import Participants, names_of, read_answers, read_rows, read_settings, unfit
 from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
 
+MOST_NAMED = 10
 COLUMNS = "question                   conditions             people  clips  difference (95 %)            p       Holm"
 
 
@@ -73,26 +75,33 @@ def compared(rows, analysis, family):
                f"{f'{each.mean:+.2f} ({interval})':24} {alone:8.3g}  {corrected:9.3g}")
 
 
-def describe_study(path, settings):
+def rows_of(paths, table):
+    return [row | {"participant": name(row["participant"])} for path, name in names_of(paths)
+            for row in read_rows(f"{path}{table}")] if paths else []
+
+
+def describe_study(paths):
     """What the answers were made with, and what became of participants and presentations."""
     lines = []
-    if settings:
+    for path in paths:
+        settings = read_settings(path)
         lines.append(", ".join(f"{name} {settings[name]}" for name in ("version", "device", "profile", "host", "seed")
-                               if settings[name] != "") + (", the paper's setting" if settings["paper"] else ""))
-    shown = read_rows(f"{path}.presentations")
+                               if settings[name] != "") + (", the paper's setting" if settings["paper"] else "")
+                     + f"; sessions end with {', '.join(chain.ends(path))}")
+    shown = rows_of(paths, ".presentations")
     failed = Counter(row["problem"] for row in shown if row["problem"])
     if shown:
         lines.append(f"{len(shown)} presentations, {sum(failed.values())} of which do not count"
                      + "".join(f"; {count}: {problem}" for problem, count in failed.items()))
-    withdrew = Participants(path).withdrew()
+    withdrew = sum(Participants(path).withdrew() for path in paths)
     if withdrew:
         lines.append(f"withdrew: {withdrew}")
     return lines + [""] * bool(lines)
 
 
-def describe_thresholds(path):
+def describe_thresholds(paths):
     """What people tell at least, and in how many frames the controllers differ for them."""
-    rows = read_rows(f"{path}.thresholds")
+    rows = rows_of(paths, ".thresholds")
     known = {name: [float(row[name]) for row in rows if row.get(name)] for name in THRESHOLDS}
     median = {name: statistics.median(values) for name, values in known.items() if values}
     if not median:
@@ -102,16 +111,16 @@ def describe_thresholds(path):
         f"{words[name].format(value)} ({len(known[name])} people)" for name, value in median.items())]
     if "felt_N" in median and "weber" in median:
         lines.append("with these, linear and nonlinear differ in")
-        for name, clip in read_settings(path, "preview").items():
+        for name, clip in read_settings(paths[0], "preview").items():
             amounts = [[math.hypot(*row[1:4]) for row in clip["frames"][force]] for force in ("linear", "nonlinear")]
             apart = told_apart(list(zip(*amounts)), median["felt_N"], median["weber"])[2]
             lines.append(f"{100 * apart:6.0f} % of the felt frames of {name}")
     return lines
 
 
-def describe_blinding(path):
+def describe_blinding(paths):
     """How many saw through the sham, beyond who guesses: 1 is everybody, 0 is by chance."""
-    guesses = [row["answer"] for row in read_rows(f"{path}.briefings") if row["check"] == "believed"]
+    guesses = [row["answer"] for row in rows_of(paths, ".briefings") if row["check"] == "believed"]
     if not guesses:
         return []
     score = {RIGHT_BELIEF: 1, BELIEFS[-1]: 0}  # of the wrong ones, each is as likely for who guesses
@@ -119,16 +128,22 @@ def describe_blinding(path):
     return ["", f"blinding index {index:+.2f} of {len(guesses)} people (1: all know of the sham, 0: as by guessing)"]
 
 
-def report(answers, path=None, exploratory=False):
-    """Raises ValueError if the settings are not those that the answers were made with, unless it is exploratory."""
-    settings = read_settings(path) if path else None
-    analysis = settings["analysis"] if settings else ANALYSIS
-    others = with_other_settings(answers, path, settings) if settings else []
-    if others and not exploratory:
-        raise ValueError(f"{path}.settings.json: is not that with which {', '.join(others)} took part; put it back as it was, "
-                         "or say --exploratory, and that it is, wherever you publish it")
-    lines = ["EXPLORATORY: the settings were changed after these answers", ""] * bool(others)
-    lines += describe_study(path, settings) if path else []
+def misfits(paths):
+    """What is not as it was written, in sentences; of a long list, the begin."""
+    found = [each for path in paths for each in (*chain.misfits(path), *unfit(read_answers(path), path, read_settings(path)))]
+    return found[:MOST_NAMED] + [f"… and {len(found) - MOST_NAMED} more"] * (len(found) > MOST_NAMED)
+
+
+def report(answers, paths=(), exploratory=False):
+    """`paths`: the files of these answers. Raises ValueError that names what is not as it was written, unless it is
+    exploratory."""
+    wrong = misfits(paths)
+    if wrong and not exploratory:
+        raise ValueError("\n".join(["files are not as they were written; put them back, or say --exploratory, and that it is, "
+                                    "wherever you publish it", *wrong]))
+    analysis = read_settings(paths[0])["analysis"] if paths else ANALYSIS
+    lines = ["EXPLORATORY: files are not as they were written", *wrong, ""] if wrong else []
+    lines += describe_study(paths)
     lines += distribution(ratings(answers), "answers")
     lines += ["", "As the paper counts, one answer of each person and condition (here the median over the clips):",
               *distribution(ratings(of_people(answers)), "people")]
@@ -145,9 +160,9 @@ def report(answers, path=None, exploratory=False):
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
-    lines += describe_thresholds(path) if path else []
-    lines += describe_blinding(path) if path else []
-    saw = {row["participant"] for row in read_rows(f"{path}.briefings")
+    lines += describe_thresholds(paths)
+    lines += describe_blinding(paths)
+    saw = {row["participant"] for row in rows_of(paths, ".briefings")
            if (row["check"], row["answer"]) == ("believed", RIGHT_BELIEF)}
     if saw:
         unaware = differences([answer for answer in answers if answer.participant not in saw])

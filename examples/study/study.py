@@ -14,6 +14,7 @@ docs/start.md.
 """
 
 import hashlib
+import os
 import platform
 import signal
 import sys
@@ -22,10 +23,11 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 
+import chain
 import perception
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, describe, read_line
 from options import parse
-from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, digest_of, read_answers,
+from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_merged,
                      read_rows, read_settings, require_same, utc_now, write_settings)
 from trials import ANALYSIS, CONDITIONS, QUESTIONS, Trial, open_questions, schedule
 
@@ -120,7 +122,6 @@ class Study:
             alpha = old.get("alpha_s_px")
             require_same(self.options.answers, old, self.settings(alpha))
         self.properties += self.preview.properties_of(alpha)
-        self.digest = digest_of(read_settings(self.options.answers))
         clips = read_settings(self.options.answers, "preview")
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
@@ -129,6 +130,15 @@ class Study:
 
     def noise(self):
         return self.clip_player.noise(self.options.noise, self.output)
+
+    @contextmanager
+    def session(self):
+        """Of what is written, with its last link, which tells later whether the files were rewritten as a whole."""
+        chain.begin(self.options.answers, f"{platform.node()} {utc_now()}")
+        try:
+            yield
+        finally:
+            print(f"\nNote with the form of consent: {chain.ends(self.options.answers)[-1]}")
 
     @contextmanager
     def taut(self):
@@ -166,8 +176,10 @@ class Study:
             raise
         finally:
             self.mark(f"end trial {trial.number}")
-            append_row(self.options.answers + ".presentations", PRESENTATION_COLUMNS,
-                       [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, self.digest, utc_now()])
+            for file in filter(os.path.exists, (frames, ticks, screen)):
+                chain.add_file(self.options.answers, f".traces/{Path(file).name}")
+            append_row(self.options.answers, ".presentations", PRESENTATION_COLUMNS,
+                       [self.options.participant, trial.number, trace.name, f"{share:.3f}", problem, utc_now()])
         return problem
 
     def practise(self, player, clips):
@@ -197,7 +209,7 @@ class Study:
                                f"{self.options.answers}.presentations says why. When the cause is gone, the same command "
                                "goes on here")
         for name, text in questions.items():
-            append_row(self.options.answers, COLUMNS,
+            append_row(self.options.answers, "", COLUMNS,
                        [self.options.participant, trial.number, trial.part, trial.condition, trial.code, trial.clip,
                         name, ask(text), utc_now()])
 
@@ -211,9 +223,9 @@ class Study:
 
     def prepare(self):
         """What must be right before a participant holds the grip. Raises TakesNoPart."""
-        record, is_simulated = self.options.answers + ".briefings", self.device.startswith("sim")
-        brief(record, self.options.participant, self.limit_N, None if is_simulated else self.taut)
-        describe(record, self.options.participant)
+        answers, is_simulated = self.options.answers, self.device.startswith("sim")
+        brief(answers, self.options.participant, self.limit_N, None if is_simulated else self.taut)
+        describe(answers, self.options.participant)
         if not is_simulated and read_line("Hold the grip at the centre of its frame, not turned, until the first force. "
                                           "return: open the device, q: stop here > ") == "q":
             raise Stopped
@@ -223,7 +235,6 @@ class Study:
         import gst_spidar
         from moving_square import MovingSquare
 
-        self.require_device()
         self.prepare()
         with self.noise(), gst_spidar.Device(self.device, self.profile or "") as device:
             device.set_limits(self.limit_N, 0.0)
@@ -236,12 +247,11 @@ class Study:
                     known = perception.measure(present, staircase, lambda: ask(question, ["first", "second"]))
                 found[name], trials = "" if known is None else f"{known:.4g}", trials + staircase.trials
         Participants(self.options.answers).register(self.options.participant)
-        append_row(self.options.answers + ".thresholds", THRESHOLD_COLUMNS,
+        append_row(self.options.answers, ".thresholds", THRESHOLD_COLUMNS,
                    [self.options.participant, *(found.get(name, "") for name in perception.THRESHOLDS), trials, utc_now()])
         print("thank you")
 
     def run(self):
-        self.require_device()
         options = self.options
         answers, participants = read_answers(options.answers), Participants(options.answers)
         trials = schedule(options.clips, participants.index_of(options.participant), options.seed)
@@ -255,7 +265,7 @@ class Study:
                 if still_open:
                     print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
                     self.run_trial(player, trial, clips[trial.clip], still_open)
-        debrief(options.answers + ".briefings", options.participant)
+        debrief(options.answers, options.participant)
         print("\nthat was all; thank you")
 
 
@@ -267,10 +277,7 @@ def execute(options, properties):
     elif options.command == "report":
         from report import report
 
-        answers = read_answers(options.answers)
-        if not answers:
-            raise ValueError(f"{options.answers}: there are no answers in it")
-        print(report(answers, options.answers, options.exploratory))
+        print(report(read_merged(options.answers), options.answers, options.exploratory))
     elif options.command == "export":
         from export import export
 
@@ -278,7 +285,9 @@ def execute(options, properties):
     elif options.command == "register":
         import registration
 
-        Study(options, properties).begin()
+        study = Study(options, properties)
+        with study.session():
+            study.begin()
         print(registration.text(read_settings(options.answers), options.participants))
     elif options.command == "withdraw":
         from export import exports_with
@@ -288,11 +297,17 @@ def execute(options, properties):
         for exported in exports_with(options.answers, options.participant):
             print(exported)
     elif options.command == "threshold":
-        Study(options, properties).measure_thresholds()
+        study = Study(options, properties)
+        study.require_device()
+        with study.session():
+            study.measure_thresholds()
     elif options.command == "design":
         Study(options, properties).print_design()
     else:
-        Study(options, properties).run()
+        study = Study(options, properties)
+        study.require_device()
+        with study.session():
+            study.run()
 
 
 def main(arguments):

@@ -90,8 +90,7 @@ def open_questions(answers, participant, trials, extra):
     """For each trial what is still to be asked. Raises ValueError if the participant has begun with other trials."""
     answered = set()
     for answer in (a for a in answers if a.participant == participant):
-        given = Trial(answer.trial, answer.part, answer.condition, answer.code, answer.clip)
-        if given not in trials:
+        if answer.shown() not in trials:
             raise ValueError(f"{participant} has begun with other trials: {answer.trial} was {answer.clip}, "
                              f"{answer.condition}; give the same clips again, and the files that belong to the answers")
         answered.add((answer.trial, answer.question))

@@ -99,7 +99,7 @@ class InFolder(unittest.TestCase):
 
 class File(InFolder):
     def append(self, participant, trial, question, step):
-        records.append_row(self.path, records.COLUMNS, [participant, trial.number, trial.part, trial.condition,
+        records.append_row(self.path, "", records.COLUMNS, [participant, trial.number, trial.part, trial.condition,
                                                         trial.code, trial.clip, question, step, "2020-01-01T00:00:00Z"])
 
     def test_is_resumed_where_it_ended(self):
@@ -124,9 +124,9 @@ class File(InFolder):
             records.Participants(self.path).register(name)
             begun[name] = trials.schedule(CLIPS, index, 1)
             self.append(name, begun[name][0], "movement", 3)
-            records.append_row(f"{self.path}.briefings", ["participant", "check"], [name, "consent"])
-            records.append_row(f"{self.path}.presentations", records.PRESENTATION_COLUMNS,
-                               [name, 1, f"{name}-1", 1, "a, b", "", ""])
+            records.append_row(self.path, ".briefings", ["participant", "check"], [name, "consent"])
+            records.append_row(self.path, ".presentations", records.PRESENTATION_COLUMNS,
+                               [name, 1, f"{name}-1", 1, "a, b", ""])
             # The last one was interrupted before it was a presentation.
             for trace in f"{name}-1.haptic.csv", f"{name}-12.csv":
                 Path(f"{self.path}.traces").mkdir(exist_ok=True)
@@ -441,7 +441,8 @@ class Briefing(InFolder):
         return ""
 
     def record(self):
-        return self.path.read_text() if self.path.exists() else ""
+        record = Path(f"{self.path}.briefings")
+        return record.read_text() if record.exists() else ""
 
     def test_nobody_takes_part_without_consent_or_with_a_reason_against_it(self):
         right = self.RIGHT + self.STOP

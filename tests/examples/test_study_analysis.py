@@ -8,7 +8,6 @@
 
 import contextlib
 import io
-import json
 import math
 import re
 import sys
@@ -30,6 +29,7 @@ import plan  # noqa: E402
 import records  # noqa: E402
 import registration  # noqa: E402
 import report  # noqa: E402
+import study_files  # noqa: E402
 import trials  # noqa: E402
 
 
@@ -162,30 +162,19 @@ class Report(unittest.TestCase):
     def test_does_what_was_decided_before(self):
         """And says what it would be without those who saw through."""
         random = np.random.default_rng(6)
-        answers = [answer(n, "haptics", condition, question, random.integers(1, 6)) for n in range(6)
-                   for condition in trials.CONDITIONS["haptics"] for question in ("reality", "comfort", "mine")]
+        analysis = {"primary": "mine", "equal": ["reality"], "margin_steps": 2, "level": 0.01}
+        # Frames of 0.3 N and 0.4 N, of 0.5 N and 0.56 N, and of less than is felt.
+        frames = {"linear": [[0, 0.3, 0, 0], [40, 0, 0.5, 0], [80, 0.05, 0, 0]],
+                  "nonlinear": [[0, 0.4, 0, 0], [40, 0, 0.56, 0], [80, 0, 0, 0]]}
+        step = lambda trial, question: trial.part == "haptics" and question != "interactivity" and int(random.integers(1, 6))
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "answers.csv")
-            settings = dict.fromkeys(["version", "device", "profile", "host", "seed", "paper"], "")
-            analysis = {"primary": "mine", "equal": ["reality"], "margin_steps": 2, "level": 0.01}
-            Path(f"{path}.settings.json").write_text(json.dumps(settings | {"analysis": analysis}))
-            Path(f"{path}.briefings").write_text("participant,check,answer\n" + "".join(f"P{n},believed,{briefing.BELIEFS[belief]}\n"
-                                                  for n, belief in ((1, 2), (2, 0), (3, 4), (4, 2))))
-            # Frames of 0.3 N and 0.4 N, of 0.5 N and 0.56 N, and of less than is felt.
-            frames = {"linear": [[0, 0.3, 0, 0], [40, 0, 0.5, 0], [80, 0.05, 0, 0]],
-                      "nonlinear": [[0, 0.4, 0, 0], [40, 0, 0.56, 0], [80, 0, 0, 0]]}
-            Path(f"{path}.preview.json").write_text(json.dumps({"a.avi": {"frames": frames}}))
-            Path(f"{path}.thresholds").write_text("participant,felt_N,weber,turned_deg,late_ms\nP1,0.06,0.1,20,\nP2,0.1,0.2,,60\nP3,,,,\nP4,0.2,0.3,10,\n")
-            with self.assertRaisesRegex(ValueError, "settings.json: is not that with which P0, P1"):
-                report.report(answers, path)
-            self.assertIn("EXPLORATORY", report.report(answers, path, exploratory=True))
-            made = records.digest_of(settings | {"analysis": analysis})
-            Path(f"{path}.presentations").write_text(
-                "participant,problem,settings_sha256\n" + "".join(f"P{n},,{made}\n" for n in range(6)))
-            text = report.report(answers, path)
-            Path(f"{path}.settings.json").write_text(json.dumps(settings | {"analysis": analysis | {"margin_steps": 3}}))
-            with self.assertRaisesRegex(ValueError, "or say --exploratory"):
-                report.report(answers, path)
+            path = study_files.write(Path(folder, "answers.csv"), {f"P{n}": step for n in range(6)}, ["a.avi"], ["mine"],
+                                     {"a.avi": {"frames": frames}}, analysis=analysis)
+            for n, belief in ((1, 2), (2, 0), (3, 4), (4, 2)):
+                records.append_row(path, ".briefings", [], [f"P{n}", "believed", briefing.BELIEFS[belief]])
+            for row in ["P1", 0.06, 0.1, 20, ""], ["P2", 0.1, 0.2, "", 60], ["P3", "", "", "", ""], ["P4", 0.2, 0.3, 10, ""]:
+                records.append_row(path, ".thresholds", records.THRESHOLD_COLUMNS, row)
+            text = report.report(records.read_answers(path), [path])
         self.assertNotIn("EXPLORATORY", text)
         self.assertIn("blinding index +0.42 of 4 people", text)  # two right, one of three wrong ones, one does not know
         self.assertIn("medians: force 0.100 N (3 people), change of it 20% (3 people), turn 15° (2 people), delay 60 ms (1 people)", text)

@@ -59,7 +59,8 @@ class Export(unittest.TestCase):
             for person, clip, side in np.ndindex(cls.steps.shape):
                 writer.writerow([f"P-{person}", 2 * clip + side + 1, "controllers", ("linear", "nonlinear")[side], "A2",
                                  f"/films/{clip}.avi", "movement", cls.steps[person, clip, side], "2026-01-01T00:00:00Z"])
-        settings = {"version": "0.1", "device": "sim", "profile": "", "questions": {"controllers": {"movement": "How well?"}}}
+        settings = {"version": "0.1", "device": "sim", "profile": "", "seed": 1, "practice": "", "clips_sha256": {},
+                    "questions": {"controllers": {"movement": "How well?"}}}
         Path(f"{cls.answers}.settings.json").write_text(json.dumps(settings))
         Path(f"{cls.answers}.briefings").write_text("participant,check,answer\nP-1,handedness,both\nP-1,guess,something private\n")
         Path(f"{cls.answers}.thresholds").write_text("participant,felt_N,weber,turned_deg,late_ms\nP-1,0.05,,,\n")
@@ -86,8 +87,14 @@ class Export(unittest.TestCase):
         self.assertEqual(sum(name.endswith("_beh.tsv") for name in names), PEOPLE)
         self.assertEqual([name for name in names if "_physio.tsv" in name],
                          ["sub-P1/beh/sub-P1_task-controllers_run-1_physio.tsv.gz"], "neither practice nor what did not count")
+        for task in self.out.glob("task-*.json"):
+            of, kind = task.stem.rsplit("_", 1)
+            self.assertTrue(next(self.out.glob(f"sub-*/beh/*_{of}_*{kind}.tsv*"), None), f"{task}: describes nothing")
         described = json.loads((self.out / "dataset_description.json").read_text())
         self.assertTrue({"Name", "BIDSVersion"} <= described.keys())
+
+    def test_says_what_was_changed(self):
+        self.assertRegex((self.out / "README").read_text(), "changed after they were written: `study.py report` names them")
 
     def test_each_column_is_described_and_nothing_private_is_in_it(self):
         for table, described in (("participants.tsv", "participants.json"),
@@ -124,8 +131,8 @@ class Export(unittest.TestCase):
 
     def test_says_what_it_still_has_of_whom(self):
         copy = Path(f"{self.answers}.2")
-        records.append_row(f"{copy}.exports", export.EXPORT_COLUMNS, [self.out, "2026-01-01T00:00:00Z"])
-        records.append_row(f"{copy}.exports", export.EXPORT_COLUMNS, ["/no/folder", "2026-01-02T00:00:00Z"])
+        records.append_row(copy, ".exports", export.EXPORT_COLUMNS, [self.out, "2026-01-01T00:00:00Z"])
+        records.append_row(copy, ".exports", export.EXPORT_COLUMNS, ["/no/folder", "2026-01-02T00:00:00Z"])
         still, gone = export.exports_with(copy, "P-1")
         self.assertIn(f"{self.out} still has what was exported of P-1: remove it", still)
         self.assertIn("/no/folder on 2026-01-02T00:00:00Z has been moved or removed", gone)

@@ -144,6 +144,7 @@ class Run(unittest.TestCase):
         self.assertEqual((code, printed.count("that was all")), (0, 1), printed)
         table = study("report", answers).stdout
         self.assertIn("withdrew: 1", table)
+        self.assertIn(re.search(r"Note with the form of consent: (\w{8})\n", printed)[1], table)
         self.assertRegex(table, r"haptics: reality +sham +3 ")
         self.assertRegex(table, r"(?m)^controllers: movement +linear, nonlinear +3 +1  [+-]\d")
         self.check_what_must_not_change(answers)
