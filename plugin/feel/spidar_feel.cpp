@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -20,6 +21,7 @@
 #include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/typed_property.h"
+#include "plugin/screen/screen.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/board_list.h"
@@ -87,6 +89,7 @@ constexpr const char* kHelp =
     R"(usage: spidar-feel [PROPERTY=VALUE... --] FILM...
        spidar-feel [PROPERTY=VALUE... --] PROGRAM [ARGUMENT...]
        spidar-feel [PROPERTY=VALUE...] --follow [NAME]
+       spidar-feel [PROPERTY=VALUE...] --screen[=WINDOW]
        spidar-feel --properties
 
 Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
@@ -99,17 +102,21 @@ motion.
   --follow [NAME]  feel the film that another player plays: VLC, mpv with its package mpv-mpris, or any
                    that tells over the session bus (MPRIS) where it is. NAME is what it is called there;
                    without NAME, the one that plays is followed, and waited for
+  --screen         feel the film that the screen shows, in a browser or any other program
+  --screen=WINDOW  the same of one window: a part of its title, or ask, for a click on it
 
   spidar-feel film.mp4
   spidar-feel totem film.mp4
   spidar-feel --follow vlc
+  spidar-feel --screen=Firefox
   spidar-feel device=usb profile=spidar-g6c controller=adaptive max-force=2 -- gst-play-1.0 film.mp4
 )";
 
 struct Options {
-  std::vector<std::string> properties;  ///< NAME=VALUE
-  char** program = nullptr;             ///< and its arguments; null: follow
-  std::string followed;                 ///< name of the player; empty: any
+  std::vector<std::string> properties;   ///< NAME=VALUE
+  char** program = nullptr;              ///< and its arguments; null: follow, or look
+  std::string followed;                  ///< name of the player; empty: any
+  std::optional<std::string> looked_at;  ///< by --screen
 };
 
 [[noreturn]] void fail(int status, const std::string& what) {
@@ -151,6 +158,20 @@ Options parse(int argc, char** argv) {
            std::string("--follow takes one NAME, and properties come before it: ") + argv[wrong]);
     }
     return options;
+  }
+  constexpr const char* kScreen = "--screen";
+  if (follow < argc && std::strncmp(argv[follow], kScreen, std::strlen(kScreen)) == 0) {
+    const std::string what = argv[follow] + std::strlen(kScreen);
+    if (what.empty() || what[0] == '=') {
+      if (follow + 1 < argc) {
+        fail(kUsage,
+             std::string("--screen is the last word, its window follows '=', and properties "
+                         "come before it: ") +
+                 argv[follow + 1]);
+      }
+      options.looked_at = what.empty() ? "" : what.substr(1);
+      return options;
+    }
   }
   if (!options.properties.empty() && !separated) {
     fail(kUsage, "write -- between the properties and the program: spidar-feel " +
@@ -342,7 +363,8 @@ void warn_of_nothing_felt(const Options& options) {
     std::fprintf(
         stderr,
         "spidar-feel: %s does not use GStreamer, so nothing of it is felt: follow VLC or mpv with "
-        "spidar-feel --follow, or play the film with spidar-feel FILM\n",
+        "spidar-feel --follow, feel what the screen shows with spidar-feel --screen, or play the "
+        "film with spidar-feel FILM\n",
         options.program[0]);
   }
 }
@@ -362,6 +384,7 @@ int main(int argc, char** argv) {
   }
   find_plugins();
   check(options.properties);
+  if (options.looked_at) return spidar::screen::run(*options.looked_at, options.properties);
   if (!options.program) return spidar::follow::run(options.followed, options.properties);
   set_environment(options.properties);
   if (is_film(options.program[0])) run_films(options.program);

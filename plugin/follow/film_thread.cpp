@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/follow/felt_element.h"
 #include "plugin/follow/followed_film.h"
 #include "spidar/realtime/monotonic.h"
 

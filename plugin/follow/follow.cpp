@@ -15,9 +15,9 @@
 
 #include <glib-unix.h>
 
+#include "plugin/follow/felt_element.h"
 #include "plugin/follow/film_plan.h"
 #include "plugin/follow/film_thread.h"
-#include "plugin/follow/followed_film.h"
 #include "plugin/follow/mpris_player.h"
 #include "plugin/follow/player_choice.h"
 #include "plugin/follow/position_filter.h"

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
-
-#include <gst/pbutils/pbutils.h>
 
 #include "plugin/films/stream_content.h"
+#include "plugin/follow/felt_element.h"
 #include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/exchange_file.h"
@@ -27,39 +25,12 @@ constexpr int64_t kNear_ns = 500'000'000;
 /// It takes a picture, at most.
 constexpr GstClockTime kLongestPause = 200 * GST_MSECOND;
 
-GstElement* parse(const char* line) {
-  GError* error = nullptr;
-  GstElement* const pipeline = gst_parse_launch(line, &error);
-  if (!error) return pipeline;
-  const std::string what = error->message;
-  g_clear_error(&error);
-  gst_clear_object(const_cast<GstElement**>(&pipeline));
-  throw std::runtime_error(what);
-}
-
 /// The first stream that is a haptic track is felt.
 void link_track(GstElement*, GstPad* pad, gpointer decode) {
   const Ref<GstPad> sink(gst_element_get_static_pad(GST_ELEMENT(decode), "sink"));
   if (!gst_pad_is_linked(sink.get()) && content_of(pad) == StreamContent::kHapticTrack) {
     gst_pad_link(pad, sink.get());
   }
-}
-
-/// The value of the last `name`=VALUE; null if there is none.
-const char* value_of(const std::vector<std::string>& properties, const std::string& name) {
-  const char* value = nullptr;
-  for (const std::string& property : properties) {
-    if (property.rfind(name + "=", 0) == 0) value = property.c_str() + name.size() + 1;
-  }
-  return value;
-}
-
-bool has_display() {
-  const auto is_set = [](const char* name) {
-    const char* const value = g_getenv(name);
-    return value && *value;
-  };
-  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
 /// How sure it is that a player shows this stream: a cover comes last, and a stream that the film
@@ -89,12 +60,8 @@ FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>&
         gst_element_set_state(pipeline, GST_STATE_NULL);
         gst_object_unref(pipeline);
       }) {
-  const char* const window = value_of(properties_, "debug-window");
-  GValue wanted = G_VALUE_INIT;
-  g_value_init(&wanted, G_TYPE_BOOLEAN);
-  const bool is_wanted =
-      window && gst_value_deserialize(&wanted, window) && g_value_get_boolean(&wanted);
-  build(is_wanted);
+  const std::optional<bool> window = wants_window(properties_);
+  build(window.value_or(false));
   check();  // which device that is
   if (is_simulated_ && !window && has_display()) build(true);
   gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
@@ -113,7 +80,11 @@ void FollowedFilm::build(bool has_window) {
       g_object_set(felt_, "track", has_rules ? "auto" : plan_.track.c_str(), nullptr);
     }
   }
-  set_properties();
+  const std::string others = set_properties(felt_, properties_);
+  // Of spidarmotion, which looks at pictures.
+  if (!others.empty()) {
+    begins_ += "; it is played as it is, so these have no effect: " + others;
+  }
   // The base time is set by hand.
   gst_element_set_start_time(pipeline_.get(), GST_CLOCK_TIME_NONE);
   const Ref<GstClock> clock(gst_system_clock_obtain());
@@ -126,9 +97,9 @@ FollowedFilm::~FollowedFilm() {
 }
 
 void FollowedFilm::build_track() {
-  pipeline_.reset(
-      parse("filesrc name=source ! parsebin name=parse decodebin name=decode ! audioconvert "
-            "dithering=none noise-shaping=none ! spidarsink name=felt"));
+  pipeline_.reset(parse_pipeline(
+      "filesrc name=source ! parsebin name=parse decodebin name=decode ! audioconvert "
+      "dithering=none noise-shaping=none ! spidarsink name=felt"));
   GstBin* const bin = GST_BIN(pipeline_.get());
   const Ref<GstElement> source(gst_bin_get_by_name(bin, "source"));
   const Ref<GstElement> parser(gst_bin_get_by_name(bin, "parse"));
@@ -142,7 +113,7 @@ void FollowedFilm::build_track() {
 }
 
 void FollowedFilm::build_film() {
-  pipeline_.reset(parse(
+  pipeline_.reset(parse_pipeline(
       // With any feature of its memory: decoders of FFmpeg name interlaced pictures beside others.
       "uridecodebin name=source caps=video/x-raw(ANY) expose-all-streams=false videoconvert "
       "name=convert ! spidarmotion name=felt ! queue max-size-buffers=3 ! fakesink name=sink "
@@ -190,58 +161,13 @@ void FollowedFilm::choose_stream(GstElement* decoder, gpointer user) {
   GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("there are no pictures in it"), (nullptr));
 }
 
-void FollowedFilm::set_properties() {
-  std::string others;
-  for (const std::string& property : properties_) {
-    const size_t end = property.find('=');
-    const std::string name = property.substr(0, end), value = property.substr(end + 1);
-    if (name == "preset" && GST_IS_PRESET(felt_)) {
-      gst_preset_load_preset(GST_PRESET(felt_), value.c_str());
-    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(felt_), name.c_str())) {
-      gst_util_set_object_arg(G_OBJECT(felt_), name.c_str(), value.c_str());
-    } else if (name != "debug-window") {
-      others += (others.empty() ? "" : ", ") + name;
-    }
-  }
-  // Of spidarmotion, which looks at pictures.
-  if (others.empty()) return;
-  begins_ += "; it is played as it is, so these have no effect: " + others;
-}
-
-void FollowedFilm::print(GstMessage* message) {
-  GError* error = nullptr;
-  std::string text;
-  switch (GST_MESSAGE_TYPE(message)) {
-    case GST_MESSAGE_ERROR:
-      gst_message_parse_error(message, &error, nullptr);
-      break;
-    case GST_MESSAGE_WARNING:
-      gst_message_parse_warning(message, &error, nullptr);
-      break;
-    case GST_MESSAGE_INFO:
-      gst_message_parse_info(message, &error, nullptr);
-      break;
-    default:
-      if (!gst_is_missing_plugin_message(message)) return;
-      g_autofree gchar* what = gst_missing_plugin_message_get_description(message);
-      text = std::string("not installed for GStreamer: ") + what +
-             "; Debian has most decoders in gstreamer1.0-libav";
-  }
-  if (error) text = error->message;
-  g_clear_error(&error);
-  if (said_.insert(text).second) tell(text);
-}
-
 bool FollowedFilm::check() {
   const Ref<GstBus> bus(gst_element_get_bus(pipeline_.get()));
   while (GstMessage* const message = gst_bus_pop(bus.get())) {
-    if (!failed_) print(message);  // of one fault, elements say several things
-    const GstStructure* const told = gst_message_get_structure(message);
-    gboolean simulated = FALSE;
-    if (told && gst_structure_has_name(told, "spidar-device") &&
-        gst_structure_get_boolean(told, "simulated", &simulated)) {
-      is_simulated_ = simulated != FALSE;
-    }
+    const std::string text = text_for_people(message);
+    // Of one fault, elements say several things.
+    if (!failed_ && !text.empty() && said_.insert(text).second) tell(text);
+    is_simulated_ = says_simulated(message).value_or(is_simulated_);
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE) read_segment();
     gst_message_unref(message);

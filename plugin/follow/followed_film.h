@@ -15,19 +15,8 @@
 #include <gst/gst.h>
 
 #include "plugin/follow/film_plan.h"
-#include "spidar/text.h"
 
 namespace spidar::follow {
-
-/// Prints a text for people, shortened because its names and addresses come from other programs,
-/// which may send megabytes. Any thread.
-inline void tell(const std::string& text) {
-  constexpr size_t kMax = 1000;
-  const std::string shown =
-      text.size() <= kMax ? text
-                          : text.substr(0, kMax / 2) + " … " + text.substr(text.size() - kMax / 2);
-  g_printerr("spidar-feel: %s\n", printable(shown).c_str());
-}
 
 /// Plays the haptic track of the film, or the film once more. One thread, which files, networks and
 /// devices may hold up. Times are of CLOCK_MONOTONIC.
@@ -54,11 +43,8 @@ class FollowedFilm {
   void build(bool has_window);
   void build_track();
   void build_film();
-  void set_properties();
   static gboolean look(GstElement*, GstPad* pad, GstCaps* caps, gpointer self);
   static void choose_stream(GstElement* decoder, gpointer self);
-  /// Prints the text of a message, if it is for people.
-  void print(GstMessage* message);
   void pause();
   void seek(int64_t position_ns, double rate);
   void play(int64_t now_ns, int64_t position_ns);

@@ -38,6 +38,8 @@ class Command(track_case.TrackCase):
                 ("mute=perhaps -- true", 2, 'mute: "perhaps" is not true or false'),
                 ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/ is a folder; name a film in it"),
                 ("--follow max-force=2", 2, "--follow takes one NAME, and properties come before it: max-force=2"),
+                ("--screen max-force=2", 2, "--screen is the last word, its window follows '=', and properties come before it"),
+                ("--screens", 2, "--screens is not an option"),
                 ("controller=linear max-force=2 -- true", 0, ""), ("--help", 0, "usage: spidar-feel"),
                 ("--version", 0, "spidar-feel ")):
             self.assertIn(said, self.feel(arguments, status))

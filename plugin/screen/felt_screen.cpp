@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/screen/felt_screen.h"
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "plugin/follow/felt_element.h"
+#include "plugin/gobject/ref.h"
+#include "spidar/realtime/monotonic.h"
+
+namespace spidar::screen {
+namespace {
+
+/// What is seen so briefly is not said: a cut, a film that is paused and goes on.
+constexpr int64_t kBrief_ns = 2'000'000'000;
+
+std::string text_in(const GstStructure* structure, const char* name) {
+  const char* const text = gst_structure_get_string(structure, name);
+  return text ? text : "";
+}
+
+}  // namespace
+
+FeltScreen::FeltScreen(View& view, const std::vector<std::string>& properties)
+    : view_(view),
+      // The newest picture counts. Its conversion costs nothing where spidarmotion takes it as it
+      // is.
+      pipeline_(follow::parse_pipeline(
+          "queue name=newest leaky=downstream max-size-buffers=1 max-size-bytes=0 max-size-time=0 "
+          "! videoconvert ! spidarmotion name=felt ! fakesink sync=false")) {
+  GstBin* const bin = GST_BIN(pipeline_);
+  felt_ = Ref<GstElement>(gst_bin_get_by_name(bin, "felt")).get();
+  follow::set_properties(felt_, properties);
+  // Of the sources, some bring a clock of their own.
+  const Ref<GstClock> clock(gst_system_clock_obtain());
+  gst_pipeline_use_clock(GST_PIPELINE(pipeline_), clock.get());
+  const Ref<GstElement> newest(gst_bin_get_by_name(bin, "newest"));
+  GstElement* const source = view_.make_source().release();
+  gst_bin_add(bin, source);
+  gst_object_unref(source);  // of the bin from now on
+  if (!gst_element_link(source, newest.get())) throw std::runtime_error("the source has no video");
+  gst_element_set_state(pipeline_, GST_STATE_READY);
+  read_messages();  // which device that is
+  if (is_simulated_ && !follow::wants_window(properties) && follow::has_display()) {
+    g_object_set(felt_, "debug-window", TRUE, nullptr);
+  }
+  gst_element_set_state(pipeline_, GST_STATE_PLAYING);
+}
+
+FeltScreen::~FeltScreen() {
+  gst_element_set_state(pipeline_, GST_STATE_NULL);
+  gst_object_unref(pipeline_);
+}
+
+bool FeltScreen::read_messages() {
+  const Ref<GstBus> bus(gst_element_get_bus(pipeline_));
+  while (GstMessage* const message = gst_bus_pop(bus.get())) {
+    const std::string text = follow::text_for_people(message);
+    if (!text.empty() && said_.insert(text).second) follow::tell(text);
+    is_simulated_ = follow::says_simulated(message).value_or(is_simulated_);
+    const bool is_over = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR ||
+                         GST_MESSAGE_TYPE(message) == GST_MESSAGE_EOS;
+    gst_message_unref(message);
+    if (is_over) return false;
+  }
+  return true;
+}
+
+void FeltScreen::say_what_is_seen() {
+  GstStructure* stats = nullptr;
+  g_object_get(felt_, "stats", &stats, nullptr);
+  const std::string film = text_in(stats, "no-force-text"),
+                    device = text_in(stats, "device-no-force-text");
+  gst_structure_free(stats);
+  const std::string text = device.empty() ? film : device;
+  const int64_t now_ns = monotonic_now_ns();
+  if (text != next_) next_since_ns_ = now_ns;
+  next_ = text;
+  if (now_ns - next_since_ns_ < kBrief_ns || text.empty()) return;
+  if (said_.insert(text).second) follow::tell(text);
+}
+
+bool FeltScreen::check() {
+  if (!read_messages()) return false;
+  const std::string change = view_.change();
+  if (!change.empty()) follow::tell(change);
+  if (view_.has_ended()) return false;
+  say_what_is_seen();
+  return true;
+}
+
+}  // namespace spidar::screen

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include <X11/Xutil.h>
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gst/video/video.h>
+
+#include "plugin/follow/felt_element.h"
+#include "plugin/screen/view.h"
+#include "plugin/screen/x11_windows.h"
+
+namespace spidar::screen {
+namespace {
+
+/// Of films, the fastest; a game is felt no better with more, and each takes a copy of the picture.
+constexpr int kPictures_Hz = 60;
+
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// What can be seen of a window.
+enum class Sight { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
+
+std::string words_for(Sight sight) {
+  switch (sight) {
+    case Sight::kWhole:
+      return "can be seen again";
+    case Sight::kPart:
+      return "is covered in part, and what covers it is felt in its place: move that aside";
+    case Sight::kCovered:
+      return "is covered by another one, which is felt in its place: bring it to the front";
+    case Sight::kOutside:
+      return "reaches beyond the edge of the screen, and nothing of it is felt: move it inside";
+    case Sight::kHidden:
+      return "is minimised or on another desktop, and nothing of it is felt: bring it back";
+    case Sight::kClosed:
+      break;
+  }
+  return "is closed";
+}
+
+void paint_black(GstVideoFrame& frame, const Rectangle& part) {
+  const int x = std::clamp(part.x, 0, GST_VIDEO_FRAME_WIDTH(&frame));
+  const int right = std::clamp(part.x + part.width, x, GST_VIDEO_FRAME_WIDTH(&frame));
+  const int y = std::clamp(part.y, 0, GST_VIDEO_FRAME_HEIGHT(&frame));
+  const int bottom = std::clamp(part.y + part.height, y, GST_VIDEO_FRAME_HEIGHT(&frame));
+  const auto pixel = static_cast<size_t>(GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0));
+  auto* const rows = static_cast<unsigned char*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+  for (int row = y; row < bottom; ++row) {
+    unsigned char* const begin =
+        rows + static_cast<ptrdiff_t>(row) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
+    std::memset(begin + static_cast<size_t>(x) * pixel, 0, static_cast<size_t>(right - x) * pixel);
+  }
+}
+
+/// Its connection is another one than that of the source.
+class X11View : public View {
+ public:
+  using Connection = std::unique_ptr<Display, int (*)(Display*)>;
+
+  X11View(Connection connection, Window window)
+      : connection_(std::move(connection)), display_(connection_.get()), window_(window) {
+    XSelectInput(display_, window, VisibilityChangeMask);
+    look();
+    sight_ = sight();
+  }
+
+  std::string name() const override {
+    if (is_whole()) return "the whole screen";
+    const std::string title = title_of(display_, window_);
+    return title.empty() ? "a window without a title" : "the window \"" + title + "\"";
+  }
+
+  Ref<GstElement> make_source() override {
+    GError* error = nullptr;
+    const std::string line =
+        "ximagesrc name=capture show-pointer=false use-damage=false xid=" +
+        std::to_string(is_whole() ? 0 : window_) +
+        " ! capsfilter caps=video/x-raw,framerate=" + std::to_string(kPictures_Hz) + "/1";
+    Ref<GstElement> source = sunk(gst_parse_bin_from_description(line.c_str(), TRUE, &error));
+    g_clear_error(&error);
+    if (!source) {
+      throw std::runtime_error(
+          "GStreamer's ximagesrc, which reads the screen, is missing: Debian has it in "
+          "gstreamer1.0-plugins-good");
+    }
+    if (is_whole()) {
+      const Ref<GstElement> capture(gst_bin_get_by_name(GST_BIN(source.get()), "capture"));
+      const Ref<GstPad> pad(gst_element_get_static_pad(capture.get(), "src"));
+      gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, leave_out_own, this, nullptr);
+    }
+    return source;
+  }
+
+  std::string change() override {
+    look();
+    const Sight seen = sight();
+    if (std::exchange(sight_, seen) == seen) return "";
+    return name_ + " " + words_for(seen);
+  }
+  bool has_ended() const override { return sight_ == Sight::kClosed; }
+  /// What is to be said of it from the beginning; empty: it can be seen.
+  std::string first_words() const {
+    return sight_ == Sight::kWhole ? "" : name_ + " " + words_for(sight_);
+  }
+
+ private:
+  bool is_whole() const { return window_ == DefaultRootWindow(display_); }
+
+  void look() {
+    XEvent event;
+    while (XPending(display_) > 0) {
+      XNextEvent(display_, &event);
+      if (event.type == VisibilityNotify) visibility_ = event.xvisibility.state;
+    }
+    if (is_whole()) {
+      find_own();
+    } else if (XWindowAttributes now{}; XGetWindowAttributes(display_, window_, &now)) {
+      name_ = name();
+    }
+    if (name_.empty()) name_ = name();
+  }
+
+  /// Whether a pixel of it can be read: not where it lies beyond the edge of the screen, unless a
+  /// compositor keeps its picture.
+  bool can_read(int x, int y) const {
+    XImage* const pixel = XGetImage(display_, window_, x, y, 1, 1, AllPlanes, ZPixmap);
+    if (!pixel) return false;
+    XDestroyImage(pixel);
+    return true;
+  }
+
+  Sight sight() const {
+    XWindowAttributes now{};
+    if (!XGetWindowAttributes(display_, window_, &now)) return Sight::kClosed;
+    if (is_whole()) return Sight::kWhole;
+    if (now.map_state != IsViewable) return Sight::kHidden;
+    if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1)) return Sight::kOutside;
+    if (visibility_ == VisibilityFullyObscured) return Sight::kCovered;
+    return visibility_ == VisibilityPartiallyObscured ? Sight::kPart : Sight::kWhole;
+  }
+
+  /// Where windows of this project are on the screen.
+  void find_own() {
+    std::vector<Rectangle> found;
+    for (const Window window : program_windows(display_)) {
+      XWindowAttributes now{};
+      Window child = 0;
+      Rectangle at;
+      if (!is_own(display_, window) || !XGetWindowAttributes(display_, window, &now) ||
+          now.map_state != IsViewable ||
+          !XTranslateCoordinates(display_, window, window_, 0, 0, &at.x, &at.y, &child)) {
+        continue;
+      }
+      at.width = now.width;
+      at.height = now.height;
+      found.push_back(at);
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    own_ = std::move(found);
+  }
+
+  /// The debug window shows the film once more. Black rests, so it is no film.
+  static GstPadProbeReturn leave_out_own(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<X11View*>(user);
+    std::vector<Rectangle> own;
+    {
+      const std::lock_guard<std::mutex> lock(self.mutex_);
+      own = self.own_;
+    }
+    const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
+    GstVideoInfo format;
+    GstVideoFrame frame;
+    if (own.empty() || !caps || !gst_video_info_from_caps(&format, caps.get())) {
+      return GST_PAD_PROBE_OK;
+    }
+    GstBuffer* const buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+    GST_PAD_PROBE_INFO_DATA(info) = buffer;
+    if (!gst_video_frame_map(&frame, &format, buffer, GST_MAP_READWRITE)) return GST_PAD_PROBE_OK;
+    for (const Rectangle& each : own) paint_black(frame, each);
+    gst_video_frame_unmap(&frame);
+    return GST_PAD_PROBE_OK;
+  }
+
+  const Connection connection_;
+  Display* const display_;
+  const Window window_;
+  std::string name_;
+  int visibility_ = VisibilityUnobscured;
+  Sight sight_ = Sight::kWhole;
+  std::mutex mutex_;
+  std::vector<Rectangle> own_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  g_autofree gchar* all = g_utf8_casefold(text.c_str(), -1);
+  g_autofree gchar* some = g_utf8_casefold(part.c_str(), -1);
+  return std::strstr(all, some) != nullptr;
+}
+
+/// The uppermost window with this title, or else with it as a part of its own.
+Window window_called(Display* display, const std::string& title) {
+  Window found = 0;
+  std::string others;
+  bool is_exact = false;
+  for (const Window window : program_windows(display)) {
+    const std::string name = title_of(display, window);
+    if (name.empty() || is_own(display, window)) continue;
+    others += (others.empty() ? "\"" : ", \"") + name + "\"";
+    if (name == title || (!is_exact && contains(name, title))) {
+      found = window;
+      is_exact = name == title;
+    }
+  }
+  if (found) return found;
+  throw std::runtime_error(
+      "no window is called \"" + title + "\"; " +
+      (others.empty() ? "there are none with a title" : "there are " + others));
+}
+
+Window chosen_window(Display* display, const std::string& what) {
+  if (what.empty()) return DefaultRootWindow(display);
+  if (what != "ask") return window_called(display, what);
+  follow::tell(
+      "click on the window that is to be felt, or beside all windows for the whole screen");
+  const Window clicked = clicked_window(display);
+  if (clicked && !is_own(display, clicked)) return clicked;
+  throw std::runtime_error(
+      clicked ? "that is a window of gst-spidar itself: click on the one with the film"
+              : "no window was clicked on with the left button; a part of its title chooses it, "
+                "too: spidar-feel --screen=TITLE");
+}
+
+}  // namespace
+
+std::unique_ptr<View> view_of_x11(const std::string& what) {
+  XInitThreads();
+  ignore_x11_errors();
+  X11View::Connection connection(XOpenDisplay(nullptr), XCloseDisplay);
+  if (!connection) {
+    const char* const name = g_getenv("DISPLAY");
+    throw std::runtime_error(
+        name && *name ? std::string("the screen ") + name +
+                            " cannot be opened: it may belong to another user, or have ended"
+                      : "there is no screen: neither WAYLAND_DISPLAY nor DISPLAY is set, as in a "
+                        "remote session; run it on the desktop that shows the film");
+  }
+  const Window window = chosen_window(connection.get(), what);
+  auto view = std::make_unique<X11View>(std::move(connection), window);
+  if (const std::string words = view->first_words(); !words.empty()) follow::tell(words);
+  return view;
+}
+
+}  // namespace spidar::screen

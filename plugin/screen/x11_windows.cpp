@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "plugin/screen/x11_windows.h"
+
+#include <X11/Xatom.h>
+#include <X11/Xutil.h>
+#include <X11/cursorfont.h>
+#include <memory>
+
+namespace spidar::screen {
+namespace {
+
+template <typename Data>
+using FromX = std::unique_ptr<Data, int (*)(void*)>;
+
+struct Property {
+  FromX<unsigned char> data{nullptr, XFree};
+  unsigned long count = 0;
+};
+
+/// Empty when the window does not have it, or as another type.
+Property property_of(Display* display, Window window, const char* name, Atom type) {
+  constexpr long kMaxWords = 16'384;
+  Atom found = 0;
+  int bits = 0;
+  unsigned long count = 0, left = 0;
+  unsigned char* data = nullptr;
+  const Atom atom = XInternAtom(display, name, False);
+  Property property;
+  if (XGetWindowProperty(display, window, atom, 0, kMaxWords, False, type, &found, &bits, &count,
+                         &left, &data) != Success) {
+    return property;
+  }
+  property.data.reset(data);
+  property.count = data ? count : 0;
+  return property;
+}
+
+std::vector<Window> children_of(Display* display, Window window) {
+  Window root = 0, parent = 0, *children = nullptr;
+  unsigned count = 0;
+  if (!XQueryTree(display, window, &root, &parent, &children, &count) || !children) return {};
+  const FromX<Window> own(children, XFree);
+  return {children, children + count};
+}
+
+bool is_of_program(Display* display, Window window) {
+  return property_of(display, window, "WM_STATE", AnyPropertyType).count > 0;
+}
+
+}  // namespace
+
+void ignore_x11_errors() {
+  XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
+}
+
+std::string title_of(Display* display, Window window) {
+  const Property title =
+      property_of(display, window, "_NET_WM_NAME", XInternAtom(display, "UTF8_STRING", False));
+  if (title.count > 0) return {reinterpret_cast<const char*>(title.data.get()), title.count};
+  char* name = nullptr;
+  if (!XFetchName(display, window, &name) || !name) return "";
+  const FromX<char> own(name, XFree);
+  return name;
+}
+
+bool is_own(Display* display, Window window) {
+  XClassHint names{nullptr, nullptr};
+  if (!XGetClassHint(display, window, &names)) return false;
+  const FromX<char> instance(names.res_name, XFree), name(names.res_class, XFree);
+  return name && std::string(name.get()) == kOwnClass;
+}
+
+std::vector<Window> program_windows(Display* display) {
+  const Window root = DefaultRootWindow(display);
+  const Property listed = property_of(display, root, "_NET_CLIENT_LIST_STACKING", XA_WINDOW);
+  const auto* const windows = reinterpret_cast<const Window*>(listed.data.get());
+  if (listed.count > 0) return {windows, windows + listed.count};
+  return children_of(display, root);
+}
+
+Window program_window_in(Display* display, Window frame) {
+  if (is_of_program(display, frame)) return frame;
+  for (const Window child : children_of(display, frame)) {
+    const Window found = program_window_in(display, child);
+    if (is_of_program(display, found)) return found;
+  }
+  return frame;
+}
+
+Window clicked_window(Display* display) {
+  const Window root = DefaultRootWindow(display);
+  const Cursor cross = XCreateFontCursor(display, XC_crosshair);
+  Window clicked = 0;
+  if (XGrabPointer(display, root, False, ButtonPressMask | ButtonReleaseMask, GrabModeAsync,
+                   GrabModeAsync, None, cross, CurrentTime) == GrabSuccess) {
+    XEvent event;
+    do {
+      XNextEvent(display, &event);
+      if (event.type != ButtonPress || event.xbutton.button != Button1) continue;
+      const Window frame = event.xbutton.subwindow;
+      clicked = frame ? program_window_in(display, frame) : root;
+    } while (event.type != ButtonRelease);
+    XUngrabPointer(display, CurrentTime);
+  }
+  XFreeCursor(display, cross);
+  XSync(display, False);
+  return clicked;
+}
+
+}  // namespace spidar::screen

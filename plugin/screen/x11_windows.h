@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Windows of an X server.
+#pragma once
+
+#include <X11/Xlib.h>
+#include <string>
+#include <vector>
+
+namespace spidar::screen {
+
+/// The class of the windows of this project, which nobody wants to feel.
+constexpr const char* kOwnClass = "spidar-window";
+
+/// From now on, a call that fails because a window is gone has no consequence; otherwise Xlib ends
+/// the process. For all connections of the process.
+void ignore_x11_errors();
+
+/// Empty for a window without one.
+std::string title_of(Display* display, Window window);
+
+/// Whether it is one of this project's.
+bool is_own(Display* display, Window window);
+
+/// Windows of programs, the uppermost last; also minimised ones where a window manager lists them.
+std::vector<Window> program_windows(Display* display);
+
+/// The window of the program within `frame`, which a window manager may have put around it.
+Window program_window_in(Display* display, Window frame);
+
+/// Waits for a click of the left button. Returns the root window for a click beside all windows,
+/// and 0 when another button was pressed, or another program has the mouse.
+Window clicked_window(Display* display);
+
+}  // namespace spidar::screen
