@@ -19,14 +19,22 @@ constexpr double kReleased_J = 0.05;
 
 /// Time from when a hand lets go until a command takes account of it: up to a tick until the next
 /// reading, a second reading for a velocity, and a tick until the command that follows it.
-constexpr double kNoticed_s = 3e-3;
+constexpr int kAnswers = 3;
+constexpr double kNoticed_s = kAnswers * 1e-3;
 
-/// The largest force limit. The whole force accelerates a released grip until it is noticed and, on
-/// average, for the lag of the drives: to kReleased_m_s if the grip is one of kLightestGrip_kg.
-/// kDefaultForce_N, which any device takes, is permitted with slow drives, too: at 3 N and 40 ms,
-/// 34 g get 1.4 m/s.
-constexpr double released_force_N(double drive_lag_s) noexcept {
-  return std::max(kDefaultForce_N, kLightestGrip_kg * kReleased_m_s / (kNoticed_s + drive_lag_s));
+/// Fraction of the drives' lag τ for which a force goes on accelerating when the brake reverses it:
+/// after τ ln 2 it is zero, and until then 1 − ln 2 of F τ has acted.
+constexpr double kReversed = 0.307;
+
+/// The largest force limit. The whole force accelerates a released grip until it is noticed, for
+/// which each answer takes `late_s` longer than a tick, and, on average, for the lag of the drives:
+/// to kReleased_m_s if the grip is one of kLightestGrip_kg. kDefaultForce_N is permitted as long as
+/// it throws no faster when the damper reverses it: with a lag of up to 45 ms.
+constexpr double released_force_N(double drive_lag_s, double late_s = 0) noexcept {
+  const double impulse_N_s = kLightestGrip_kg * kReleased_m_s;
+  const double noticed_s = kNoticed_s + kAnswers * late_s;
+  return std::max(impulse_N_s / (noticed_s + drive_lag_s),
+                  std::min(kDefaultForce_N, impulse_N_s / (noticed_s + kReversed * drive_lag_s)));
 }
 
 }  // namespace spidar

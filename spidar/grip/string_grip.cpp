@@ -174,7 +174,7 @@ void StringGrip::pull(const GripCommand& command) noexcept {
   reading_.tension_N = bound_tensions(limited_N, profile_);
   const Eigen::Matrix<double, 6, 1> delivered = W * reading_.tension_N;
   reading_.delivered = {delivered.head<3>(), delivered.tail<3>()};
-  const Eigen::Matrix<double, 6, 1> at_rest = W * profile_.min_tension_N();
+  const Eigen::Matrix<double, 6, 1> at_rest = command.power * (W * profile_.min_tension_N());
   reading_.at_rest = {at_rest.head<3>(), at_rest.tail<3>()};
   reading_.stored_J = profile_.min_tension_N().dot(
       string_lengths_m(profile_.geometry, watch_.pose()) - home_lengths_m_);

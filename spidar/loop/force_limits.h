@@ -18,18 +18,23 @@ namespace spidar {
 /// of the delivered force that no limit lowers. The same holds for the torque.
 class ForceLimits {
  public:
-  /// `most_N` bounds the force limit, however high it is set.
+  /// `most_N` bounds the force limit, however high it is set, until the first tick.
   ForceLimits(const SafetyLimits& limits, double most_N) noexcept
-      : most_N_(most_N), shared_(limits), set_(bounded(limits)), now_(set_), before_(set_) {}
+      : most_N_(most_N),
+        shared_(limits),
+        set_(bounded(limits, most_N)),
+        now_(set_),
+        before_(set_) {}
 
   /// Takes effect with the next fall() or restart(). Any thread, one caller at a time.
   void set(const SafetyLimits& limits) noexcept { shared_.store(limits); }
 
   // --- loop thread
 
-  /// A tick begins, `dt_s` after the last one, in which the wrenches were `commanded` and
-  /// `delivered`.
-  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s) noexcept {
+  /// A tick begins, `dt_s` after the last one that was answered, in which the wrenches were
+  /// `commanded` and `delivered`. `most_N` bounds the force limit from now on.
+  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N) noexcept {
+    most_N_ = most_N;
     take();
     now_ = set_;
     now_.max_force_N = fallen(set_.max_force_N, before_.max_force_N,
@@ -54,17 +59,17 @@ class ForceLimits {
   static double fallen(double set, double before, double exerted, double step) noexcept {
     return std::max(non_negative(set), std::min(before, exerted) - step);
   }
-  SafetyLimits bounded(SafetyLimits limits) const noexcept {
-    limits.max_force_N = std::min(limits.max_force_N, most_N_);
+  static SafetyLimits bounded(SafetyLimits limits, double most_N) noexcept {
+    limits.max_force_N = std::min(limits.max_force_N, most_N);
     return limits;
   }
   /// Keeps the limits of the last tick while new ones are being written.
   void take() noexcept {
     before_ = now_;
-    if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits);
+    if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits, most_N_);
   }
 
-  const double most_N_;
+  double most_N_;
   Seqlock<SafetyLimits> shared_;
   SafetyLimits set_, now_;
   SafetyLimits before_;  ///< in effect before this tick

@@ -28,15 +28,15 @@ bool has_wanted(const TickRecord& record) noexcept {
 }
 
 /// Whoever sets a limit, a grip that is let go must not be thrown.
-double most_force_N(const GripTraits& traits) noexcept {
-  return traits.can_fly ? released_force_N(traits.drive_lag_s)
+double most_force_N(const GripTraits& traits, double late_s) noexcept {
+  return traits.can_fly ? released_force_N(traits.drive_lag_s, late_s)
                         : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
-    : grip_(std::move(grip)), limits_(limits, most_force_N(grip_->traits())) {}
+    : grip_(std::move(grip)), limits_(limits, most_force_N(grip_->traits(), 0)) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -82,7 +82,9 @@ std::string HapticLoop::refusal() const {
 void HapticLoop::energise() noexcept {
   state_ = DeviceState::kOpening;
   power_ = acknowledged_power_ = 0;
-  errors_in_a_row_ = 0;
+  missing_.reset();
+  unanswered_ns_ = 0;
+  late_s_ = 0;
   untrusted_ns_ = 0;
   brake_.reset();
   safety_.reset();
@@ -130,10 +132,12 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
 
   // Keeps the values of the last tick while the writer is updating them.
   shared_clock_.try_load(clock_);
-  const double dt_s = 1e-9 * static_cast<double>(std::min(passed_ns, kMaxStep_ns));
   const bool is_open = state_ != DeviceState::kLost && state_ != DeviceState::kClosed;
+  unanswered_ns_ = is_open ? unanswered_ns_ + passed_ns : 0;
+  const Step step{1e-9 * static_cast<double>(std::min(unanswered_ns_, kMaxStep_ns)),
+                  1e-9 * static_cast<double>(unanswered_ns_)};
   if (is_open) {
-    limits_.fall(safety_.last(), exerted_, dt_s);
+    limits_.fall(safety_.last(), exerted_, step.falls_s, most_force_N(grip_->traits(), late_s_));
   } else {
     limits_.restart();
   }
@@ -143,8 +147,8 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     grip_->check_age(now_ns);
     touch(record, passed_ns);
     ask_callback(record, passed_ns);
-    command(record, dt_s);
-    exchange(record, dt_s, passed_ns);
+    command(record, step, passed_ns);
+    exchange(record, step);
     vibration_.update(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
@@ -232,15 +236,27 @@ bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
          (limits_.as_set().max_force_N > 0 || limits_.as_set().max_torque_Nm > 0);
 }
 
-void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
+/// Without any other force, the strings at rest throw a grip. Whatever the limits are, the damper
+/// may take back what they give, and turn it round: TensionCommand lets the strings then pull no
+/// harder than at rest.
+SafetyLimits HapticLoop::braking_limits() const noexcept {
+  SafetyLimits limits = limits_.in_effect();
+  const Wrench& at_rest = grip_->reading().at_rest;
+  limits.max_force_N = std::max(limits.max_force_N, 2 * at_rest.force_N.norm());
+  limits.max_torque_Nm = std::max(limits.max_torque_Nm, 2 * at_rest.torque_Nm.norm());
+  return limits;
+}
+
+void HapticLoop::command(TickRecord& record, const Step& step, int64_t passed_ns) noexcept {
+  const double passed_s = 1e-9 * static_cast<double>(passed_ns);
   const bool closing = closing_.load(std::memory_order_acquire);
   const bool nothing = !has_wanted(record) || record.wanted.stacked().isZero(0);
-  const bool idle = idle_.idle(!nothing, grip_->reading().pose.position_m, dt_s);
+  const bool idle = idle_.idle(!nothing, grip_->reading().pose.position_m, passed_s);
   if (closing || idle) {
-    power_ = std::max(power_ - dt_s / kRelease_s, 0.0);
+    power_ = std::max(power_ - step.falls_s / kRelease_s, 0.0);
     state_ = closing ? DeviceState::kClosing : DeviceState::kIdle;
   } else {
-    power_ = std::min(power_ + dt_s / kEnergise_s, 1.0);
+    power_ = std::min(power_ + step.rises_s / kEnergise_s, 1.0);
     state_ = power_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   const GripReading& grip = grip_->reading();
@@ -249,29 +265,29 @@ void HapticLoop::command(TickRecord& record, double dt_s) noexcept {
       record.wanted.is_finite() ? limit_total(record.wanted, limits_.as_set()) : record.wanted;
   const Wrench allowed = vibration_.fraction() * wanted;
   const bool fresh = is_fresh(record), can_fly = grip_->traits().can_fly;
-  const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, dt_s) : allowed;
+  const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, passed_s) : allowed;
   // Both fall by the same steps, but for rounding.
   record.commanded =
-      limit_total(safety_.apply(left, fresh, dt_s, limits_.as_set()), limits_.in_effect());
+      limit_total(safety_.apply(left, fresh, fresh ? step.rises_s : step.falls_s, limits_.as_set()),
+                  limits_.in_effect());
   record.brakes = can_fly && brake_.acts();
   if (record.brakes) {
-    Wrench cut = brake_.cut(record.commanded, fresh);
     // What is across the motion and what is against it may be too much together.
-    if (fresh) cut = limit_total(cut, limits_.in_effect());
+    const Wrench cut = limit_total(brake_.cut(record.commanded, fresh), limits_.in_effect());
     safety_.continue_from(cut);
-    record.commanded = fresh ? limit_total(cut + brake_.damper(), limits_.in_effect()) : cut;
+    record.commanded = limit_total(cut + brake_.damper(), braking_limits());
   }
   counters_.rejected_wrenches = safety_.rejected();
 }
 
-void HapticLoop::exchange(TickRecord& record, double dt_s, int64_t passed_ns) noexcept {
+void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   GripCommand command;
   command.wrench = record.commanded;
-  command.fresh = is_fresh(record);
+  command.fresh = is_fresh(record) || (record.brakes && grip_->reading().knows_pose());
   command.power = power_;
   command.limits = limits_.in_effect();
   command.brakes = record.brakes;
-  command.dt_s = dt_s;
+  command.dt_s = is_fresh(record) ? step.rises_s : step.falls_s;
   command.now_ns = record.monotonic_ns;
   const GripReading& grip = grip_->reading();
   const uint64_t pose_errors = grip.pose_errors, string_faults = grip.string_faults;
@@ -279,21 +295,23 @@ void HapticLoop::exchange(TickRecord& record, double dt_s, int64_t passed_ns) no
   if (grip.held_back) ++counters_.held_back_ticks;
   counters_.pose_errors += grip.pose_errors - pose_errors;
   counters_.string_faults += grip.string_faults - string_faults;
+  missing_.count(fault == LinkFault::kNone);
   if (fault == LinkFault::kNone) {
-    errors_in_a_row_ = 0;
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
-    return follow(passed_ns);
+    late_s_ += fraction_passed(step.falls_s, kLateness_s) *
+               (std::max(0.0, step.falls_s - kTick_s) - late_s_);
+    unanswered_ns_ = 0;
+    return follow(step.falls_s);
   }
   undo(record);
   ++counters_.exchange_errors;
-  if (is_lost(fault) || ++errors_in_a_row_ >= kMaxErrors) lose();
+  if (is_lost(fault) || missing_.is_lost()) lose();
 }
 
 /// Nobody needs to be protected from a stick that lets go of the hand. However late a tick is, the
 /// strings have pulled for as long.
-void HapticLoop::follow(int64_t passed_ns) noexcept {
-  const double passed_s = 1e-9 * static_cast<double>(passed_ns);
+void HapticLoop::follow(double passed_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
   // A hand does not turn a grip so far. Before its strings tangle and its pose is lost, the force
@@ -308,7 +326,7 @@ void HapticLoop::follow(int64_t passed_ns) noexcept {
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
   limits_.undo();
-  record.commanded = safety_.last();
+  record.commanded = limit_total(safety_.last(), limits_.in_effect());
   record.acknowledged = false;
   power_ = acknowledged_power_;
 }

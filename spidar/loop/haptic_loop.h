@@ -16,6 +16,7 @@
 #include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"
 #include "spidar/loop/loop_time.h"
+#include "spidar/loop/missing_answers.h"
 #include "spidar/loop/tick_record.h"
 #include "spidar/loop/wrench_callback.h"
 #include "spidar/loop/wrench_limits.h"
@@ -59,10 +60,9 @@ class HapticLoop {
   static constexpr double kEnergise_s = 0.2;
   /// Time in which tensions fall to zero before the device is closed.
   static constexpr double kRelease_s = 0.05;
-  /// Number of failed exchanges in a row after which a device is lost.
-  static constexpr int kMaxErrors = 20;
-  /// Upper bound of the time that one tick counts for, however late it is, so that a stall does not
-  /// end in a step.
+  static constexpr int kMaxErrors = MissingAnswers::kMost;
+  /// Upper bound of the time for which a force rises in one tick, however late that is, so that a
+  /// stall does not end in a step. What falls does so in the time that has passed.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
   static constexpr size_t kForces = 1024;
 
@@ -155,6 +155,15 @@ class HapticLoop {
   void close() noexcept;
 
  private:
+  /// The time of a tick, since the last one that the device has answered.
+  struct Step {
+    double rises_s = 0;  ///< at most kMaxStep_ns
+    double falls_s = 0;
+  };
+  /// The mean time between answers, by which the force is limited, has this time constant: a hand
+  /// that is let go is stopped within it, and one late answer in a hundred hardly counts.
+  static constexpr double kLateness_s = 0.1;
+
   void energise() noexcept;
   void lose() noexcept;
   void refuse(const std::string& reason);
@@ -163,9 +172,10 @@ class HapticLoop {
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
   void ask_callback(TickRecord& record, int64_t passed_ns) noexcept;
   bool is_fresh(const TickRecord& record) const noexcept;
-  void command(TickRecord& record, double dt_s) noexcept;
-  void exchange(TickRecord& record, double dt_s, int64_t passed_ns) noexcept;
-  void follow(int64_t passed_ns) noexcept;
+  SafetyLimits braking_limits() const noexcept;
+  void command(TickRecord& record, const Step& step, int64_t passed_ns) noexcept;
+  void exchange(TickRecord& record, const Step& step) noexcept;
+  void follow(double passed_s) noexcept;
   void undo(TickRecord& record) noexcept;
   void publish(const TickRecord& record) noexcept;
 
@@ -192,10 +202,12 @@ class HapticLoop {
   DeviceState state_ = DeviceState::kClosed;
   double power_ = 0;               ///< GripCommand::power
   double acknowledged_power_ = 0;  ///< of the last acknowledged command, from which it continues
-  int errors_in_a_row_ = 0;
-  uint64_t gap_ticks_ = 0;    ///< since the newest frame was over
-  int64_t untrusted_ns_ = 0;  ///< time for which the pose has not been trusted
-  int64_t unfelt_ns_ = 0;     ///< time for which no command was strong enough to be felt
+  MissingAnswers missing_;
+  int64_t unanswered_ns_ = 0;  ///< since the last tick that the device has answered
+  double late_s_ = 0;          ///< mean by which an answer comes later than a tick after the last
+  uint64_t gap_ticks_ = 0;     ///< since the newest frame was over
+  int64_t untrusted_ns_ = 0;   ///< time for which the pose has not been trusted
+  int64_t unfelt_ns_ = 0;      ///< time for which no command was strong enough to be felt
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;

@@ -31,9 +31,9 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t now_ns = monotonic_now_ns();
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
-  errors_in_a_row_ = fault == LinkFault::kNone ? 0 : errors_in_a_row_ + 1;
+  missing_.count(fault == LinkFault::kNone);
   if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(held_.name(), fault, late_ns));
-  if (is_lost(fault) || errors_in_a_row_ >= HapticLoop::kMaxErrors) {
+  if (is_lost(fault) || missing_.is_lost()) {
     throw DeviceError(loss_text(held_.name(), held_.health().last_fault, late_ns));
   }
 }

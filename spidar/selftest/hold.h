@@ -16,6 +16,7 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/loop/loop_time.h"
+#include "spidar/loop/missing_answers.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::selftest {
@@ -104,7 +105,7 @@ class Hold {
   /// Forgets what was put out: the value is zero.
   void reset() {
     value_ = Value::Zero();
-    errors_in_a_row_ = 0;
+    missing_.reset();
     last_ns_ = 0;
   }
 
@@ -116,7 +117,7 @@ class Hold {
   void watch(LinkFault fault);
 
   Openable& held_;
-  int errors_in_a_row_ = 0;
+  MissingAnswers missing_;
   int64_t last_ns_ = 0;  ///< when the latest exchange ended
 };
 

@@ -9,6 +9,7 @@
 
 #include "spidar/grip/released_grip.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/tampered_device.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::haptic_loop_test {
@@ -182,21 +183,25 @@ struct Limited : LoopDriver {
       loop->schedule(frame(i * kFrame, {{force_N, 0, 0}, {0, 0, torque_Nm}}));
     play(0);
     last = run(10 * kFrame);
+    answered_ns = now_ns;
   }
   void set(double force_N, double torque_Nm) {
     limits.max_force_N = force_N;
     limits.max_torque_Nm = torque_Nm;
     loop->set_limits(limits);
   }
-  /// One tick, in which nothing may change faster than the slew limits, neither in the command nor
-  /// at the hand.
+  /// One tick, in which nothing may change faster than the slew limits in the time since the last
+  /// answer, neither in the command nor at the hand.
   void check(const std::string& where) {
     const TickRecord now = watch.tick(*loop, now_ns += kTick_ns);
+    const double passed_s = 1e-9 * static_cast<double>(now_ns - answered_ns);
+    if (now.acknowledged) answered_ns = now_ns;
     const Wrench commanded = now.commanded - last.commanded;
     const Wrench delivered = now.delivered - last.delivered;
     // The solver trades residual against tension, see CommandsWhatIsWanted.
     const double solver_N = 2 * std::sqrt(TensionProblem{}.epsilon) * range_N();
-    const double force_N = limits.max_slew_N_s * 1e-3, torque_Nm = limits.max_slew_Nm_s * 1e-3;
+    const double force_N = limits.max_slew_N_s * passed_s,
+                 torque_Nm = limits.max_slew_Nm_s * passed_s;
     EXPECT_LE(commanded.force_N.norm(), force_N + 1e-12) << where;
     EXPECT_LE(commanded.torque_Nm.norm(), torque_Nm + 1e-12) << where;
     EXPECT_LE(delivered.force_N.norm(), force_N + solver_N) << where;
@@ -206,6 +211,7 @@ struct Limited : LoopDriver {
   double range_N() const { return (profile.max_tension_N() - profile.min_tension_N()).norm(); }
 
   SafetyLimits limits;
+  int64_t answered_ns = 0;
   TickRecord last;
   TickWatch watch;
 };
@@ -277,6 +283,50 @@ TEST(HapticLoop, ALimitThatIsLoweredWhileTheDeviceDoesNotAnswer) {
     driver.check("tick " + std::to_string(i));
   }
   EXPECT_EQ(driver.last.commanded.stacked().norm(), 0);
+}
+
+// Each answer made up for one tick only: a pause took 74 ms when half of them were missing, and 224
+// ms when nine tenths came 5 ms late.
+TEST(HapticLoop, PauseLimitAndEndTakeNoLongerWhenAnswersAreMissingOrLate) {
+  const double kEnds_s = std::max(SafetyLimits{}.ramp_s, HapticLoop::kRelease_s);
+  for (const int64_t step_ns : {kTick_ns, 5 * kTick_ns}) {
+    for (const int missing : {0, 1}) {
+      for (int how = 0; how < 3; ++how) {
+        Playing driver;
+        driver.run(5 * kFrame);
+        if (how == 0) driver.pause();
+        if (how == 1) driver.loop->set_limits({0, 0});
+        if (how == 2) driver.loop->begin_close();
+        // Two ticks more: until the first answer after that time.
+        const int64_t end_ns =
+            driver.now_ns + static_cast<int64_t>(1e9 * kEnds_s) + (missing + 1) * step_ns;
+        for (int i = 0; driver.now_ns < end_ns; ++i) {
+          driver.log().answer = missing > 0 && i % 2 == 0 ? LinkFault::kTimeout : LinkFault::kNone;
+          driver.tick(step_ns);
+        }
+        const StringVector tension_N = tensions_N(driver.log().last_volts, driver.profile);
+        const StringVector rest_N =
+            how == 2 ? StringVector(StringVector::Zero()) : driver.profile.min_tension_N();
+        EXPECT_LE((tension_N - rest_N).cwiseAbs().maxCoeff(), 1e-9)
+            << "ticks of " << step_ns << " ns, " << missing << " missing, how " << how;
+      }
+    }
+  }
+}
+
+// The answers of this link come so late that the force of a grip that is let go acts for longer.
+TEST(HapticLoop, ALinkThatAnswersLateGetsLessForce) {
+  Limited driver(10, 0.05);
+  ASSERT_EQ(driver.last.commanded.force_N.norm(), 10);
+  for (int i = 0; i < 1000; ++i) {
+    // Encoders that never count would be taken for dead ones.
+    put_grip(driver, {{i % 200 < 100 ? 0 : 1e-4, 0, 0}, Eigen::Quaterniond::Identity()});
+    driver.log().answer = i % 2 == 0 ? LinkFault::kTimeout : LinkFault::kNone;
+    driver.last = driver.tick();
+  }
+  EXPECT_EQ(driver.counters().times_lost, 0u);
+  EXPECT_NEAR(driver.last.commanded.force_N.norm(),
+              released_force_N(driver.profile.drive_lag_s, kTick_s), 1e-3);
 }
 
 TEST(HapticLoop, ALimitThatIsLoweredDuringAPause) {

@@ -146,22 +146,29 @@ TEST(HapticLoopDevice, NothingToReleaseWhenLost) {
   EXPECT_TRUE(driver.loop->released());
 }
 
-TEST(HapticLoopDevice, SomeErrorsInARowAreALoss) {
+TEST(HapticLoopDevice, ErrorsInARowOrInMostTicksAreALoss) {
   for (const LinkFault error : {LinkFault::kTimeout, LinkFault::kWrongReply}) {
     LoopDriver driver;
     driver.open();
     for (int round = 0; round < 3; ++round) {
-      driver.log().answer = error;
-      for (int i = 0; i < HapticLoop::kMaxErrors - 1; ++i) driver.tick();
+      for (const LinkFault answer : {error, LinkFault::kNone}) {
+        driver.log().answer = answer;
+        for (int i = 0; i < HapticLoop::kMaxErrors - 1; ++i) driver.tick();
+      }
       EXPECT_FALSE(driver.loop->lost());
-      driver.log().answer = LinkFault::kNone;
-      driver.tick();
     }
     driver.log().answer = error;
     for (int i = 0; i < HapticLoop::kMaxErrors; ++i) driver.tick();
     EXPECT_TRUE(driver.loop->lost());
     EXPECT_EQ(driver.counters().exchange_errors,
               3u * (HapticLoop::kMaxErrors - 1) + HapticLoop::kMaxErrors);
+    ASSERT_TRUE(driver.loop->reopen());
+    // Three of four, which is one more than half of them in two ticks.
+    for (int i = 0; i < 2 * HapticLoop::kMaxErrors; ++i) {
+      driver.log().answer = i % 4 == 0 ? LinkFault::kNone : error;
+      driver.tick();
+    }
+    EXPECT_TRUE(driver.loop->lost());
   }
 }
 

@@ -60,18 +60,22 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
       fail(tick, "at rest above three times the least tension", where);
     if (tick.released && !(told_N <= kRounding_N)) fail(tick, "not off", where);
   }
+  unanswered_s_ += tick.dt_s;
   if (tick.acknowledged) {
-    const double passed_s = std::min(tick.dt_s, 2e-3);
+    // What falls does so in the time that has passed since the last answer.
+    const double passed_s = std::min(unanswered_s_, 2e-3);
     for (int i = 0; i < count; ++i) {
       const double step_N = std::abs(tick.told_N[i] - told_N_[i]);
       largest_.step_N = std::max(largest_.step_N, step_N);
       const StringDrive& drive = real_.drives[static_cast<size_t>(i)];
-      if (!tick.brakes && !(step_N <= passed_s * TensionSlew::pace_N_s(drive) + kRounding_N))
+      const double step_s = tick.told_N[i] < told_N_[i] ? unanswered_s_ : passed_s;
+      if (!tick.brakes && !(step_N <= step_s * TensionSlew::pace_N_s(drive) + kRounding_N))
         fail(tick, "a string changes too fast", where);
     }
     if (tick.brakes && tick.sees && !never_pushes(tick, passed_s))
       fail(tick, "the brake pushes the grip", where);
     told_N_ = tick.told_N;
+    unanswered_s_ = 0;
   }
 
   const double force = force_N(tick.felt.pose, tick.told_N);

@@ -25,7 +25,7 @@ class SeamWatch {
     double size_N = 0;  ///< largest wrench that the limits allow, torque divided by the grip radius
     bool brakes = false;    ///< tensions may change at once, but not to push
     bool sees = true;       ///< the loop knows the motion of the real grip, so that this is judged
-    bool resting = false;   ///< at least 50 ms after the last wrench that was due
+    bool resting = false;   ///< at least 50 ms after the last wrench that was due, or a brake
     bool released = false;  ///< the motors must be off
     FeltState felt;         ///< what acts on the grip
   };
@@ -64,7 +64,8 @@ class SeamWatch {
   const Profile real_;
   const StringVector least_N_;
   const StringVector most_N_;
-  StringVector told_N_ = StringVector::Zero();  ///< acknowledged last
+  StringVector told_N_ = StringVector::Zero();  ///< acknowledged last, …
+  double unanswered_s_ = 0;                     ///< … and for how long it has been
   bool stopping_ = false;
   double stop_energy_J_ = 0;
   bool failed_ = false;

@@ -106,6 +106,11 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   const int64_t step_ns = following_ ? record.monotonic_ns - last_.monotonic_ns : kTick_ns;
   const double dt_s = 1e-9 * static_cast<double>(std::clamp<int64_t>(step_ns, 0,  //
                                                                      HapticLoop::kMaxStep_ns));
+  unanswered_s_ = following_ ? unanswered_s_ + 1e-9 * static_cast<double>(step_ns) : dt_s;
+  const auto change_s = [&](double before, double now) {
+    const double longest_s = 1e-9 * static_cast<double>(HapticLoop::kMaxStep_ns);
+    return now < before ? unanswered_s_ : std::min(unanswered_s_, longest_s);
+  };
   largest_N_ = std::max(largest_N_, limits.max_force_N);
   largest_Nm_ = std::max(largest_Nm_, limits.max_torque_Nm);
   const double ramp = StaleRamp::kSteepest / limits.ramp_s;
@@ -115,8 +120,12 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
 
   const Wrench& now = record.commanded;
   if (!now.is_finite()) fail(record, "not finite");
-  if (now.force_N.norm() > limits.max_force_N * (1 + kRounding)) fail(record, "force too large");
-  if (now.torque_Nm.norm() > limits.max_torque_Nm * (1 + kRounding)) {
+  // A damper turns round what the strings at rest exert, whatever the limit.
+  const bool damps = record.brakes && !to_be_felt(record);
+  if (!damps && now.force_N.norm() > limits.max_force_N * (1 + kRounding)) {
+    fail(record, "force too large");
+  }
+  if (!damps && now.torque_Nm.norm() > limits.max_torque_Nm * (1 + kRounding)) {
     fail(record, "torque too large");
   }
 
@@ -131,10 +140,12 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   if (following_ && !lost && !brakes) {
     const double rate_Nm_s = std::max(limits.max_slew_Nm_s, ramp * largest_Nm_);
     const Wrench& before = last_.commanded;
-    if ((now.force_N - before.force_N).norm() > rate_N_s * dt_s + 1e-12) {
+    if ((now.force_N - before.force_N).norm() >
+        rate_N_s * change_s(before.force_N.norm(), now.force_N.norm()) + 1e-12) {
       fail(record, "force changes too fast");
     }
-    if ((now.torque_Nm - before.torque_Nm).norm() > rate_Nm_s * dt_s + 1e-12) {
+    if ((now.torque_Nm - before.torque_Nm).norm() >
+        rate_Nm_s * change_s(before.torque_Nm.norm(), now.torque_Nm.norm()) + 1e-12) {
       fail(record, "torque changes too fast");
     }
   }
@@ -143,10 +154,11 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   if (to_be_felt(record) || is_pushed(record)) {
     stopped_s_ = 0;
   } else if (record.acknowledged) {
-    stopped_s_ += dt_s;
+    stopped_s_ += unanswered_s_;
   }
-  if (stopped_s_ > kRest_s && now.stacked().norm() > 0) fail(record, "not at rest");
+  if (stopped_s_ > kRest_s && !brakes && now.stacked().norm() > 0) fail(record, "not at rest");
   look_at_age(record, dt_s);
+  if (record.acknowledged) unanswered_s_ = 0;
   last_ = record;
   following_ = true;
   ++ticks_;
@@ -197,7 +209,7 @@ void TickWatch::look_at_age(const TickRecord& record, double dt_s) {
   const bool old = record.monotonic_ns - newest_since_ns_ > kOldest_ns ||
                    record.running_ns - record.frame_ns > kOldest_ns;
   if (old) old_s_ += dt_s;
-  const bool felt = record.commanded.stacked().norm() > 0;
+  const bool felt = !record.brakes && record.commanded.stacked().norm() > 0;
   if (old_s_ <= kRest_s || !felt) {
     fading_in_ = false;
     return;

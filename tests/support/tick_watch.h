@@ -10,13 +10,13 @@
 namespace spidar::test {
 
 /// Checks every tick of a test, and fails it at the first violation of one of these conditions.
-/// Force and torque never exceed their limits. Their changes never exceed the slew limit;
-/// where the brake acts, it never pushes the grip along, and slows down a fast one only. (SeamWatch
-/// judges the torque and what the strings give; it knows the real motion.) There is exactly no
-/// force 50 ms after the last wrench that was due (counting only time in which the device
-/// answered), and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by
-/// running time. The exceptions are the 40 ms in which the force fades in before the next frame,
-/// and a surface that the grip touches.
+/// Force and torque never exceed their limits. Their changes never exceed the slew limit in the
+/// time since the device has answered, of which two ticks count for what rises; where the brake
+/// acts, it never pushes the grip along, and slows down a fast one only. (SeamWatch judges the
+/// torque and what the strings give; it knows the real motion.) There is exactly no force 50 ms
+/// after the last wrench that was due, unless the brake acts, and 50 ms after the newest frame has
+/// become 100 ms old, by CLOCK_MONOTONIC or by running time. The exceptions are the 40 ms in which
+/// the force fades in before the next frame, and a surface that the grip touches.
 class TickWatch {
  public:
   /// Ticks the loop on time, and checks the result.
@@ -48,6 +48,7 @@ class TickWatch {
   GripMotion motion_;
   double largest_N_ = 0;  // largest limits so far
   double largest_Nm_ = 0;
+  double unanswered_s_ = 0;  // since the last tick that was acknowledged
   double stopped_s_ = 0;
   int64_t newest_frame_ns_ = INT64_MIN;
   int64_t newest_since_ns_ = 0;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Whether a device still counts as connected.
+#pragma once
+
+#include <algorithm>
+
+namespace spidar {
+
+/// A device is lost after kMost exchanges in a row without an answer, and also if more than half of
+/// them lastingly have none: each answer makes up for one that is missing.
+class MissingAnswers {
+ public:
+  static constexpr int kMost = 20;
+
+  void count(bool answered) noexcept {
+    missing_ = answered ? std::max(missing_ - 1, 0) : missing_ + 1;
+  }
+  bool is_lost() const noexcept { return missing_ >= kMost; }
+  void reset() noexcept { missing_ = 0; }
+
+ private:
+  int missing_ = 0;
+};
+
+}  // namespace spidar
