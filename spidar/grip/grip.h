@@ -94,7 +94,7 @@ struct GripReport {
 struct GripReading : GripReport {
   Wrench at_rest;              ///< the part of `delivered` that strings exert without a command
   double stored_J = 0;         ///< the energy that the strings at rest give back on the way home
-  GripMotion motion;           ///< of the poses; at rest while the pose is not known
+  GripMotion motion;           ///< of the poses, also outside the frame; at rest without any
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
   int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did

@@ -67,6 +67,7 @@ class GripMotion {
   /// The pose is not known: the velocity is zero until there are two poses again.
   void reset() noexcept { *this = {}; }
 
+  bool is_known() const noexcept { return !poses_.empty(); }
   const GripVelocity& velocity() const noexcept { return velocity_; }
 
   /// Where a grip at `pose` is `ahead_s` later at the present velocity.

@@ -39,20 +39,17 @@ void GripWatch::reset() noexcept {
   pose_ = {};
   residual_m_ = 0;
   faulty_string_ = -1;
-  counted_ = frozen_ = false;
+  counted_ = frozen_ = follows_ = false;
   solver_.reset();
 }
 
-PoseFault GripWatch::judge(const PoseResult& result, int64_t read_ns) const noexcept {
+PoseFault GripWatch::judge(const PoseResult& result, bool jumps) const noexcept {
   if (result.status != PoseStatus::kSolved) return PoseFault::kNoFit;
   const Pose& pose = result.pose;
   const double turn_rad = 2 * std::acos(std::min(1.0, std::fabs(pose.orientation.w())));
   if (turn_rad > kMaxTurn_rad) return PoseFault::kTurned;
   if (pose.position_m.cwiseAbs().maxCoeff() > reach_m_) return PoseFault::kOutside;
-  // A rotation counts as the way of the points at which the strings are tied.
-  const double way_m = (pose.position_m - pose_.position_m).norm() +
-                       radius_m_ * pose.orientation.angularDistance(pose_.orientation);
-  return trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
+  return jumps ? PoseFault::kJump : PoseFault::kNone;
 }
 
 bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept {
@@ -80,8 +77,13 @@ void GripWatch::update(const DeviceReading& reading, const GripCommand& command)
   const bool frozen = is_frozen(reading, command);
   const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
   residual_m_ = result.residual_m;
-  PoseFault fault = judge(result, read_ns);
-  if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
+  // A rotation counts as the way of the points at which the strings are tied.
+  const double way_m = (result.pose.position_m - pose_.position_m).norm() +
+                       radius_m_ * result.pose.orientation.angularDistance(pose_.orientation);
+  const bool jumps = trust_.is_jump(way_m, read_ns);
+  follows_ = result.status == PoseStatus::kSolved && !jumps;
+  PoseFault fault = judge(result, jumps);
+  if (follows_ || fault == PoseFault::kJump) {
     // The next poses are compared with the pose after a jump, because the grip may really be there.
     pose_ = result.pose;
     trust_.locate(read_ns);
@@ -155,6 +157,21 @@ bool StringGrip::pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcep
   return change.head<3>().dot(now.linear_m_s) + change.tail<3>().dot(now.angular_rad_s) > 0;
 }
 
+/// Where the strings cannot give the wrench that the brake wants, what they give instead might push
+/// the grip: a fraction of what is added to the tensions at rest gives it no more power than the
+/// wrench would.
+StringVector StringGrip::without_push(const StructureMatrix& W, const StringVector& tension_N,
+                                      const Wrench& wrench) const noexcept {
+  const GripVelocity then = reading_.motion.velocity_in(profile_.drive_lag_s);
+  Eigen::Matrix<double, 6, 1> motion;
+  motion << then.linear_m_s, then.angular_rad_s;
+  const StringVector rest_N = profile_.min_tension_N();
+  const double added_W = motion.dot(W * (tension_N - rest_N));
+  const double most_W = std::max(0.0, motion.dot(wrench.stacked()));
+  if (!(added_W > most_W)) return tension_N;
+  return rest_N + most_W / added_W * (tension_N - rest_N);
+}
+
 void StringGrip::pull(const GripCommand& command) noexcept {
   tension_command_.leave_out(watch_.faulty_string());
   const StructureMatrix W = structure_matrix(profile_.geometry, watch_.pose());
@@ -168,6 +185,7 @@ void StringGrip::pull(const GripCommand& command) noexcept {
     const double pace = watch_.trusted() ? 1 : TensionCommand::kLostPace;
     wanted_N = tension_command_.fade(command.wrench, pace);
   }
+  if (command.brakes) wanted_N = without_push(W, wanted_N, command.wrench);
   const StringVector all_N = command.power * wanted_N;
   if (command.brakes && !pushes(W * (all_N - acknowledged_N_))) tension_slew_.reset(all_N);
   const StringVector limited_N = tension_slew_.apply(all_N, profile_, command.dt_s);
@@ -204,7 +222,7 @@ void StringGrip::update(const DeviceReading& answer, const GripCommand& command)
   // Poses without a string that fits after all may have been wrong: the way from them to this one
   // is no motion.
   if (left_out >= 0 && watch_.faulty_string() != left_out) reading_.motion.reset();
-  if (watch_.trusted()) {
+  if (watch_.trusted() || watch_.follows()) {
     reading_.motion.update(watch_.pose(), watch_.located_ns());
   } else {
     reading_.motion.reset();

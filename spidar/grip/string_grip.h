@@ -50,6 +50,9 @@ class GripWatch {
   void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
 
   bool trusted() const noexcept { return trust_.trusted(); }
+  /// Whether the newest pose is one that a hand could have reached, trusted or not: a grip outside
+  /// the frame still moves.
+  bool follows() const noexcept { return follows_; }
   /// kNone while trusted.
   PoseFault fault() const noexcept { return trust_.fault(); }
   /// The newest good pose, trusted or not.
@@ -65,7 +68,7 @@ class GripWatch {
   uint64_t string_faults() const noexcept { return string_faults_; }
 
  private:
-  PoseFault judge(const PoseResult& result, int64_t read_ns) const noexcept;
+  PoseFault judge(const PoseResult& result, bool jumps) const noexcept;
   bool is_frozen(const DeviceReading& reading, const GripCommand& command) noexcept;
 
   const Profile profile_;
@@ -81,6 +84,7 @@ class GripWatch {
   uint64_t pose_errors_ = 0;
   uint64_t string_faults_ = 0;
 
+  bool follows_ = false;
   bool frozen_ = false;
   bool counted_ = false;  ///< the two below are known
   std::array<int32_t, kMaxStrings> last_count_{};
@@ -108,6 +112,8 @@ class StringGrip final : public Grip {
 
  private:
   bool pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept;
+  StringVector without_push(const StructureMatrix& W, const StringVector& tension_N,
+                            const Wrench& wrench) const noexcept;
   void pull(const GripCommand& command) noexcept;
   void update(const DeviceReading& answer, const GripCommand& command) noexcept;
   void report() noexcept;

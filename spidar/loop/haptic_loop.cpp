@@ -317,7 +317,7 @@ void HapticLoop::follow(double passed_s) noexcept {
   // A hand does not turn a grip so far. Before its strings tangle and its pose is lost, the force
   // is gone.
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
-  if (!grip.knows_pose()) return brake_.reset();
+  if (!grip.motion.is_known()) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
   brake_.pull(grip.delivered, grip.at_rest, passed_s);
 }

@@ -77,7 +77,7 @@ struct TickRecord : GripReport {
   /// acknowledged tick, within the limits of this one.
   Wrench commanded;
   bool acknowledged = true;  ///< the device has answered
-  GripVelocity velocity;  ///< GripMotion::kLag_s behind `pose`; zero while the pose is not trusted
+  GripVelocity velocity;  ///< GripMotion::kLag_s behind `pose`; zero while no pose follows another
   bool brakes = false;    ///< see GripCommand
   bool held = true;       ///< false: nobody holds the grip, and the wrench is at rest or returning
   DeviceState device = DeviceState::kClosed;

@@ -74,6 +74,11 @@ enum Parameter {
   kTorqueAngle,
   kMoment,
   kLate,
+  kAway,
+  kAwayZ,
+  kAwayAngle,
+  kStops,
+  kStopped,
   kParameters
 };
 using Point = std::array<double, kParameters>;
@@ -157,8 +162,18 @@ Worst play(const Profile& profile, const Case& what, const Point& p) {
     device.exchange_at(now_ns);
     loop->tick(is_late ? late.deadline_ns() : now_ns, now_ns);
   };
+  // In half of all cases the hand that lets go is up to 3 cm off the centre, and goes there first.
+  const double away = what.lets_go ? std::max(0.0, 2 * p[kAway] - 1) : 0;
+  device.move_hand(
+      [away_m = Eigen::Vector3d(0.03 * away * towards(p[kAwayZ], p[kAwayAngle]))](double time_s) {
+        return Pose{std::min(1.0, 5 * time_s) * away_m, Eigen::Quaterniond::Identity()};
+      });
   for (int i = 0; i < 250; ++i) tick();
   const int64_t begun_ns = now_ns;
+  // In half of all cases the film pauses at some moment, for up to 0.4 s.
+  const int64_t stops_ns = begun_ns + std::llround(between(0.05e9, 1.5e9, p[kStops]));
+  const int64_t stopped_ns = std::llround(0.4e9 * std::max(0.0, 2 * p[kStopped] - 1));
+  bool plays = true;
   const int64_t moment_ns = begun_ns + std::llround(between(0.05e9, 1.2e9, p[kMoment]));
   loop->set_playback_clock({now_ns, 0, 1, true});
   Worst worst;
@@ -174,6 +189,10 @@ Worst play(const Profile& profile, const Case& what, const Point& p) {
         device.cut(first);
         device.cut((first + 1 + static_cast<int>(p[kMass] * 6.99)) % profile.geometry.count);
       }
+    }
+    if (plays != (now_ns < stops_ns || now_ns >= stops_ns + stopped_ns)) {
+      plays = !plays;
+      loop->set_playback_clock({now_ns, now_ns - begun_ns, 1, plays});
     }
     const int64_t before_ns = now_ns;
     tick();

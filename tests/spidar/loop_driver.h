@@ -3,7 +3,6 @@
 /// A haptic loop on a fake device, ticked by hand.
 #pragma once
 
-#include <cmath>
 #include <memory>
 
 #include "spidar/grip/string_grip.h"
@@ -59,14 +58,7 @@ struct LoopDriver {
 
 /// Counts of a grip that is there.
 inline void put_grip(LoopDriver& driver, const Pose& pose) {
-  const StringGeometry& geometry = driver.profile.geometry;
-  const StringVector change_m = string_lengths_m(geometry, pose) - string_lengths_m(geometry, {});
-  for (int i = 0; i < geometry.count; ++i) {
-    const auto k = static_cast<size_t>(i);
-    const StringDrive& drive = driver.profile.drives[k];
-    driver.log().count[k] = drive.encoder_sign *
-                            static_cast<int32_t>(std::lround(change_m[i] / drive.metres_per_count));
-  }
+  driver.log().count = counts_at(driver.profile, pose);
 }
 
 }  // namespace spidar::test

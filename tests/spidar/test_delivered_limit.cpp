@@ -8,7 +8,10 @@
 
 #include "core/grip/string_geometry.h"
 #include "spidar/grip/grip_motion.h"
+#include "spidar/grip/string_grip.h"
 #include "spidar/grip/tension_command.h"
+#include "spidar/loop/loop_time.h"
+#include "tests/support/fake_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
@@ -87,6 +90,57 @@ TEST(DeliveredLimit, HoldsInTheHand) {
     EXPECT_LE(excess_N, allowed_N) << name;
   }
   std::printf("at most %.3f N above the limit\n", worst_N);
+}
+
+// Far from the centre, strings cannot brake, and what they gave instead pushed: a grip of 300 g got
+// 75 mJ of 38.
+TEST(DeliveredLimit, ABrakeGivesNoMorePowerThanItWants) {
+  RandomMotion random(27);
+  int judged = 0;
+  for (const std::string& name : list_profiles()) {
+    const Profile profile = load_profile(name);
+    const double room_m = half_frame_m(profile.geometry).minCoeff();
+    for (int n = 0; n < 40; ++n) {
+      FakeDevice device;
+      StringGrip grip(profile, device);
+      grip.open();
+      const Eigen::Vector3d towards = random.direction();
+      const Eigen::Vector3d velocity_m_s = (random.chance(0.5) ? -0.6 : 0.6) * towards;
+      GripCommand command;
+      command.power = 1;
+      command.dt_s = kTick_s;
+      // From the centre to where it is judged.
+      const double way_m = random.uniform(0.3, 0.9) * room_m;
+      constexpr int kTicks = 400, kMoves = 40;
+      for (int tick = 1; tick <= kTicks; ++tick) {
+        const Eigen::Vector3d end_m = way_m * towards - 1e-3 * kMoves * velocity_m_s;
+        Pose pose;
+        pose.position_m =
+            tick < kTicks - kMoves
+                ? Eigen::Vector3d(tick / (kTicks - kMoves - 1.0) * end_m)
+                : Eigen::Vector3d(end_m + 1e-3 * (tick - kTicks + kMoves) * velocity_m_s);
+        device.log().count = counts_at(profile, pose);
+        command.now_ns += kTick_ns;
+        grip.exchange(command);
+      }
+      if (!grip.reading().knows_pose()) continue;
+      ++judged;
+      const GripVelocity then = grip.reading().motion.velocity_in(profile.drive_lag_s);
+      command.wrench = {-8 * towards.dot(then.linear_m_s) / 0.6 * towards,
+                        0.05 * random.direction()};
+      command.fresh = command.brakes = true;
+      command.now_ns += kTick_ns;
+      grip.exchange(command);
+      const GripReading& given = grip.reading();
+      const auto power_W = [&](const Wrench& wrench) {
+        return wrench.force_N.dot(then.linear_m_s) + wrench.torque_Nm.dot(then.angular_rad_s);
+      };
+      EXPECT_LE(power_W(given.delivered - given.at_rest),
+                std::max(0.0, power_W(command.wrench)) + 1e-9)
+          << name << ", grip " << n;
+    }
+  }
+  EXPECT_GT(judged, 300);
 }
 
 // With force and torque wanted at their limits, the pull at rest and what least squares leaves come

@@ -290,6 +290,38 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
   EXPECT_GT(nothing, 50);  // often on spidar-g6c, whose strings pull hard at rest
 }
 
+// Its motion was forgotten with its pose, and what was left of the force threw 34 g at 1.36 m/s.
+TEST(LostPose, AGripThatFliesOutOfTheFrameIsBraked) {
+  LoopDriver driver;
+  driver.open();
+  double x_m = 0, speed_m_s = 0.3;
+  const auto move = [&] {
+    x_m += 1e-3 * speed_m_s;
+    Pose pose;
+    pose.position_m.x() = x_m;
+    put_grip(driver, pose);
+    return driver.tick();
+  };
+  double reach_m = 0;
+  for (int i = 0; i < driver.profile.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    reach_m = std::max({reach_m, driver.profile.geometry.exit_m[k].cwiseAbs().maxCoeff(),
+                        driver.profile.geometry.grip_m[k].cwiseAbs().maxCoeff()});
+  }
+  while (x_m < reach_m - 0.02) ASSERT_TRUE(move().pose_fault == PoseFault::kNone) << x_m;
+  // The force has come when the pose is lost.
+  driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
+  driver.play(0);
+  TickRecord last = move();
+  while (last.pose_fault == PoseFault::kNone) last = move();
+  ASSERT_EQ(last.pose_fault, PoseFault::kOutside);
+  EXPECT_GT(last.commanded.force_N.x(), 0.5);
+  // 3 N accelerate 34 g by 0.09 m/s in a tick.
+  for (; speed_m_s < 1.2; speed_m_s += 0.09) last = move();
+  EXPECT_EQ(last.pose_fault, PoseFault::kOutside);
+  EXPECT_EQ(last.commanded.force_N.x(), 0);
+}
+
 TEST(Slew, GoesOnFromWhatTheBoardAcknowledged) {
   for (const LinkFault error : {LinkFault::kTimeout, LinkFault::kWrongReply}) {
     LoopDriver driver;

@@ -81,7 +81,8 @@ TEST(ReleasedGrip, AHandThatTurnsKeepsTheForce) {
       ASSERT_TRUE(last.held) << name << ", tick " << i;
       fastest_rad_s = std::max(fastest_rad_s, last.velocity.angular_rad_s.norm());
     }
-    EXPECT_GT(fastest_rad_s, kFastest_rad_s) << name;
+    // The hand yields to the strings.
+    EXPECT_GT(fastest_rad_s, 0.9 * kFastest_rad_s) << name;
   }
 }
 

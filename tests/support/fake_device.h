@@ -4,13 +4,29 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "spidar/device.h"
+#include "spidar/profiles/profile.h"
 
 namespace spidar::test {
+
+/// Of a grip at `pose`, when it was at the centre as the device was opened.
+inline std::array<int32_t, kMaxStrings> counts_at(const Profile& profile, const Pose& pose) {
+  const StringVector change_m =
+      string_lengths_m(profile.geometry, pose) - string_lengths_m(profile.geometry, {});
+  std::array<int32_t, kMaxStrings> counts{};
+  for (int i = 0; i < profile.geometry.count; ++i) {
+    const auto k = static_cast<size_t>(i);
+    const StringDrive& drive = profile.drives[k];
+    counts[k] = drive.encoder_sign *
+                static_cast<int32_t>(std::lround(change_m[i] / drive.metres_per_count));
+  }
+  return counts;
+}
 
 /// Record of what happened to a FakeDevice; must outlive it. Atomics may be used while a loop's
 /// thread runs, other members before and after.
