@@ -104,16 +104,22 @@ class Hand:
         late_ms, self.stood_ms, self.frame_ms = picture_late_ms(wanted, self.ticks, rows_of(screen_trace))
         self.late_ms = late_ms[self.newest]
 
-    def later(self, lag_ms):
-        """The wanted wrench, so much later."""
-        return self.wanted[np.clip(np.arange(len(self.wanted)) - lag_ms, 0, len(self.wanted) - 1)]
+    def later(self, lag_ms, wrenches=None):
+        """The wanted wrench, or another one, so much later."""
+        at = np.clip(np.arange(len(self.wanted)) - lag_ms, 0, len(self.wanted) - 1)
+        return (self.wanted if wrenches is None else wrenches)[at]
+
+    def unnoticed_lag_ms(self):
+        """Of those that nobody notices, the one with which the force fits best."""
+        return max(range(-LATE_MS, LATE_MS + 1, STEP_MS),
+                   key=lambda lag: (self.later(lag)[:, :3] * self.delivered[:, :3]).sum())
 
     def share(self):
-        """The part of the wanted force that came, in its direction, with the lag that fits best; 1 if none is to be felt."""
+        """The part of the wanted force that came, in its direction; 1 if none is to be felt."""
         if size(self.wanted[:, :3]).max() < FELT_N:
             return 1.0
-        got_N2 = max((self.later(lag)[:, :3] * self.delivered[:, :3]).sum() for lag in range(-LATE_MS, LATE_MS + 1, STEP_MS))
-        return float(np.clip(got_N2 / (self.wanted[:, :3]**2).sum(), -1, 1))
+        wanted = self.later(self.unnoticed_lag_ms())[:, :3]
+        return float(np.clip((wanted * self.delivered[:, :3]).sum() / (self.wanted[:, :3]**2).sum(), -1, 1))
 
     def waited_ms(self, part=slice(None)):
         """The longest time without a tick, of the clip and of the clock."""
@@ -140,7 +146,8 @@ class Hand:
     def nearness(self, other):
         """1 where the force is the wanted one, 0 where it is `other`, in the milliseconds in which a hand tells them apart;
         how strong it is as a whole does not matter as far as a hand does not notice."""
-        wanted, delivered, other = self.wanted[:, :3], self.delivered[:, :3], between(other, self.time_ns)[:, :3]
+        lag_ms, delivered = self.unnoticed_lag_ms(), self.delivered[:, :3]
+        wanted, other = self.later(lag_ms)[:, :3], self.later(lag_ms, between(other, self.time_ns))[:, :3]
         larger = np.maximum(size(wanted), size(other))
         apart = (larger >= FELT_N) & (size(wanted - other) > WEBER * larger)
         if not apart.any():

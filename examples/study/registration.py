@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """What a study will do, as a text for a registry such as OSF or AsPredicted, before its first participant."""
 
+from inference import MANY_CLIPS
 from records import digest_of
 from trials import CONDITIONS, PAIRS, QUESTIONS, families
 
@@ -24,8 +25,8 @@ def text(settings, participants):
         + f". Orders are balanced over multiples of twelve and drawn with the seed {settings['seed']}; only codes are shown.", "",
         "Sample", f"{participants} participants, {len(settings['clips_sha256']) - bool(settings['practice'])} clips.", "",
         "Measures, from bad (1) to very good (5)", *(f"{name}: {each}" for name, each in asked.items()), "",
-        "Analysis", "Quasi-F of the differences, over people and clips (min F' below four clips), by this version's "
-        f"report; level {analysis['level']:g}, Holm's correction in each family.",
+        "Analysis", f"Of the differences, by this version's report: quasi-F over people and clips; below {MANY_CLIPS} clips, "
+        f"t over people, of these clips; level {analysis['level']:g}, Holm's correction in each family.",
         f"Primary: {primary} ({pairs[primary]}).", f"Secondary: {', '.join(secondary) or 'none'}.",
         f"Equal within {analysis['margin_steps']:g} steps, by two one-sided tests: {', '.join(analysis['equal']) or 'none'}.", "",
         "Exclusions", *analysis["exclusions"], "",

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import chain
 from briefing import BELIEFS, RIGHT_BELIEF
-from inference import FEW_CLIPS, difference, holm
+from inference import MANY_CLIPS, difference, holm
 from perception import THRESHOLDS, told_apart
 from records import Participants, names_of, read_answers, read_rows, read_settings, unfit
 from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
@@ -50,16 +50,17 @@ def distribution(steps_of, what):
 
 def differences(answers):
     """By (part, question, first condition, second): how much higher the second one is, a row for each participant who
-    has rated every clip in both, a column for each clip."""
+    has rated at least half of the clips in both, a column for each clip; NaN where an answer is missing."""
     given = defaultdict(dict)
     for answer in answers:
         given[answer.part, answer.question, answer.participant][answer.clip, answer.condition] = answer.answer
     rows = defaultdict(list)
     for (part, question, _), steps in given.items():
         clips = sorted({answer.clip for answer in answers if (answer.part, answer.question) == (part, question)})
-        for pair in PAIRS[part]:
-            if all((clip, condition) in steps for clip in clips for condition in pair):
-                rows[part, question, *pair].append([steps[clip, pair[1]] - steps[clip, pair[0]] for clip in clips])
+        for first, second in PAIRS[part]:
+            row = [steps.get((clip, second), math.nan) - steps.get((clip, first), math.nan) for clip in clips]
+            if sum(map(math.isnan, row)) <= len(clips) / 2:
+                rows[part, question, first, second].append(row)
     order = {part: place for place, part in enumerate(PAIRS)}
     return dict(sorted(rows.items(), key=lambda item: order[item[0][0]]))
 
@@ -148,15 +149,13 @@ def report(answers, paths=(), exploratory=False):
     lines += ["", "As the paper counts, one answer of each person and condition (here the median over the clips):",
               *distribution(ratings(of_people(answers)), "people")]
     margin = analysis["margin_steps"]
-    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is",
-              "higher, for other people and clips like these. p: of no difference; of what is expected to be equal, of a",
-              f"difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected for the comparisons of the",
-              "family."]
     rows = differences(answers)
-    clips = min((len(each[0]) for each in rows.values()), default=FEW_CLIPS)
-    if clips < FEW_CLIPS:
-        lines.append("With a single clip, nothing is said of other clips." if clips == 1 else
-                     f"{clips} clips say little of others: docs/study.md has how often that errs.")
+    clips = min((len(each[0]) for each in rows.values()), default=MANY_CLIPS)
+    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher, for",
+              "other people and " + ("clips like these, if no few of them carry most of it" if clips >= MANY_CLIPS else
+                                     f"these clips; of others, fewer than {MANY_CLIPS} say too little") + ". p: of no difference; of",
+              f"what is expected to be equal, of a difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected",
+              "for the comparisons of the family."]
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
         lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []

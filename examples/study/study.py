@@ -29,7 +29,7 @@ from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, descri
 from options import parse
 from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_merged,
                      read_rows, read_settings, require_same, utc_now, write_settings)
-from trials import ANALYSIS, CONDITIONS, QUESTIONS, Trial, open_questions, schedule
+from trials import CONDITIONS, QUESTIONS, Trial, analysis_of, open_questions, schedule
 
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
@@ -55,8 +55,7 @@ class Study:
         asked = {name for questions in QUESTIONS.values() for name in questions} | set(self.extra)
         if options.primary not in asked:
             raise ValueError(f"--primary {options.primary} is not asked: give one of {', '.join(sorted(asked))}")
-        self.analysis = ANALYSIS | {"primary": options.primary,
-                                    "equal": [name for name in ANALYSIS["equal"] if name != options.primary]}
+        self.analysis = analysis_of(options.primary)
         self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
         for clip in self.clip_files():  # all clips and properties are right before the first one is shown
             clip_player.uri_of(clip)

@@ -23,7 +23,7 @@ ANALYSIS = {
     "primary": "movement", "equal": ["comfort"], "margin_steps": 0.5, "level": 0.05,
     "exclusions": [
         "A presentation whose force was not delivered is repeated, and not asked about.",
-        "Who has not rated every clip in both conditions is left out of that comparison.",
+        "Who has rated less than half of the clips in both conditions is left out of that comparison.",
         "Nobody is left out for their answers; comparisons with the sham are repeated without those who saw through it."]}
 # The orders in which the conditions of a clip follow each other: all there are.
 ORDERS = {"controllers": [(0, 1), (1, 0)],
@@ -47,11 +47,18 @@ def family_of(question, analysis):
     return ("equal" if question in analysis["equal"] else "primary" if question == analysis["primary"] else "secondary")
 
 
+def analysis_of(primary):
+    """ANALYSIS with another primary outcome, which is then not expected to be equal."""
+    return ANALYSIS | {"primary": primary, "equal": [name for name in ANALYSIS["equal"] if name != primary]}
+
+
 def families(analysis):
-    """The comparisons of each: (question, first condition, second)."""
+    """The comparisons of each: (question, first condition, second). A primary question of the study's own is asked after
+    each clip, in both parts."""
     found = {family: [] for family in FAMILIES}
+    own = {analysis["primary"]} - {name for questions in QUESTIONS.values() for name in questions}
     for part, questions in QUESTIONS.items():
-        for question in questions:
+        for question in [*questions, *own]:
             found[family_of(question, analysis)] += [(question, *pair) for pair in PAIRS[part]]
     return found
 

@@ -233,23 +233,27 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         if options.keep:
             options.keep.mkdir(exist_ok=True)
-        problems, accepted, count = [], Counter(), Counter()
+        problems, undisturbed, accepted, count = [], [], Counter(), Counter()
         for n, (frames, ticks, screen, is_muted, own, other) in enumerate(
                 presentations(options.films, options.keep or Path(folder), options.times)):
             problems.append(judged(ticks, frames, screen, own, is_muted, [other])[1])
-            for kind, sizes, doctor in KINDS if not is_muted and is_undisturbed(ticks, screen, own) else ():
+            if not is_undisturbed(ticks, screen, own):
+                continue
+            undisturbed.append(problems[-1])
+            for kind, sizes, doctor in KINDS if not is_muted else ():
                 for size in sizes:
                     one = Presentation(ticks, screen, own, other, np.random.default_rng([n, len(kind)]))
                     doctor(one, size)
                     accepted[kind, size] += not one.judged(own, other)[1]
                     count[kind, size] += 1
-    print(f"as they were: {problems.count('')} of {len(problems)} accepted; a load of {os.getloadavg()[0]:.1f} on "
-          f"{os.cpu_count()} processors")
+    print(f"as they were: {problems.count('')} of {len(problems)} accepted, and of those that nothing disturbed "
+          f"{undisturbed.count('')} of {len(undisturbed)}; a load of {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors")
     for problem in filter(None, problems):
         print(f"  {problem}")
-    print("\n| kind | size | accepted |\n|---|---|---|")
-    for (kind, size), total in count.items():
-        print(f"| {kind} | {size:g} | {accepted[kind, size]} of {total} |")
+    print("\n| kind | sizes | accepted |\n|---|---|---|")
+    for kind, sizes, _ in KINDS if count else ():
+        print(f"| {kind} | {', '.join(f'{size:g}' for size in sizes)} | {', '.join(str(accepted[kind, size]) for size in sizes)}"
+              f" of {count[kind, sizes[0]]} |")
 
 
 if __name__ == "__main__":

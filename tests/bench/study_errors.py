@@ -5,12 +5,13 @@
 
   tests/bench/study_errors.py [STUDIES]      of each kind, 4000 if not given
 
-false: how often a difference is found at a level of 5 % where there is none. covered: how often the 95 % interval has
-the true difference, of an odds ratio of 1 and of 7. equal: how often two conditions that differ by just the margin of
-equivalence are called equal at 5 %; there the true difference is taken as the margin. shown: how often conditions that
-are equal are found to be, within half a step. People differ by a standard deviation of 1 in level and effect, clips by
-the one given (log odds). Then, how far thresholds (`study.py threshold`) are from those of simulated people; who lapses in
-100 % of the trials guesses."""
+How often the 95 % interval misses the true difference, which is that of the clips of the study if these are few, and of all
+clips if they are many (inference.py); of clips that are alike and have no effect, that differ (log odds with a standard
+deviation of 0.8), and of which one in five has an odds ratio of 7 and the others have none. 3 % missing: of the last, where
+so many answers are. equal: how often two conditions that differ by just the margin of equivalence, the true difference of
+the last, are called equal at 5 %. shown: how often conditions that are equal are found to be, within half a step. People
+differ by a standard deviation of 1 in level and effect. Then, how far thresholds (`study.py threshold`) are from those of
+simulated people; who lapses in 100 % of the trials guesses."""
 
 import math
 import random
@@ -21,25 +22,58 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "examples" / "study"))
 
 import numpy as np  # noqa: E402
 
+import inference  # noqa: E402
 import perception  # noqa: E402
 import plan  # noqa: E402
 
-DESIGNS = [(24, 2), (12, 3), (24, 3), (36, 3), (12, 6), (24, 4), (24, 6), (48, 6), (24, 12), (120, 12)]  # participants, clips
-CLIP_SPREADS = (0, 0.8)
+DESIGNS = [(12, 2), (24, 3), (12, 4), (24, 6), (120, 6), (24, 12), (48, 12), (120, 12), (24, 20), (120, 20)]  # people, clips
+MANY = 200_000  # clips, whose mean difference is that of all
 LOG_ODDS = math.log(7)
+MISSING = 0.03
 AT_ONCE = 500
 TRUE_N = 0.05  # a threshold, at which 70.7 % are right
 
 
-def simulated(source, studies, *design):
-    """Of the studies of a design: false, covered, equal and shown."""
-    true = plan.true_difference(design[2], *design[3:])
+def alike(source, shape):
+    return np.zeros(shape)
+
+
+def differ(source, shape):
+    return source.normal(0, 0.8, shape)
+
+
+def few_carry_it(source, shape):
+    return np.where(source.random(shape) < 0.2, LOG_ODDS, 0)
+
+
+def made_clips(source, effect, shape):
+    """Level and effect, log odds."""
+    return (np.zeros(shape) if effect is alike else differ(source, shape)), effect(source, shape)
+
+
+def found_and_true(source, people, clips, effect, count, all_clips):
+    """Differences of studies, NaN where an answer is missing, and the true one of each."""
+    level, own = made_clips(source, effect, (count, 1, clips, 1))
+    steps = plan.answers_to(source, people, level, own, 1).astype(float)
+    true = all_clips[effect] if clips >= inference.MANY_CLIPS else plan.difference_for(level, own, 1)
+    return steps[..., 1] - steps[..., 0], true
+
+
+def simulated(source, studies, people, clips, all_clips):
+    """Of the studies of a design, in the order of the columns."""
     parts = []
     for begin in range(0, studies, AT_ONCE):
-        found = plan.difference_of(plan.made_answers(source, *design, (min(AT_ONCE, studies - begin),)))
-        low, high = found.interval()
-        parts.append([found.p() < 0.05, (low < true) & (true < high), found.p_of_equivalence(true) < 0.05,
-                      found.p_of_equivalence(0.5) < 0.05])
+        count, misses, found = min(AT_ONCE, studies - begin), [], None
+        for effect in alike, differ, few_carry_it:
+            d, true = found_and_true(source, people, clips, effect, count, all_clips)
+            found = inference.difference(d)
+            low, high = found.interval()
+            misses.append((true < low) | (high < true))
+            if effect is alike:
+                shown = found.p_of_equivalence(0.5) < 0.05
+        d[source.random(d.shape) < MISSING] = np.nan
+        low, high = inference.difference(d).interval()
+        parts.append([*misses, (true < low) | (high < true), found.p_of_equivalence(abs(true)) < 0.05, shown])
     return [f"{100 * np.concatenate(each).mean():.1f}" for each in zip(*parts)]
 
 
@@ -62,14 +96,12 @@ def thresholds(people):
 
 def main():
     studies = int(sys.argv[1]) if len(sys.argv) > 1 else 4000
-    print("| participants | clips | spread of clips | false % | covered % (no effect) | covered % (odds ratio 7) "
-          "| equal % | shown % |\n" + "|---" * 8 + "|")
+    source = np.random.default_rng(1)
+    all_clips = {effect: plan.difference_for(*made_clips(source, effect, (1, 1, MANY, 1)), 1)[0]
+                 for effect in (alike, differ, few_carry_it)}
+    print("| participants | clips | alike % | differ % | one in five % | 3 % missing % | equal % | shown % |\n" + "|---" * 8 + "|")
     for people, clips in DESIGNS:
-        for clip_spread in CLIP_SPREADS:
-            source = np.random.default_rng(1)
-            false, none, _, shown = simulated(source, studies, people, clips, 0, 1, clip_spread)
-            _, seven, equal, _ = simulated(source, studies, people, clips, LOG_ODDS, 1, clip_spread)
-            print(f"| {people} | {clips} | {clip_spread:g} | {false} | {none} | {seven} | {equal} | {shown} |", flush=True)
+        print(f"| {people} | {clips} | {' | '.join(simulated(source, studies, people, clips, all_clips))} |", flush=True)
     thresholds(max(50, studies // 20))
 
 

@@ -193,6 +193,8 @@ class Delivery(unittest.TestCase):
         blend = lambda part: self.moved(x=lambda _, own_N: (1 - part) * own_N + part * other_N(own_N))
         self.require("", others=others)
         self.require("", self.scaled(0.9), others=others)
+        for late_s in -0.04, 0.04:
+            self.require("", self.moved(x=lambda t, _: sway(np.clip(t - late_s, 0, 2))), others=others)
         self.require("another condition", blend(0.2), others=others)
         self.require("another condition", blend(0.7), others=others)
         self.require("", others=[self.FRAMES])  # nobody tells them apart

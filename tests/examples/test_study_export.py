@@ -30,7 +30,7 @@ import records  # noqa: E402
 import report  # noqa: E402
 
 PEOPLE, CLIPS = 24, 6
-R_PACKAGES = "ordinal", "lme4"
+R_PACKAGES = "ordinal", "lmerTest"
 # What BIDS allows beside the files of participants, and of these (its schema's rules for behavioural recordings).
 TOP = re.compile(r"dataset_description\.json|README|participants\.(tsv|json)|code/.+|task-[A-Za-z0-9]+_(beh|events|physio)\.json")
 OWN = re.compile(r"(sub-[A-Za-z0-9]+)/beh/\1_task-[A-Za-z0-9]+(_run-\d+_(events\.tsv|physio\.tsv\.gz)|_beh\.tsv)")
@@ -142,7 +142,7 @@ class Export(unittest.TestCase):
 
     def test_the_models_of_r_find_what_the_report_finds(self):
         if not has_r():
-            print("skipped: R's packages ordinal and lme4 are not installed (r-cran-ordinal, r-cran-lme4)")
+            print("skipped: R's packages ordinal and lmerTest are not installed (r-cran-ordinal, r-cran-lmertest)")
             self.skipTest("no R")
         done = subprocess.run(["Rscript", self.out / "code/models.R", self.out], capture_output=True, text=True, check=True)
         found, = csv.DictReader(done.stdout.splitlines(), delimiter="\t")
