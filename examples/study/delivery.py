@@ -71,7 +71,8 @@ def picture_late_ms(wanted, ticks, screen):
     frames_ns = [wanted[0][0]]
     for time_ns, *_ in wanted[1:-1]:  # of the motion, halfway since the frame before; the last row is the clip's end
         frames_ns.append(2 * time_ns - frames_ns[-1])
-    shown = np.array([[int(row["running_ns"]), int(row["shown_ns"])] for row in screen if row["shown_ns"]] or [[0, 2**62]])
+    shown = np.array(sorted([[int(row["running_ns"]), int(row["shown_ns"])] for row in screen if row["shown_ns"]],
+                            key=lambda frame: frame[1]) or [[0, 2**62]])
     newest = np.searchsorted(shown[:, 1], ticks["monotonic_ns"], side="right") - 1
     on_screen_ns = np.where(newest >= 0, shown[newest, 0], -MS_NS)
     due_ns = np.append(frames_ns, 2**62)[np.searchsorted(frames_ns, on_screen_ns + MS_NS // 2)]
@@ -90,7 +91,7 @@ class Hand:
     def __init__(self, haptic_trace, screen_trace, wanted, is_muted):
         playing = [row for row in rows_of(haptic_trace) if row["playing"] == "1"]
         self.device, self.count = Counter(row["device"] for row in playing), len(playing)
-        playing = [row for row in playing if row["acknowledged"] == "1"]
+        playing = sorted((row for row in playing if row["acknowledged"] == "1"), key=lambda row: int(row["running_ns"]))
         if not playing:
             self.count = 0
             return

@@ -23,7 +23,12 @@ read <- function(file) {
 rows <- do.call(rbind, lapply(files, read))
 pairs <- list(c("linear", "nonlinear"), c("without", "with"), c("sham", "with"))
 
-fitted <- function(model) tryCatch(suppressMessages(suppressWarnings(model())), error = function(problem) NULL)
+most_s <- 300 # answers that determine nothing keep an optimizer busy
+fitted <- function(model) {
+  setTimeLimit(elapsed = most_s, transient = TRUE)
+  on.exit(setTimeLimit())
+  tryCatch(suppressMessages(suppressWarnings(model())), error = function(problem) NULL)
+}
 
 # Of the Hessian: beyond it, some direction of the parameters has no maximum that the answers determine
 # (ordinal's clmm_tutorial: convergence).

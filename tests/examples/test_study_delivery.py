@@ -172,6 +172,8 @@ class Delivery(unittest.TestCase):
                              (lambda row: row if not 600_000_000 < row[0] < 800_000_000 else None, "the picture stood still for 200")):
             self.require(said, screen=screen)
         self.assertIn("the picture stood for", self.judge(screen=late(90))[1])
+        backwards = lambda row: [2_000_000_000 - row[0], row[1]] if 600_000_000 < row[0] < 1_400_000_000 else row
+        self.require("as is noticed", screen=backwards)
         with patch.object(Delivery, "FRAMES", film(sway, frame_ms=120)):  # each stands for so long
             self.require("", screen=lambda row: row if row[0] % 120_000_000 == 0 else None)
 

@@ -17,11 +17,13 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import numpy as np  # noqa: E402
+from scipy.stats import t  # noqa: E402
 
 import export  # noqa: E402
 import inference  # noqa: E402
@@ -146,16 +148,38 @@ class Export(unittest.TestCase):
             self.skipTest("no R")
         done = subprocess.run(["Rscript", self.out / "code/models.R", self.out], capture_output=True, text=True, check=True)
         found, = csv.DictReader(done.stdout.splitlines(), delimiter="\t")
-        own = inference.difference(self.steps[..., 1] - self.steps[..., 0].astype(float))
+        with patch.object(inference, "MANY_CLIPS", CLIPS):
+            own = inference.difference(self.steps[..., 1] - self.steps[..., 0].astype(float))
         self.assertEqual((found["people"], found["clips"]), (str(PEOPLE), str(CLIPS)))
         # Everybody has rated everything: the estimate of a linear mixed model is the mean.
         self.assertAlmostEqual(float(found["steps"]), own.mean, 3)
-        # By restricted maximum likelihood, its variance is that of the quasi-F where no component is at its bound: this one
-        # has none; R's interval is 1.96 errors to each side.
-        self.assertAlmostEqual((float(found["steps_high"]) - float(found["steps_low"])) / 3.92 / own.error, 1, delta=0.02)
+        # Its variance is that of the quasi-F, but that R takes what neither person nor clip explains from levels and
+        # differences together: 5 % of it, which few degrees of freedom determine. An R from the normal distribution would
+        # have an interval narrower by a fifth.
+        half = (float(found["steps_high"]) - float(found["steps_low"])) / 2
+        self.assertAlmostEqual(half / (t.ppf(0.975, float(found["df"])) * own.error), 1, delta=0.05)
+        self.assertAlmostEqual(float(found["df"]) / own.freedom, 1, delta=0.2)
+        self.assertAlmostEqual(float(found["steps_p"]) / own.p(), 1, delta=0.2)
+        self.assertEqual(found["note"], "")
         low, ratio, high = (float(found[name]) for name in ("low", "odds_ratio", "high"))
         self.assertTrue(low < ratio < high and low < self.ODDS_RATIO < high, found)
         self.assertLess(float(found["p"]), 0.05)
+
+    def test_the_models_of_r_say_what_the_answers_do_not_determine(self):
+        """Of one clip, two answers of each person: by figures that are not there, and a note."""
+        if not has_r():
+            self.skipTest("no R")
+        with tempfile.TemporaryDirectory() as folder:
+            for person in range(6):
+                beh = Path(folder, f"sub-{person}", "beh")
+                beh.mkdir(parents=True)
+                rows = [f"{condition}\ta.avi\tmovement\t{step}\n" for condition, step in (("linear", 1), ("nonlinear", 4 + person % 2))]
+                Path(beh, f"sub-{person}_task-controllers_beh.tsv").write_text(
+                    "condition\tclip\tquestion\tresponse\n" + "".join(rows))
+            done = subprocess.run(["Rscript", self.out / "code/models.R", folder], capture_output=True, text=True, check=True)
+        found, = csv.DictReader(done.stdout.splitlines(), delimiter="\t")
+        self.assertEqual((found["odds_ratio"], found["p"], found["steps"]), ("NA",) * 3)
+        self.assertEqual(found["note"], "odds ratio not determined; difference not determined")
 
 
 class PaperFigures(unittest.TestCase):

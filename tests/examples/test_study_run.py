@@ -11,6 +11,7 @@ import math
 import os
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -290,6 +291,45 @@ class Streams:
         late_s = [shown_s - running_s - rows[0][1] for running_s, shown_s in rows]
         self.assertGreaterEqual(late_s[10], slept_s - 1 / FRAMES_S)
         self.assertGreaterEqual(min(late_s), -1e-6, "none before it is due")
+
+    @unittest.skipUnless(shutil.which("Xvfb"), "no Xvfb")
+    def test_the_film_fills_the_screen_until_it_ends(self):
+        """A white picture of another shape, on the screen of 300 × 200: white in its middle, black at its border."""
+        reader, writer = os.pipe()
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "300x200x24", "-nolisten", "tcp"],
+                                  pass_fds=[writer], stderr=subprocess.DEVNULL)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        os.close(writer)
+        with os.fdopen(reader) as numbers:
+            display = ":" + numbers.readline().strip()
+        script = f"""if True:
+            import ctypes, sys
+            sys.path.insert(0, {FOLDER!r})
+            import clip_player, full_screen
+            Gst = clip_player.Gst
+            x = ctypes.CDLL("libX11.so.6")
+            class Image(ctypes.Structure):
+                _fields_ = [(name, ctypes.c_int) for name in ("width", "height", "offset", "format")] + [("data", ctypes.c_void_p)]
+            x.XOpenDisplay.restype, x.XDefaultRootWindow.restype, x.XGetImage.restype = ctypes.c_void_p, ctypes.c_ulong, ctypes.POINTER(Image)
+            display = ctypes.c_void_p(x.XOpenDisplay(None))
+            root = ctypes.c_ulong(x.XDefaultRootWindow(display))
+            def pixels():
+                image = x.XGetImage(display, root, 0, 0, 300, 200, ctypes.c_ulong(0xffffffff), 2).contents
+                data = ctypes.string_at(image.data, 300 * 200 * 4)
+                return [data[4 * (300 * row + column)] for row, column in ((100, 150), (10, 150), (190, 150), (100, 5), (100, 295))]
+            pipeline = Gst.parse_launch("videotestsrc pattern=white num-buffers=5 ! video/x-raw,width=300,height=100 ! "
+                                        "videoconvert ! videoscale ! ximagesink")
+            whole = full_screen.FullScreen(pipeline)
+            pipeline.set_state(Gst.State.PLAYING)
+            message = pipeline.bus.timed_pop_filtered(20 * Gst.SECOND, Gst.MessageType.EOS | Gst.MessageType.ERROR)
+            print(message.type == Gst.MessageType.EOS, pixels())
+            pipeline.set_state(Gst.State.NULL)
+            whole.close()
+            print(whole.display, pixels()[0])"""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60,
+                              env=os.environ | {"DISPLAY": display}, check=False)
+        self.assertEqual(done.stdout.splitlines(), ["True [255, 0, 0, 255, 255]", "None 0"], done)
 
     def test_without_a_board_nobody_is_asked(self):
         answers = self.file("usb.csv")
