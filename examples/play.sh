@@ -114,6 +114,5 @@ if [[ $needs_clip == yes ]]; then
 fi
 
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
-export GST_PRESET_PATH=$top/plugin/filter${GST_PRESET_PATH:+:$GST_PRESET_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
 exec "$play" "${options[@]}" "${video[@]}" "${properties[@]}"

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/install_folder.h"
 
+#include <cstdlib>
 #include <dlfcn.h>
 #include <elf.h>
 #include <link.h>
@@ -51,6 +52,22 @@ fs::path prefix_of(const fs::path& file) {
 fs::path installed(const std::string& below) {
   const fs::path prefix = prefix_of(own_file());
   return (prefix.empty() ? fs::path(SPIDAR_PREFIX) : prefix) / below;
+}
+
+std::vector<fs::path> listed_folders(const char* name) {
+  const char* const value = std::getenv(name);
+  std::vector<fs::path> folders;
+  for (std::string rest = value ? value : ""; !rest.empty();) {
+    std::error_code none;
+    size_t end = rest.size();  // the longest one that is there
+    while (end != std::string::npos && !fs::is_directory(rest.substr(0, end), none)) {
+      end = end == 0 ? std::string::npos : rest.rfind(':', end - 1);
+    }
+    if (end == std::string::npos) end = rest.find(':');  // none is
+    if (end != 0) folders.emplace_back(rest.substr(0, end));
+    rest.erase(0, end == std::string::npos ? end : end + 1);
+  }
+  return folders;
 }
 
 }  // namespace spidar

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <sys/stat.h>
@@ -42,6 +44,35 @@ std::string read_regular_file(const std::string& path, size_t most_bytes) {
     if (text.size() > most_bytes) {
       throw std::runtime_error("it has more than " + std::to_string(most_bytes >> 20) + " MiB");
     }
+  }
+}
+
+namespace {
+
+struct ReadFiles {
+  std::mutex mutex;
+  std::set<std::filesystem::path> paths;
+};
+
+ReadFiles& read_files() {
+  static auto* const all = new ReadFiles;  // outlives threads that read
+  return *all;
+}
+
+}  // namespace
+
+void note_read(const std::filesystem::path& file) {
+  const std::lock_guard<std::mutex> lock(read_files().mutex);
+  read_files().paths.insert(file);
+}
+
+void expect_not_read(const std::filesystem::path& output) {
+  const std::lock_guard<std::mutex> lock(read_files().mutex);
+  for (const std::filesystem::path& file : read_files().paths) {
+    std::error_code none;
+    if (!std::filesystem::equivalent(file, output, none)) continue;
+    throw std::runtime_error(output.string() + ": is to be another file than " + file.string() +
+                             ", which is read");
   }
 }
 

@@ -14,6 +14,13 @@ namespace spidar {
 /// it regular, but does not let it be read, as with /proc/self/mem.
 std::string read_regular_file(const std::string& path, size_t most_bytes);
 
+/// Notes that this program reads `file`, so that no output takes its place (expect_not_read()).
+void note_read(const std::filesystem::path& file);
+
+/// Throws std::runtime_error when `output` is a file that note_read() has noted, whatever its name:
+/// a link to it, or the same file by another name.
+void expect_not_read(const std::filesystem::path& output);
+
 /// The file to write for `path`: where a link leads, so that the link stays one and leads to the
 /// new file; otherwise `path`. Throws std::runtime_error for a link that leads to nothing.
 std::filesystem::path place_of_output(const std::filesystem::path& path);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # Builds the Debian packages in a Debian that has only the packages named by debian/control, checks
-# them with lintian, installs the five into a minimal Debian, plays a clip there with the simulated
+# them with lintian, installs the six into a minimal Debian, plays a clip there with the simulated
 # device, and builds and runs an example. Needs root; nothing of this machine is visible from there.
 #   tests/packages.sh debian-12|debian-13 [FOLDER]   leaves the packages in FOLDER
 # The last line is the result. A small Debian, the compiler cache (ccache) and the downloaded

@@ -28,6 +28,8 @@
 #include "plugin/properties/typed_property.h"
 #include "plugin/tools/gnuplot.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/tools/mark_files.h"
+#include "spidar/whole_file.h"
 
 namespace fs = std::filesystem;
 
@@ -111,12 +113,19 @@ class WindowPicture {
   std::string path_;
 };
 
+constexpr const char* kPicture = "spidar-play.png";
+/// Of what this program wrote, nothing else is replaced.
+const spidar::PartFile::Replaces kOwn{true, "play.sh", false};
+
 /// Makes the folder, if necessary, before a film is played for it. Throws std::invalid_argument
-/// when it cannot be written to.
+/// when it cannot be written to, and std::runtime_error when it has another picture.
 void prepare_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!error && access(folder.c_str(), W_OK | X_OK) == 0) return;
+  if (!error && access(folder.c_str(), W_OK | X_OK) == 0) {
+    const spidar::PartFile picture(folder / kPicture, kOwn);
+    return;
+  }
   const std::string reason = error ? error.message() : std::strerror(errno);
   throw std::invalid_argument("--output " + folder.string() + ": " + reason +
                               "; give a folder that can be written to");
@@ -131,8 +140,8 @@ gboolean print_field(GQuark name, const GValue* value, void*) {
 
 void draw(const Record& record, const Options& options, const std::string& title,
           double max_force_N) {
-  const std::string png = fs::path(options.output) / "spidar-play.png";
-  spidar::PartFile picture(png, {true, ""});
+  const std::string png = fs::path(options.output) / kPicture;
+  spidar::PartFile picture(png, kOwn);
   spidar::tools::draw_with_gnuplot(picture_script(record, max_force_N, title), picture);
   picture.publish();
   std::printf("picture: %s\n", png.c_str());
@@ -192,6 +201,7 @@ bool set_properties(GstElement* filter, const Options& options) {
 }
 
 int play(const Options& options) {
+  if (!options.ball) spidar::note_read(options.video);
   prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
   const bool has_overlay = set_properties(filter, options);
@@ -272,6 +282,7 @@ int play(const Options& options) {
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with errors, also when written to a file
   constexpr int kMistake = 2;                // in the command line
+  spidar::tools::mark_files(argc, argv);
   CLI::App app("Plays a video whose motion is felt, and ends with a report and a picture of it.");
   try {
     const Options options = parse(app, argc, argv);

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -27,6 +26,8 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/simulation/simulated_device.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/tools/mark_files.h"
+#include "spidar/whole_file.h"
 
 namespace fs = std::filesystem;
 using namespace spidar;
@@ -112,10 +113,13 @@ std::string relief_csv(const touch::HeightField& relief) {
   return out.str();
 }
 
+/// Of what this program wrote, nothing else is replaced.
+const PartFile::Replaces kOwn{true, "touch.sh", false};
+
 void save(const std::string& csv, const fs::path& path) {
-  std::ofstream out(path);
-  out << csv;
-  if (!out.flush()) throw std::runtime_error(path.string() + ": cannot be written");
+  PartFile file(path, kOwn);
+  file.write(csv);
+  file.publish();
 }
 
 struct Felt {
@@ -162,6 +166,7 @@ void write_touch(const std::string& image, bool is_depth, const fs::path& folder
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error("--output " + folder.string() + ": " + error.message());
+  note_read(image);
   const GreyPicture picture = first_picture(image);
 
   const Profile profile = load_profile(kDefaultProfile);
@@ -179,7 +184,7 @@ void write_touch(const std::string& image, bool is_depth, const fs::path& folder
               1e-3 * (kApproach_ticks + kStroke_ticks));
   std::printf("deepest:            %.1f mm below the surface\n", 1e3 * felt.deepest_m);
   std::printf("largest force:      %.2f N\n", felt.largest_N);
-  PartFile drawing(png, {true, ""});
+  PartFile drawing(png, kOwn);
   tools::draw_with_gnuplot("title = " + tools::gnuplot_string(fs::path(image).filename()) +
                                "\n$relief << END\n" + relief + "END\n$ticks << END\n" + felt.csv +
                                "END\n" + kScript,
@@ -202,6 +207,7 @@ int main(int argc, char** argv) {
   app.add_option(
       "--output", folder,
       "Where touch.png, touch-relief.csv and touch-ticks.csv go, else the current folder");
+  spidar::tools::mark_files(argc, argv);
   try {
     app.parse(argc, argv);
     gst_init(nullptr, nullptr);

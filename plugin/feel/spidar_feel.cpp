@@ -20,6 +20,7 @@
 #include "plugin/feel/feel_bin.h"
 #include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/properties/own_plugins.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/screen/screen.h"
 #include "spidar/install_folder.h"
@@ -28,6 +29,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/tools/mark_files.h"
 
 namespace spidar {
 namespace {
@@ -186,61 +188,11 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
-/// Folder of the plugins when GStreamer does not search it by default: in the build tree, beside
-/// this program; else where they were installed.
-std::string plugin_folder() {
-  std::error_code error;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {beside, spidar::installed(SPIDAR_PLUGIN_DIR)}) {
-    if (fs::exists(folder / "libgstspidarfeel.so", error)) return folder.string();
-  }
-  return {};
-}
-
-/// Whether GStreamer finds the element and the tracer, both of this version.
-bool has_plugins() {
-  for (const char* name : {"spidar", "spidarfeel"}) {
-    const spidar::Ref<GstPlugin> plugin(gst_registry_find_plugin(gst_registry_get(), name));
-    if (!plugin || std::strcmp(gst_plugin_get_version(plugin.get()), PACKAGE_VERSION) != 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// GStreamer ignores GST_PLUGIN_PATH when the other variable exists, even if it is empty.
-const char* plugin_path_variable() {
-  return g_getenv("GST_PLUGIN_PATH_1_0") ? "GST_PLUGIN_PATH_1_0" : "GST_PLUGIN_PATH";
-}
-
-/// Searches `folder` before all others, in this process and in the player.
-void search_first(const std::string& folder) {
-  const char* variable = plugin_path_variable();
-  const char* before = g_getenv(variable);
-  const std::string path = before && *before ? folder + ":" + before : folder;
-  g_setenv(variable, path.c_str(), TRUE);
-  GstRegistry* registry = gst_registry_get();
-  // A plugin that was found first stays.
-  for (const char* name : {"spidar", "spidarfeel"}) {
-    const spidar::Ref<GstPlugin> older(gst_registry_find_plugin(registry, name));
-    if (older) gst_registry_remove_plugin(registry, older.get());
-  }
-  gst_registry_scan_path(registry, folder.c_str());
-}
-
 /// Sets up the environment so that GStreamer finds the plugins.
 void find_plugins() {
   gst_init(nullptr, nullptr);
-  if (has_plugins()) return;
-  const std::string folder = plugin_folder();
-  if (!folder.empty()) search_first(folder);
-  if (!has_plugins()) {
-    fail(
-        kCannotRun,
-        std::string(
-            "GStreamer does not find this version of the plugins of gst-spidar, libgstspidar.so ") +
-            "and libgstspidarfeel.so; name their folder in " + plugin_path_variable());
-  }
+  const std::string missing = spidar::find_own_plugins({"spidar", "spidarfeel"});
+  if (!missing.empty()) fail(kCannotRun, missing);
 }
 
 void check(const std::vector<std::string>& properties) {
@@ -277,6 +229,7 @@ void list_properties() {
   }
   g_free(all);
   gchar** const presets = gst_preset_get_preset_names(GST_PRESET(element.get()));
+  if (!presets) return;
   gchar* const names = g_strjoinv(",", presets);
   std::printf("preset={%s}\n", names);
   g_free(names);
@@ -373,6 +326,7 @@ void warn_of_nothing_felt(const Options& options) {
 
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
+  spidar::tools::mark_files(argc, argv, false);
   if (argc == 2 && std::strcmp(argv[1], "--properties") == 0) {
     find_plugins();
     list_properties();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plugin/gobject/ref.h"
+#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {
@@ -58,6 +59,7 @@ FilePipeline::FilePipeline(const std::string& line, const std::string& path,
     g_error_free(error);
     throw std::runtime_error(reason);
   }
+  note_read(path);
   GstElement* const source = find("source");
   g_object_set(source, "location", path.c_str(), nullptr);
   const Ref<GstPad> pad(gst_element_get_static_pad(source, "src"));

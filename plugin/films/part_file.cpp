@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/films/part_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -42,13 +43,25 @@ void mark_written(int file, const std::string& maker) {
   fsetxattr(file, kAttribute, mark.data(), mark.size(), 0);
 }
 
+namespace {
+
+/// Empty when there is none.
+std::string found_mark(const std::string& path) {
+  constexpr size_t kMax_bytes = 256;
+  std::string found(kMax_bytes, '\0');
+  const ssize_t bytes = getxattr(path.c_str(), kAttribute, found.data(), found.size());
+  return found.substr(0, static_cast<size_t>(std::max<ssize_t>(bytes, 0)));
+}
+
+}  // namespace
+
 bool is_as_written(const std::string& path, const std::string& maker) {
   struct stat now {};
-  if (stat(path.c_str(), &now) != 0) return false;
-  const std::string mark = mark_of(now, maker);
-  std::string found(mark.size() + 1, '\0');  // longer: another one
-  const ssize_t bytes = getxattr(path.c_str(), kAttribute, found.data(), found.size());
-  return bytes == static_cast<ssize_t>(mark.size()) && found.compare(0, mark.size(), mark) == 0;
+  return stat(path.c_str(), &now) == 0 && found_mark(path) == mark_of(now, maker);
+}
+
+bool is_written_by(const std::string& path, const std::string& maker) {
+  return found_mark(path).compare(0, maker.size() + 1, maker + " ") == 0;
 }
 
 namespace {
@@ -161,6 +174,10 @@ PartFile::PartFile(const fs::path& target, const Replaces& replaces) : PartFile(
   }
   if (may_replace()) return;
   const std::string& maker = replaces.maker;
+  if (!replaces.is_named && replaces.any) {
+    throw std::runtime_error(target.string() + ": exists, and " + maker +
+                             " has not made it; name another place, or remove it");
+  }
   throw std::runtime_error(target.string() + ": exists" +
                            (maker.empty() ? "" : ", and is not as " + maker + " left it") +
                            "; name another file, or replace it with --force");
@@ -186,8 +203,9 @@ std::unique_ptr<PartFile> PartFile::claim(const fs::path& target, const Replaces
 
 bool PartFile::may_replace() const {
   std::error_code none;
-  return replaces_.any || !fs::exists(place_, none) ||
-         (!replaces_.maker.empty() && is_as_written(place_, replaces_.maker));
+  if (!fs::exists(place_, none)) return true;
+  if (replaces_.any) return replaces_.is_named || is_written_by(place_, replaces_.maker);
+  return !replaces_.maker.empty() && is_as_written(place_, replaces_.maker);
 }
 
 bool PartFile::take(const fs::path& target, const Replaces& replaces) {
@@ -195,6 +213,7 @@ bool PartFile::take(const fs::path& target, const Replaces& replaces) {
   if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
     throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
   }
+  expect_not_read(target);
   target_ = target.string();
   place_ = place_of_output(target).string();
   path_ = part_path(place_);
@@ -255,6 +274,7 @@ std::string PartFile::publish() {
   if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   check_in_place();
+  expect_not_read(place_);  // it may have been read since
   if (!may_replace()) throw failure(target_, EEXIST);
   struct stat before {};
   const bool is_there = stat(place_.c_str(), &before) == 0;

@@ -19,6 +19,8 @@ void mark_written(int file, const std::string& maker);
 
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
 bool is_as_written(const std::string& path, const std::string& maker);
+/// Whether `maker` has written it, also if its content has been changed.
+bool is_written_by(const std::string& path, const std::string& maker);
 
 /// A file in the folder of the file that it becomes, its target. Its name is `.part-`, a number
 /// that follows from the name of the target, and the same extension: however long the name of a
@@ -31,12 +33,14 @@ class PartFile {
  public:
   /// Which existing files are replaced.
   struct Replaces {
-    bool any = false;   ///< every regular file
-    std::string maker;  ///< those that this command has written and nobody changed; empty: none
+    bool any = false;      ///< every regular file; if it has no name of the user, all of `maker`
+    std::string maker;     ///< those that this command has written and nobody changed; empty: none
+    bool is_named = true;  ///< the user has given the name of the target
   };
 
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
-  /// thread or process is writing the same file, or when the target exists and is not replaced.
+  /// thread or process is writing the same file, or when the target exists and is not replaced. A
+  /// file that this program reads is never replaced (expect_not_read()).
   PartFile(const std::filesystem::path& target, const Replaces& replaces);
   /// The part file of `target` that another process owns, which has given this one the descriptor.
   PartFile(const std::filesystem::path& target, int descriptor);

@@ -226,12 +226,16 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
 
-/// Where they are installed, GStreamer finds presets by itself only if it is installed there, too.
+/// Where they are installed, GStreamer finds presets by itself only if it is installed there, too;
+/// in a build folder they are beside the plugin.
 static void find_presets() {
-  const std::filesystem::path folder = spidar::installed(SPIDAR_PRESET_DIR);
-  std::error_code error;
-  if (!gst_preset_get_app_dir() && std::filesystem::exists(folder, error)) {
-    gst_preset_set_app_dir(folder.c_str());
+  for (const std::filesystem::path& folder :
+       {spidar::own_file().parent_path(), spidar::installed(SPIDAR_PRESET_DIR)}) {
+    std::error_code error;
+    if (!gst_preset_get_app_dir() &&
+        std::filesystem::exists(folder / "GstSpidarMotion.prs", error)) {
+      gst_preset_set_app_dir(folder.c_str());
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
 #include "spidar/grip/grip.h"
+#include "spidar/grip/string_causes.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/session/device_factory.h"
 
@@ -54,10 +55,14 @@ std::string directions_text(const std::array<bool, 3>& force) {
   return all ? "in every direction" : text.empty() ? "in no direction" : text;
 }
 
-/// "force to the sides, up and down, up to 3 N, no torque"
-std::string rendered_text(const GripAbilities& can) {
-  char most[32];
-  std::snprintf(most, sizeof most, "%.1f N", can.largest_force_N);
+/// "force to the sides, up and down, up to 3.0 N (1 N by max-force), no torque"
+std::string rendered_text(const GripAbilities& can, double max_force_N) {
+  char most[64];
+  const int length = std::snprintf(most, sizeof most, "%.1f N", can.largest_force_N);
+  if (max_force_N < can.largest_force_N) {
+    std::snprintf(most + length, sizeof most - static_cast<size_t>(length), " (%g N by max-force)",
+                  max_force_N);
+  }
   if (!can.direction) {
     return std::string("the strength of the force, not its direction, up to ") + most;
   }
@@ -78,16 +83,17 @@ void DeviceWarnings::post(const char* state, const std::string& device,
 }
 
 bool DeviceWarnings::open(HapticOutput& output, const std::string& device, OnDeviceError policy,
-                          const std::function<std::string()>& opens) const {
+                          const std::function<std::string()>& opens) {
   try {
     const std::string trace_error = opens();
+    profile_ = output.profile().name;
     GST_INFO_OBJECT(element_, "opened device '%s' with profile '%s'", device.c_str(),
                     output.profile().name.c_str());
     if (!trace_error.empty()) {
       GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", trace_error.c_str()),
                           ("%s and the force continue without it.", what_.c_str()));
     }
-    check_opened(output.session(), output.chosen());
+    check_opened(output);
     return true;
   } catch (const std::exception& refusal) {
     return check_refused(device, refusal, policy);
@@ -109,8 +115,15 @@ bool DeviceWarnings::check_refused(const std::string& device, const std::excepti
   return true;
 }
 
-void DeviceWarnings::check_opened(const HapticSession* session, const std::string& chosen) const {
+void DeviceWarnings::check_opened(const HapticOutput& output) const {
+  const HapticSession* const session = output.session();
+  const std::string& chosen = output.chosen();
   if (!session) return;
+  if (!output.doubt().empty()) {
+    GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS, ("%s.", output.doubt().c_str()),
+                        ("Without profile=, the confirmed one is used; spidarctl choose confirms "
+                         "another one."));
+  }
   const Grip& grip = session->grip();
   post("opened", grip.name(), chosen.empty() ? session->opened() : chosen);
   const std::string error = session->vibration_error();
@@ -130,7 +143,7 @@ void DeviceWarnings::check_opened(const HapticSession* session, const std::strin
   const bool is_sound = grip.name().compare(0, 5, "sound") == 0;
   if (!force_feedback && !is_sound && chosen.empty()) text = grip.name() + ": ";
   if (force_feedback || chosen.empty()) text += session->opened() + ". ";
-  if (!force_feedback) text += "It renders " + rendered_text(can) + ". ";
+  if (!force_feedback) text += "It renders " + rendered_text(can, output.max_force_N()) + ". ";
   text.pop_back();
   std::string advice;
   if (!chosen.empty()) advice = "spidarctl list names what is plugged in; device= chooses one.";
@@ -177,9 +190,10 @@ void DeviceWarnings::check_strings(const LoopSnapshot& loop) {
       element_, RESOURCE, READ,
       ("String %d of the haptic device is slack or broken, or its encoder is faulty.", string),
       ("Its length fits no pose that the other strings allow. The string is not used, and the "
-       "force is limited to what the others can deliver. If all strings are taut, the grip was not "
-       "at the centre when the device was opened: start again with the grip there, or calibrate "
-       "the device (spidarctl calibrate)."));
+       "force is limited to what the others can deliver. Causes, the likeliest first: %s. The "
+       "profile is %s. Start again with the grip at the centre, or calibrate the device (spidarctl "
+       "calibrate).",
+       kStringCauses, profile_.c_str()));
 }
 
 void DeviceWarnings::check_pose(const LoopSnapshot& loop, bool has_strings) {
@@ -192,10 +206,11 @@ void DeviceWarnings::check_pose(const LoopSnapshot& loop, bool has_strings) {
         ("The pose of the grip is unknown: %s. There is no force until it is known again.",
          to_string(loop.last.pose_fault)),
         ("%s", has_strings
-                   ? "The strings have their minimum tension. Possible causes: slack strings, dead "
-                     "encoders, or a grip that was not at the centre when the device was opened: "
-                     "start again with the grip there, or calibrate the device (spidarctl "
-                     "calibrate)."
+                   ? ("The strings have their minimum tension. Causes, the likeliest first: " +
+                      std::string(kStringCauses) + ". The profile is " + profile_ +
+                      ". Start again with the grip at the centre, or calibrate the device "
+                      "(spidarctl calibrate).")
+                         .c_str()
                    : "spidarctl info shows what the device says of itself."));
   }
 }

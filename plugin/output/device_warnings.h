@@ -27,7 +27,7 @@ class DeviceWarnings {
   /// empty string; reports the result. Returns false when the stream must not begin without
   /// `device`.
   bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
-            const std::function<std::string()>& opens) const;
+            const std::function<std::string()>& opens);
   /// The element starts: everything may be reported again.
   void start();
   /// Checks the device. Returns false when the stream has to end, and then reports why.
@@ -41,9 +41,9 @@ class DeviceWarnings {
  private:
   bool check_refused(const std::string& device, const std::exception& refusal, OnDeviceError policy,
                      SourceLocation location = SourceLocation::here()) const;
-  /// `chosen` for "auto". Posts an information message, too, if it was chosen, or renders only a
-  /// part of what is to be seen in the picture.
-  void check_opened(const HapticSession* session, const std::string& chosen) const;
+  /// Posts an information message, too, if "auto" has chosen the device, or it renders only a part
+  /// of what is to be seen in the picture; and a warning of a profile that is in doubt.
+  void check_opened(const HapticOutput& output) const;
   /// Posts the message `spidar-device`: `state` is opened, refused, lost or back.
   void post(const char* state, const std::string& device, const std::string& why) const;
   void check_strings(const LoopSnapshot& loop);
@@ -55,6 +55,7 @@ class DeviceWarnings {
 
   GstElement* const element_;
   const std::string what_;
+  std::string profile_;     ///< of the device, its name
   guint strings_ = 0;       ///< bit i: string i
   bool pose_lost_ = false;  ///< reported, and not come back since
   bool held_back_ = false;  ///< reported

@@ -167,6 +167,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
 std::string HapticOutput::open_named(const std::string& device, const std::string& profile_name,
                                      double max_force_N, const std::string& haptic_trace) {
   Profile profile = profile_for(device, profile_name);
+  const std::string doubt = other_than_confirmed(device, profile_name);
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
   settings.trace_path = haptic_trace;
@@ -199,6 +200,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     most_force_N_ = std::max(kDefaultForce_N, grip.abilities().largest_force_N);
     most_force_of_ = grip.traits().has_strings ? profile.name : device;
     said_too_much_ = false;
+    doubt_ = doubt;
     profile_ = profile;
     profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
     reservation_ = std::move(reservation);
@@ -228,7 +230,7 @@ void HapticOutput::set_max_force(double max_force_N) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!session_) return;
     SafetyLimits limits;
-    limits.max_force_N = std::min(max_force_N, most_force_N_);
+    max_force_N_ = limits.max_force_N = std::min(max_force_N, most_force_N_);
     session_->loop().set_limits(limits);
     if (!(max_force_N > most_force_N_) || said_too_much_) return;
     said_too_much_ = true;

@@ -42,6 +42,10 @@ class HapticOutput {
                    const std::string& haptic_trace);
   /// Which device "auto" became, and why; empty when another one was asked for. State changes.
   const std::string& chosen() const { return chosen_; }
+  /// other_than_confirmed() of the device. State changes.
+  const std::string& doubt() const { return doubt_; }
+  /// The limit of the open device. State changes.
+  double max_force_N() const { return max_force_N_; }
   /// Brings the motors to rest and closes the device.
   void close();
 
@@ -80,7 +84,8 @@ class HapticOutput {
   std::unique_ptr<HapticSession> session_;
   SimulatedDevice* simulated_ = nullptr;  ///< the device of session_ if it is simulated, else null
   Profile profile_;
-  std::string chosen_;
+  std::string chosen_, doubt_;
+  double max_force_N_ = 0;
   double most_force_N_ = 0;    ///< that the device can give
   std::string most_force_of_;  ///< the profile, or the device, that can give it
   bool said_too_much_ = false;

@@ -16,6 +16,7 @@
 #include "plugin/tracks/track_summary.h"
 #include "spidar/text.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 
@@ -167,7 +168,8 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
   const auto scripts = axis_scripts(options.to, main);
   for (size_t channel = 0; channel < kTrackChannels; ++channel) {
     parts.push_back(std::make_unique<PartFile>(
-        scripts[channel], PartFile::Replaces{options.force, "spidartrack convert"}));
+        scripts[channel],
+        PartFile::Replaces{options.force, "spidartrack convert", scripts[channel] == options.to}));
     SaveOptions save = options.save;
     save.axis = channel;
     save.gain = gains[channel / kForces];
@@ -184,10 +186,7 @@ void write_axes(const ConvertOptions& options, const SampleFile& samples,
 
 int convert_track(const ConvertOptions& options) {
   const std::string& to = options.to;
-  std::error_code none;
-  if (std::filesystem::equivalent(options.from, to, none)) {
-    throw UsageError(to + ": is to be another file than " + options.from);
-  }
+  note_read(options.from);
   check_use(options);
   SaveOptions save = options.save;
   save.axis = channel_of(options.axis);

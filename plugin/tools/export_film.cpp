@@ -22,6 +22,7 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -69,11 +70,18 @@ void expect_embeddable(const std::string& name, const std::string& file) {
 /// What an exported film consists of.
 class ExportedFilm {
  public:
-  /// `is_whole`: the film goes with the page.
-  ExportedFilm(const ExportOptions& options, const fs::path& page, bool is_whole)
-      : film_(options.film), replaces_{options.force, kMaker} {
+  /// `folder`: that which the film goes into, with the page; else empty.
+  ExportedFilm(const ExportOptions& options, const fs::path& page, const fs::path& folder)
+      : film_(options.film) {
     const bool is_recorded = options.properties || (options.track.empty() && !has_track(film_));
     unplayed_ = why_no_browser(film_);
+    if (!folder.empty()) {
+      const fs::path name =
+          unplayed_.empty() ? fs::path(film_).filename() : fs::path(film_).stem().concat(".mp4");
+      copy_ = std::make_unique<PartFile>(folder / name,
+                                         PartFile::Replaces{options.force, kMaker, false});
+    }
+    const bool is_whole = copy_ || options.embed;
     if (options.embed && unplayed_.empty()) expect_embeddable(film_, film_);
     parts_of_work_ = 1 + (is_recorded ? 1 : 0) + (is_whole && !unplayed_.empty() ? 1 : 0);
     std::unique_ptr<PartFile> recorded;  // never published
@@ -133,11 +141,8 @@ class ExportedFilm {
   }
 
   /// A folder of the page and the film, which need nothing else.
-  void write_folder(const fs::path& folder) {
-    const fs::path source = film_;
-    const fs::path copy =
-        folder / (unplayed_.empty() ? source.filename() : source.stem().concat(".mp4"));
-    PartFile page(folder / "index.html", replaces_), film(copy, replaces_);
+  void write_folder(PartFile& page) {
+    PartFile& film = *copy_;
     std::string missing;
     if (unplayed_.empty()) {
       constexpr size_t kAtOnce = 1 << 20;
@@ -145,8 +150,8 @@ class ExportedFilm {
     } else {
       missing = convert(film);
     }
-    const std::string html =
-        this->html(relative_url(copy, page.target()), film.path(), later_s(film.path()), "");
+    const std::string html = this->html(relative_url(film.target(), page.target()), film.path(),
+                                        later_s(film.path()), "");
     page.write(html);
     publish(film);
     publish(page);
@@ -219,7 +224,7 @@ class ExportedFilm {
   }
 
   const std::string film_;
-  const PartFile::Replaces replaces_;
+  std::unique_ptr<PartFile> copy_;  ///< of the film
   std::unique_ptr<RecordReport> report_ =
       std::make_unique<RecordReport>(std::vector<std::string>{film_});
   int parts_of_work_ = 1, parts_done_ = 0;
@@ -235,6 +240,7 @@ class ExportedFilm {
 
 int export_film(const ExportOptions& options) {
   const std::string& to = options.to;
+  note_read(options.film);
   std::error_code none;
   const bool is_folder = !to.empty() && (to.back() == '/' || fs::is_directory(to, none));
   if (!is_folder && !ends_with(to, ".html")) {
@@ -243,11 +249,12 @@ int export_film(const ExportOptions& options) {
   if (is_folder && options.embed) throw UsageError("--embed is for a page, not for a folder");
   if (is_folder) {
     fs::create_directories(to);
-    ExportedFilm(options, fs::path(to) / "index.html", true).write_folder(to);
+    PartFile page(fs::path(to) / "index.html", {options.force, kMaker, false});
+    ExportedFilm(options, page.target(), to).write_folder(page);
     return kDone;
   }
   PartFile page(to, {options.force, kMaker});
-  ExportedFilm film(options, to, options.embed);
+  ExportedFilm film(options, to, {});
   if (options.embed) {
     film.write_all_in_one(page);
   } else {

@@ -15,6 +15,7 @@
 #include <spawn.h>
 #include <stdexcept>
 #include <string>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -130,26 +131,27 @@ FilmResult record_film(const std::string& film, const PartFile& track,
   if (!why.empty()) throw std::runtime_error(why);
   if (film_end(film) == FilmEnd::kCutOff) throw std::runtime_error(kEndMissing);
   stored.check(track);
-  return {watch.felt(), watch.remark(), {}, {}};
+  return {watch.felt(), watch.remark(), {}, false, {}};
 }
 
 constexpr const char* kMark = "--film-process";
 constexpr int kNoPart = -1;
 
-/// The arguments of the process, of which properties are pairs of a name and a value. All of them
-/// are bytes, as names of files are.
+/// The arguments of the process.
 enum Argument {
   kProgram,
   kMarkArgument,
   kParent,   // its process
   kAnswers,  // descriptors
   kPart,
-  kFilm,
-  kTrack,
-  kIsSummarised,
-  kSettings,
-  kProperties
+  kJob,   // has the words of the job, because Linux takes no argument of more than 128 KiB
+  kFilm,  // also for people who look at a list of processes
+  kArguments
 };
+
+/// The words of a job, each of which ends with a zero. Properties are pairs of a name and a value.
+/// All of them are bytes, as names of files are.
+enum JobWord { kTrack, kIsSummarised, kSettings, kProperties };
 
 // Each answer is an object in MessagePack after its length, a uint32_t: {"percent": 40} as often as
 // it rises, and last what FilmResult has, or {"error": why}. Its texts are bytes, as names of files
@@ -202,20 +204,49 @@ class Answers {
   int ends_[2] = {-1, -1};
 };
 
-pid_t start_process(const FilmJob& job, int answers, int part) {
-  std::vector<std::string> words = {"spidartrack",
-                                    kMark,
-                                    std::to_string(getpid()),
-                                    std::to_string(answers),
-                                    std::to_string(part),
-                                    job.film,
-                                    job.track,
-                                    std::to_string(job.is_summarised),
+std::string words_of(const FilmJob& job) {
+  std::vector<std::string> words = {job.track, std::to_string(job.is_summarised),
                                     job.properties.settings};
   for (const auto& [name, value] : job.properties.values) {
     words.push_back(name);
     words.push_back(value);
   }
+  std::string text;
+  for (const std::string& word : words) text += word + '\0';
+  return text;
+}
+
+/// A file in memory.
+class JobFile {
+ public:
+  explicit JobFile(const FilmJob& job) {
+    const std::string text = words_of(job);
+    if (descriptor_ < 0 ||
+        write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+      const int error = errno;
+      if (descriptor_ >= 0) close(descriptor_);
+      Answers::fail(error);
+    }
+  }
+  ~JobFile() { close(descriptor_); }
+  JobFile(const JobFile&) = delete;
+  JobFile& operator=(const JobFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  const int descriptor_ = memfd_create("spidartrack job", MFD_CLOEXEC);
+};
+
+pid_t start_process(const FilmJob& job, int answers, int part) {
+  const JobFile file(job);
+  std::vector<std::string> words = {"spidartrack",
+                                    kMark,
+                                    std::to_string(getpid()),
+                                    std::to_string(answers),
+                                    std::to_string(part),
+                                    std::to_string(file.descriptor()),
+                                    job.film};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -224,6 +255,7 @@ pid_t start_process(const FilmJob& job, int answers, int part) {
   // A descriptor that is copied to its own number stays open.
   posix_spawn_file_actions_adddup2(&actions, answers, answers);
   if (part != kNoPart) posix_spawn_file_actions_adddup2(&actions, part, part);
+  posix_spawn_file_actions_adddup2(&actions, file.descriptor(), file.descriptor());
   pid_t process = 0;
   const int error =
       posix_spawn(&process, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
@@ -260,7 +292,7 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
   });
   await_end(process);
   if (last.contains("error")) throw std::runtime_error(last["error"].get<std::string>());
-  return {last["felt"], last["remark"], last["other"], last["summary"]};
+  return {last["felt"], last["remark"], last["other"], last["is_by_others"], last["summary"]};
 }
 
 // --- the process of a film
@@ -292,19 +324,24 @@ Json summary_of(const std::string& track) {
           {"settings", condition.notes.settings.value_or("")}};
 }
 
-/// FilmResult::other
-std::string why_other(const std::string& film, const std::string& track,
-                      const std::string& settings) {
+/// Of an existing track. Throws std::runtime_error.
+FilmResult compare(const std::string& film, const std::string& track, const std::string& settings) {
   const std::string again = "; --force records it again";
-  if (std::filesystem::is_empty(track)) return track + " is empty" + again;
+  FilmResult result;
+  if (std::filesystem::is_empty(track)) {
+    result.other = track + " is empty" + again;
+    return result;
+  }
   const tracks::Notes notes = tracks::notes_of(track);
+  result.is_by_others = !notes.settings;
   if (notes.settings && *notes.settings != settings) {
     const auto shown = [](const std::string& text) { return text.empty() ? "the defaults" : text; };
-    return track + " was recorded with " + shown(*notes.settings) + ", and not with " +
-           shown(settings) + again;
+    result.other = track + " was recorded with " + shown(*notes.settings) + ", and not with " +
+                   shown(settings) + again;
+  } else if (!notes.film.empty() && !find_picture(notes.film, read_film(film).packets)) {
+    result.other = track + " is the track of another film: " + kOtherPictures + again;
   }
-  if (notes.film.empty() || find_picture(notes.film, read_film(film).packets)) return {};
-  return track + " is the track of another film: " + kOtherPictures + again;
+  return result;
 }
 
 /// Its descriptors are of this process alone.
@@ -312,6 +349,25 @@ int number_of_descriptor(const char* text) {
   const int descriptor = std::atoi(text);
   if (descriptor >= 0) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
   return descriptor;
+}
+
+std::vector<std::string> words_in(int descriptor) {
+  std::vector<std::string> words;
+  std::string word;
+  char bytes[4096];
+  off_t at = 0;
+  for (ssize_t got = 0; (got = pread(descriptor, bytes, sizeof bytes, at)) > 0; at += got) {
+    for (ssize_t i = 0; i < got; ++i) {
+      if (bytes[i] != '\0') {
+        word += bytes[i];
+      } else {
+        words.push_back(std::exchange(word, {}));
+      }
+    }
+  }
+  close(descriptor);
+  words.resize(std::max<size_t>(words.size(), kProperties));
+  return words;
 }
 
 }  // namespace
@@ -326,24 +382,25 @@ FilmResult check_in_process(const FilmJob& job) {
 }
 
 int run_film_process(int argc, char** argv) {
-  if (argc < kProperties || std::strcmp(argv[kMarkArgument], kMark) != 0) return -1;
+  if (argc != kArguments || std::strcmp(argv[kMarkArgument], kMark) != 0) return -1;
   // It ends with its parent, also when that is killed; signals that end the parent are blocked.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
   const int answers = number_of_descriptor(argv[kAnswers]);
   const int descriptor = number_of_descriptor(argv[kPart]);
-  const std::string film = argv[kFilm], track = argv[kTrack];
+  const std::vector<std::string> words = words_in(number_of_descriptor(argv[kJob]));
+  const std::string film = argv[kFilm], &track = words[kTrack];
   RecordProperties properties;
-  properties.settings = argv[kSettings];
-  for (int i = kProperties; i + 1 < argc; i += 2) {
-    properties.values.emplace_back(argv[i], argv[i + 1]);
+  properties.settings = words[kSettings];
+  for (size_t i = kProperties; i + 1 < words.size(); i += 2) {
+    properties.values.emplace_back(words[i], words[i + 1]);
   }
   try {
     gst_init(nullptr, nullptr);
     std::string recorded = track;
     FilmResult result;
     if (descriptor == kNoPart) {
-      result.other = why_other(film, track, properties.settings);
+      result = compare(film, track, properties.settings);
     } else {
       const PartFile part(track, descriptor);
       recorded = part.path();
@@ -351,10 +408,11 @@ int run_film_process(int argc, char** argv) {
         say(answers, {{"percent", percent}});
       });
     }
-    const bool is_summarised = std::atoi(argv[kIsSummarised]) && result.other.empty();
+    const bool is_summarised = words[kIsSummarised] == "1" && result.other.empty();
     say(answers, {{"felt", result.felt},
                   {"remark", result.remark},
                   {"other", result.other},
+                  {"is_by_others", result.is_by_others},
                   {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
     return kDone;
   } catch (const std::exception& error) {

@@ -26,7 +26,9 @@ struct FilmResult {
   std::string felt;    ///< how much of the film is felt, and why the rest is not
   std::string remark;  ///< a remark for the user; usually empty
   std::string other;   ///< why the existing track is not the one that would be recorded; or empty
-  Json summary;        ///< of the track, an object; without is_summarised, it is empty
+  bool is_by_others =
+      false;     ///< the existing track can be read, and does not say that it was recorded
+  Json summary;  ///< of the track, an object; without is_summarised, it is empty
 };
 
 /// Records the film of `job` into `part`. `tell` is called with the percentage that is done,

@@ -46,8 +46,9 @@ int run(int in, int out, int errors) {
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  std::string name = "gnuplot";
-  char* const arguments[] = {name.data(), nullptr};
+  // Without the settings of the user's own ~/.gnuplot.
+  std::string name = "gnuplot", as_built = "--default-settings";
+  char* const arguments[] = {name.data(), as_built.data(), nullptr};
   pid_t process = -1;
   const int error = posix_spawnp(&process, name.c_str(), &files, &attributes, arguments, environ);
   posix_spawnattr_destroy(&attributes);

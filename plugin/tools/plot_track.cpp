@@ -11,6 +11,7 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -79,6 +80,7 @@ int plot_track(const std::string& track, const std::string& png, bool force) {
   if (has_ending && !ends_with(png, ".png")) {
     throw UsageError(png + ": the picture is a PNG, and its name ends in .png");
   }
+  note_read(track);
   PartFile picture(png, {force, "spidartrack plot"});
   size_t count = 0;
   expect_own_track(read_track(track, [&count](const TrackSample&) { ++count; }));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/json_text.h"
+#include "plugin/films/file_bytes.h"
 #include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/record_options.h"
@@ -24,6 +25,7 @@
 #include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -55,12 +57,32 @@ std::string manifest_line(const RecordedFilm& film) {
   return json_text(line);
 }
 
+/// Whether its first line is as manifest_line() makes them. A pipe, or a device, has none, and
+/// which links are followed open_output() knows.
+bool is_new_or_manifest(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none) || !std::filesystem::is_regular_file(path, none) ||
+      std::filesystem::is_empty(path, none)) {
+    return true;
+  }
+  constexpr size_t kMaxLine_bytes = size_t{1} << 20;
+  const std::string begin = FileBytes(path).read(0, kMaxLine_bytes);
+  std::string why;
+  const ReadJson first = parse_json(begin.substr(0, begin.find('\n')), why);
+  return first.is_object() && first.contains("film") && first.contains("result");
+}
+
 /// Appends lines to a file, also from several threads and processes.
 class ManifestFile {
  public:
   /// Empty: nothing is written. Throws std::runtime_error when the file cannot be opened.
   explicit ManifestFile(const std::string& path) : path_(path) {
     if (path.empty()) return;
+    expect_not_read(path);
+    if (!is_new_or_manifest(path)) {
+      throw std::runtime_error(path + ": is no manifest, so nothing is appended to it; name " +
+                               "another file after --manifest");
+    }
     descriptor_ = open_output(path.c_str(), O_APPEND);
     if (descriptor_ < 0) fail(path);
   }
@@ -94,7 +116,7 @@ constexpr std::chrono::milliseconds kLook{200};
 class FilmBatch {
  public:
   explicit FilmBatch(const RecordOptions& options)
-      : options_(options), report_(paths(options.films)), manifest_(options.manifest) {}
+      : options_(options), report_(note_films(options.films)), manifest_(options.manifest) {}
 
   /// Returns whether no film failed.
   bool run() {
@@ -121,9 +143,13 @@ class FilmBatch {
     bool is_elsewhere = false;  ///< another process is recording it
   };
 
-  static std::vector<std::string> paths(const std::vector<ListedFilm>& films) {
+  /// Returns their paths. No output takes the place of one of them.
+  static std::vector<std::string> note_films(const std::vector<ListedFilm>& films) {
     std::vector<std::string> paths;
-    for (const ListedFilm& film : films) paths.push_back(film.path);
+    for (const ListedFilm& film : films) {
+      paths.push_back(film.path);
+      note_read(film.path);
+    }
     return paths;
   }
 
@@ -237,9 +263,14 @@ class FilmBatch {
   }
 
   bool is_done(size_t index, const fs::path& track) {
-    if (options_.force || !fs::exists(track)) return false;
+    if (!fs::exists(track)) return false;
     const std::string& film = options_.films[index].path;
     const FilmResult result = check_in_process(job_of(index));
+    if (options_.force && result.is_by_others) {
+      throw std::runtime_error(track.string() + ": spidartrack record has not made it, and does " +
+                               "not replace it; rename or remove it");
+    }
+    if (options_.force) return false;
     if (!result.other.empty()) throw std::runtime_error(result.other);
     manifest_.add({film, track, "there", "", 0, result.summary});
     report_.done(index, RecordReport::Result::kThere,

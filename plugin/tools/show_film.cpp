@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tools/track_samples.h"
 #include "spidar/tools/command_line.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -58,10 +58,7 @@ int show_film(const std::string& film, const std::string& to, bool force,
   if (!ends_with(to, ".mp4") && !ends_with(to, ".mkv")) {
     throw UsageError(to + ": is to end in .mp4 or .mkv");
   }
-  std::error_code none;
-  if (std::filesystem::equivalent(film, to, none)) {
-    throw UsageError(to + ": is to be another file than " + film);
-  }
+  note_read(film);
   PartFile part(to, {force, "spidartrack show"});
   std::string said;
   try {

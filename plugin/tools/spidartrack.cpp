@@ -14,11 +14,13 @@
 
 #include "core/default_limits.h"
 #include "plugin/films/part_file.h"
+#include "plugin/properties/own_plugins.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/sidecar.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"
+#include "spidar/tools/mark_files.h"
 
 namespace {
 
@@ -198,6 +200,7 @@ in any case. Also prints how much of the track is felt.)");
   .funscript       one channel as the positions of a linear device; read with its other axes,
                    in it and in .roll.funscript and so on beside it
   .ahap            a vibration as strong as the force, for telephones; not read
+  .csv             time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm; read at any times, with some of them
 Prints what TO cannot hold.)");
     add_track(app, "FROM", convert_.from);
     app->add_option("TO", convert_.to, "the file to write")->required()->type_name("");
@@ -334,6 +337,7 @@ int main(int argc, char** argv) {
   request_stacks();
   const int film_status = run_film_process(argc, argv);
   if (film_status >= 0) return film_status;
+  mark_files(argc, argv);
   try {
     remove_part_files_on_signals();
   } catch (const std::system_error& error) {
@@ -341,6 +345,7 @@ int main(int argc, char** argv) {
     return kFailed;
   }
   gst_init(nullptr, nullptr);
+  find_own_plugins({"spidar"});  // what needs it says so
   CommandLine line(descriptors);
   return exit_status_of(line.program(), [&] { return line.run(argc, argv); });
 }

@@ -5,14 +5,17 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <unistd.h>
 #include <vector>
 
 #include <gst/gst.h>
 
+#include "core/track/csv_track.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/funscript.h"
 #include "core/track/track_reader.h"
@@ -24,6 +27,7 @@
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_tags.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -125,7 +129,7 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
 TrackCondition find_track(const std::string& path, Film& film) {
   TrackCondition found;
   found.track = path;
-  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript", ".ahap"}) {
+  for (const char* end : {".flac", ".wav", ".mka", ".hjif", ".funscript", ".ahap", ".csv"}) {
     if (ends_with(path, end)) return found;
   }
   try {
@@ -159,6 +163,19 @@ void read_hjif_track(const SampleSource::Take& take, TrackCondition& found) {
   found.notes.origin = "hjif";
   for (const std::string& name : unfelt) found.about.push_back(name + ": is not read");
   for (const TrackSample& sample : samples) take(sample);
+}
+
+void read_csv(const SampleSource::Take& take, TrackCondition& found) {
+  std::ifstream file(found.track);
+  if (!file) throw std::runtime_error(found.track + ": " + std::strerror(errno));
+  found.notes.origin = "csv";
+  CsvTrackReader reader(take);
+  try {
+    for (std::string line; std::getline(file, line);) reader.add(line);
+    reader.finish();
+  } catch (const TrackFileError& error) {
+    throw std::runtime_error(found.track + ", " + error.what());
+  }
 }
 
 /// Sound that `encoder` makes.
@@ -211,12 +228,15 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
         path + ": is a film without a haptic track, inside it or beside it; " +
         "spidartrack record makes one, and --folder FOLDER finds it elsewhere");
   }
+  note_read(found.track);
   if (tracks::is_script(found.track)) {
     read_script(script, take, found);
   } else if (ends_with(found.track, ".ahap")) {
     throw std::runtime_error(found.track +
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
+  } else if (ends_with(found.track, ".csv")) {
+    read_csv(take, found);
   } else if (tracks::is_exchange_file(found.track)) {
     read_hjif_track(take, found);
   } else {
@@ -232,10 +252,10 @@ void expect_own_track(const TrackCondition& condition) {
 
 void check_format(const std::string& path) {
   if (!encoder_of(path).empty()) return;
-  for (const char* const end : {".hjif", ".ahap", ".funscript"}) {
+  for (const char* const end : {".hjif", ".ahap", ".funscript", ".csv"}) {
     if (ends_with(path, end)) return;
   }
-  throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript");
+  throw std::runtime_error(path + ": ends in none of .flac .mka .wav .hjif .ahap .funscript .csv");
 }
 
 void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& options) {
@@ -251,7 +271,9 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
     waiting.clear();
   };
   const SampleSource source = samples.samples(options.gain);
-  if (ends_with(path, ".hjif")) {
+  if (ends_with(path, ".csv")) {
+    write_csv(source, write);
+  } else if (ends_with(path, ".hjif")) {
     write_hjif(source, write, options.tolerance.value_or(kHjifTolerance));
   } else if (ends_with(path, ".ahap")) {
     write_ahap(source, write, options.tolerance.value_or(kAhapTolerance), options.gain);

@@ -110,6 +110,7 @@ void add_file(const ScriptFile& file, const ScriptChoice& choice, ScriptSet& set
   const size_t channel =
       choice.channel.value_or(file.axis.empty() ? kMainChannel : *channel_of_axis(file.axis));
   Funscript script;
+  note_read(file.path);
   try {
     script = parse_funscript(read_regular_file(file.path, kMax_bytes), channel);
   } catch (const std::runtime_error& error) {

@@ -8,13 +8,13 @@
 #include <initializer_list>
 #include <iterator>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "plugin/films/file_pipeline.h"
 #include "plugin/tracks/name_form.h"
+#include "spidar/install_folder.h"
 
 namespace spidar {
 namespace {
@@ -45,13 +45,7 @@ std::vector<std::string> list_beside(const std::string& film,
 /// Folders of tracks, in the order in which they are searched: those that the user has named, and
 /// that of the user.
 std::vector<fs::path> track_folders() {
-  std::vector<fs::path> folders;
-  if (const char* const named = std::getenv(kTrackPathVariable)) {
-    std::istringstream parts(named);
-    for (std::string part; std::getline(parts, part, ':');) {
-      if (!part.empty()) folders.emplace_back(part);
-    }
-  }
+  std::vector<fs::path> folders = listed_folders(kTrackPathVariable);
   folders.push_back(fs::path(g_get_user_data_dir()) / "gst-spidar" / "tracks");
   return folders;
 }
@@ -120,7 +114,16 @@ std::string find_sidecar(const std::string& film) {
 }
 
 std::string why_not_played(const std::string& film, const std::string& track) {
-  const std::string other = first_before(list_tracks(film), track);
+  const std::vector<std::string> files = list_tracks(film);
+  const std::string other = first_before(files, track);
+  std::error_code ignored;
+  if (other.empty() && !files.empty() && fs::equivalent(files.front(), track, ignored)) {
+    std::string after;
+    for (const std::string& file : list_beside(film, kTrackSuffixes)) {
+      if (!fs::equivalent(file, track, ignored)) after += (after.empty() ? "" : ", ") + file;
+    }
+    return after.empty() ? "" : after + " is not played as long as " + track + " is there";
+  }
   if (other.empty()) return {};
   return "warning: track=auto and spidartrack play " + other + " in place of " + track +
          "; remove it, or use track=" + track;

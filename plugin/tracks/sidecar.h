@@ -30,7 +30,8 @@ extern const char* const kTrackPathVariable;
 /// the subfolder that the film has, if there is one. Empty when there is none.
 std::string find_sidecar(const std::string& film);
 
-/// Empty, or a sentence about the track that find_sidecar() finds in place of `track`.
+/// Empty, or a sentence about the track that find_sidecar() finds in place of `track`, or about
+/// those beside the film that it passes over for `track`.
 std::string why_not_played(const std::string& film, const std::string& track);
 
 /// FilmMatch::mismatch of a track that was made of other pictures than the film has.

@@ -3,9 +3,7 @@
 #include "spidar/profiles/profile.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "spidar/install_folder.h"
@@ -21,13 +19,7 @@ constexpr const char* kEnding = ".toml";
 constexpr size_t kMax_bytes = 1 << 20;  // a profile has a few kilobytes
 
 std::vector<fs::path> search_path() {
-  std::vector<fs::path> folders;
-  if (const char* listed = std::getenv("SPIDAR_PROFILE_PATH")) {
-    std::istringstream parts(listed);
-    for (std::string part; std::getline(parts, part, ':');) {
-      if (!part.empty()) folders.emplace_back(part);
-    }
-  }
+  std::vector<fs::path> folders = listed_folders("SPIDAR_PROFILE_PATH");
   folders.push_back(installed(SPIDAR_PROFILE_DIR));
   return folders;
 }
@@ -39,6 +31,7 @@ bool is_path(const std::string& name_or_path) {
 
 Profile read_file(const fs::path& path) {
   std::string text;
+  note_read(path);
   try {
     text = read_regular_file(path.string(), kMax_bytes);
   } catch (const std::runtime_error& error) {

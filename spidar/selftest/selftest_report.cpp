@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/json_text.h"
+#include "spidar/grip/string_causes.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/text.h"
 
@@ -92,13 +93,14 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
   }
   out << '\n';
   if (silent(report)) {
-    out << "No encoder moves, whichever motor pulls. Switch on the supply of the motors, and hold "
-           "the grip so that the strings are taut.\n";
+    out << "No encoder moves, whichever motor pulls. Causes, the likeliest first: " << kStringCauses
+        << ". Switch on the supply of the motors, and hold the grip so that the strings are "
+           "taut.\n";
   } else if (report.understood()) {
-    out << (idle_motor ? "nothing: the motor is disconnected, has no supply or is reversed, or its "
-                         "string is slack\n"
+    out << (idle_motor ? "nothing: the motor has no supply, its string is slack, or the motor is "
+                         "reversed or disconnected\n"
                        : "")
-        << (idle_encoder ? "still: the encoder is disconnected, or its string is slack\n" : "");
+        << (idle_encoder ? "still: its string is slack, or the encoder is disconnected\n" : "");
   } else if (const std::string motors = unclear_motors(report); !motors.empty()) {
     out << "The responses of the encoders to pulls of these motors are unclear:" << motors
         << ". They have been pulled in " << kWiringTries

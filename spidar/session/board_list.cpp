@@ -153,12 +153,6 @@ std::string chosen_as(const DeviceInfo& board) {
   return kinds.empty() ? "" : kinds[0]->chosen_as;
 }
 
-/// As they are named or, of a file, where it is.
-bool is_same_profile(const std::string& confirmed, const std::string& named) {
-  std::error_code none;
-  return confirmed == named || std::filesystem::equivalent(confirmed, named, none);
-}
-
 std::string other_profile(const DeviceInfo& board, const std::string& named) {
   return "its confirmed profile is " + board.profile + ", and not " + named +
          "; device=" + board.device + " profile=" + named + " uses this one once";
@@ -174,6 +168,11 @@ std::string unconfirmed(const DeviceInfo& board) {
 }
 
 }  // namespace
+
+bool is_same_profile(const std::string& one, const std::string& other) {
+  std::error_code none;
+  return one == other || std::filesystem::equivalent(one, other, none);
+}
 
 std::vector<AutoDevice> auto_devices(const std::string& profile) {
   std::vector<AutoDevice> found;

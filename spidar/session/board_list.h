@@ -44,4 +44,7 @@ struct AutoDevice {
 /// still be in use, or not be permitted.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
+/// Whether two profiles are the same, as they are named or, of a file, where it is.
+bool is_same_profile(const std::string& one, const std::string& other);
+
 }  // namespace spidar

@@ -199,6 +199,17 @@ Profile profile_for(const std::string& device, const std::string& named) {
   return profile;
 }
 
+std::string other_than_confirmed(const std::string& device, const std::string& named) {
+  if (named.empty() || is_simulated(device)) return {};
+  const DeviceInfo board = board_info(device);
+  if (!board.has_strings || board.profile.empty() || is_same_profile(board.profile, named)) {
+    return {};
+  }
+  return "profile=" + named + " drives " + device + ", for which profile " + board.profile +
+         " was confirmed: with the profile of another device, forces are wrong, and motors may " +
+         "pull where they should let go";
+}
+
 void require_serial(const DeviceInfo& board, const std::string& profile) {
   require_plugged_in(board.device);
   if (board.path.empty()) {

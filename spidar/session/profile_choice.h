@@ -50,6 +50,9 @@ bool can_drive(const std::string& device, const Profile& profile);
 /// does not fit the board, or when there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
+/// Why the profile `named` may be wrong: another one was confirmed for this board. Empty if not.
+std::string other_than_confirmed(const std::string& device, const std::string& named);
+
 /// Throws DeviceError, which says what to do instead, if the board has no serial number by which
 /// its `profile` could be remembered.
 void require_serial(const DeviceInfo& board, const std::string& profile);

@@ -19,6 +19,8 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/device_command.h"
+#include "spidar/tools/mark_files.h"
+#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -160,6 +162,7 @@ bool may_move(const std::string& device, bool yes, const std::string& question) 
 
 void OutputFile::check() const {
   if (path.empty()) return;
+  expect_not_read(path);
   const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
   if (access(parent.c_str(), W_OK) != 0) {
     throw ProfileError(path + ": cannot be written: " + parent.string() + ": " +
@@ -176,6 +179,7 @@ void OutputFile::check() const {
 int main(int argc, char** argv) {
   using namespace spidar::tools;
   spidar::open_standard_descriptors();
+  mark_files(argc, argv);
   Program program;
   program.app.set_help_flag("-h,--help", "Explain the program, or a command, and end");
   program.app.set_version_flag("--version", "spidarctl " SPIDAR_VERSION);

@@ -62,6 +62,18 @@ def require(holds, what, said=""):
         sys.exit(f"error: {what}\n{said}")
 
 
+def check_told(it):
+    """What is said after an installation, of a prefix that nothing searches, and of the system's own."""
+    tell = lambda *arguments: run([str(it.source / "spidar/tell_installed.sh"), *arguments],
+                                  {"PATH": "/usr/bin:/bin", "MESON_INSTALL_PREFIX": "/no/prefix"})
+    said = tell("bin", "lib", "/no/prefix/python", "/usr/lib/gstreamer-1.0")
+    for name, value in (("PATH", "bin"), ("GST_PLUGIN_PATH", "lib/gstreamer-1.0"), ("PYTHONPATH", "python"),
+                        ("PKG_CONFIG_PATH", "lib/pkgconfig"), ("LD_LIBRARY_PATH", "lib")):
+        require(f"export {name}=/no/prefix/{value}" in said, f"{name} is not told", said)
+    said = tell("/usr/bin", "/usr/lib", "/usr/lib/python3/dist-packages", "/usr/lib/gstreamer-1.0")
+    require("PATH=/usr/bin" not in said and "GST_PLUGIN_PATH" not in said, "what is found is told", said)
+
+
 def install(build, prefix, into):
     with tempfile.TemporaryDirectory(dir=into) as staged:
         run(["meson", "install", "-C", str(build), "--no-rebuild", "--destdir", staged], os.environ)

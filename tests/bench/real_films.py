@@ -92,11 +92,16 @@ def read_truth(film):
     return read_motion(file) if file.exists() else None
 
 
-def read_other(folder, film, frames):
-    """The frames of a film as another method found them; their times and sizes are those of `frames`."""
+def other_file(folder, film):
     file = folder / film.with_suffix(".csv").name
     if not file.exists():
         sys.exit(f"real_films.py: {file} is missing: what the method found in {film.name}")
+    return file
+
+
+def read_other(folder, film, frames):
+    """The frames of a film as another method found them; their times and sizes are those of `frames`."""
+    file = other_file(folder, film)
     motion = read_motion(file)
     if motion and not 0 <= min(motion) <= max(motion) < len(frames):
         sys.exit(f"real_films.py: {file}: frames are 0 to {len(frames) - 1} in {film.name}")
@@ -292,6 +297,9 @@ def main():
         if not folder.is_dir():
             parser.error(f"--other {name}={folder}: NAME=FOLDER, a folder with a file .csv for each film")
     films = films_of(options.folders)
+    for _, folder in others:  # before minutes of work
+        for film in films:
+            read_motion(other_file(folder, film))
     for each in [build] + ([Path(older)] if older else []):
         if not list((each / "plugin").glob("libgstspidar.*")):
             sys.exit(f"real_films.py: no plugin in {each}/plugin: build it with meson compile")

@@ -46,7 +46,11 @@ constexpr const char* kUsage =
     "  plug_in break STRING   break a string, from 0\n"
     "  plug_in mend           all strings are whole again\n"
     "  plug_in move X Y Z     move the grip: mm from the centre, to the right, up, near\n"
-    "  plug_in move about     move and turn it in all directions, until it is moved elsewhere\n";
+    "  plug_in move about     move and turn it in all directions, until it is moved elsewhere\n"
+    "  plug_in second         plug a second board of this kind in\n"
+    "  plug_in pad            plug a gamepad in, which rumbles\n"
+    "  plug_in forbid         take the permission to open the board away, as without udev's rule\n"
+    "  plug_in allow          give it back\n";
 
 [[noreturn]] void refuse(const std::string& why) {
   throw std::invalid_argument(why);
@@ -121,6 +125,17 @@ bool act(const Words& words) {
   } else if (what == "mend") {
     require(words, 1, "mend");
     begun(true).broken = 0;
+  } else if (what == "second") {
+    require(words, 1, "second");
+    plug(1, begun(false).board.data(), "EMULATED2");
+  } else if (what == "pad") {
+    require(words, 1, "pad");
+    begun(false);
+    plug_evdev(0, EvdevKind::kPad);
+  } else if (what == "forbid" || what == "allow") {
+    require(words, 1, what.c_str());
+    begun(false);
+    bus().port[0].forbidden = what == "forbid";
   } else if (what == "move") {
     move(words);
   } else {

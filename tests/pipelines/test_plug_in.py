@@ -103,6 +103,12 @@ class Rehearsal(PlugIn):
         self.begin("sh", "-c", f"plug_in break 3; {SPIDARCTL} selftest usb --profile {PROFILE} --yes; read wait")
         self.wait_for("encoder 3 ran by [0-9]+ mm .*string 3 is broken")
 
+    def test_two_boards_a_pad_and_a_missing_permission(self):
+        self.begin("sh", "-c", f"plug_in second; plug_in pad; {SPIDARCTL} list; plug_in forbid; {SPIDARCTL} list; read wait")
+        self.wait_for("usb:1-1 (.*\\n)*.*usb:1-2 ")
+        self.wait_for("Emulated Pad")
+        self.wait_for("70-spidar.rules")
+
     def test_the_hand_confirms_a_profile(self):
         choose = self.begin(SPIDARCTL, "choose", "usb", "--profile", PROFILE)
         self.wait_for("at the centre")

@@ -40,12 +40,15 @@ class Batch(track_case.TrackCase):
                                 (["info", "--jsom", "x.wav"], "--jsom")):
             self.assert_said(said, *arguments, status=2)
 
-    def test_a_plugin_that_is_not_found_is_named_once(self):
+    def test_a_plugin_that_gstreamer_does_not_search_is_found(self):
         self.make_film("a.avi", 5)
         self.make_film("b.avi", 5)
         nowhere = {**os.environ, "GST_PLUGIN_PATH": "", "GST_PLUGIN_PATH_1_0": "",
                    "GST_REGISTRY": str(self.path("registry"))}
-        said = self.run_in_folder([PROGRAM, "record", "a.avi", "b.avi"], status=1, env=nowhere)
+        self.assertIn("2 recorded", self.run_in_folder([PROGRAM, "record", "a.avi", "b.avi"], env=nowhere))
+        away = self.path("away")
+        shutil.copy(PROGRAM, away)
+        said = self.run_in_folder([away, "record", "a.avi", "b.avi", "--force"], status=1, env=nowhere)
         self.assertEqual(said.count("spidarmotion"), 1, said)
         self.assertIn("set GST_PLUGIN_PATH to the folder of libgstspidar.so", said)
 

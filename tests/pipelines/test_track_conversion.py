@@ -243,10 +243,38 @@ class Conversion(track_case.TrackCase):
         self.make_track()
         for options, why in ((("b.wav", "--axis", "fy"), "--axis is for .funscript, not for"),
                              (("b.hjif", "--axis", "fy"), "--axis is for .funscript, not for"),
-                             (("b.flac", "--tolerance", "0.1"), "--tolerance is for .hjif, .ahap and .funscript, not"),
-                             (("./a.wav",), "./a.wav: is to be another file than a.wav")):
+                             (("b.flac", "--tolerance", "0.1"), "--tolerance is for .hjif, .ahap and .funscript, not")):
             self.assert_said(why, "convert", "a.wav", *options, status=2)
         self.assert_said("ends in none of .flac .mka", "convert", "a.wav", "a.txt")
+
+    def test_csv_is_written_and_read(self):
+        self.make_track(count=1500)
+        self.spidartrack("convert", "a.wav", "a.csv")
+        lines = self.path("a.csv").read_text().splitlines()
+        self.assertEqual((lines[0], len(lines)), ("time_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm", 1501))
+        self.assertTrue(lines[1235].startswith("1.234,"))
+        for value, share, full in zip(lines[1235].split(",")[1:], track_case.wave(1234), track_case.FULL_SCALE):
+            self.assertAlmostEqual(float(value), share * full, delta=2**-23 * full)  # the digits of a float
+        # Half of the last digit of a sample, here and there.
+        for read, made in zip(self.samples("a.csv"), self.samples("a.wav")):
+            for value, wanted in zip(read, made):
+                self.assertAlmostEqual(value, wanted, delta=2**-23)
+
+    def test_csv_of_others_is_read(self):
+        for text, expected in (
+                # Lines between the times, rest before the first, by names in any order, with others.
+                ("Time (ms);note;FY (N)\n10;a;1,0\n20;b;3,0\n", [(0, 0)] * 10 + [(0, .1 + .02 * k) for k in range(11)]),
+                ("\ufefft_us\tfx\n0\t1\n2000\t-1\n", [(.1, 0), (0, 0), (-.1, 0)]),
+                ("# a comment\n0,1,2,0,0,0,0\r\n0.001,1,2,0,0,0,0\r\n", [(.1, .2)] * 2)):
+            self.path("a.csv").write_text(text, encoding="utf-8")
+            self.assertEqual([tuple(round(value, 5) for value in sample[:2]) for sample in self.samples("a.csv")],
+                             [tuple(round(value, 5) for value in sample) for sample in expected], text)
+        for text, said in (("time,velocity\n0,1\n", "line 1: names no column time and none of fx"), ("", "the table has no rows"),
+                           ("0,1,2\n", "line 1: has 3 columns without names"), ("t,fx\n0,a\n", 'line 2: "a" is not a number'),
+                           ("t,fx\n0,1\n0,1\n", "line 3: its time is not after"), ("t,fx\n0,1,2\n", "line 2: has 3 columns, and not 2"),
+                           ("t,fx\n1764427000,1\n", "subtract where it began")):
+            self.path("a.csv").write_text(text)
+            self.assert_said(f"a.csv, {said}" if said.startswith("line") else said, "info", "a.csv")
 
     def test_check_finds_what_would_not_be_felt_as_it_is(self):
         self.make_track()

@@ -122,6 +122,76 @@ class Files(track_case.TrackCase):
         self.assertEqual(len(self.samples("out/film.avi.haptic.flac")), 1000)
         self.assertEqual(os.listdir(part.parent), ["film.avi.haptic.flac"])
 
+    def test_a_file_that_is_read_is_never_written_whatever_its_name(self):
+        self.make_film()
+        self.make_film("clip.avi")
+        self.make_track()
+        self.path("rules.feel").write_text("0:00-0:01 largest\n")
+        for name, of, link in (("film.avi.haptic.flac", "film.avi", os.link), ("a.mp4", "film.avi", os.link),
+                               ("clip.mp4", "clip.avi", os.link), ("a.png", "a.wav", os.symlink), ("b.wav", "a.wav", os.symlink)):
+            link(self.path(of), self.path(name))
+        self.path("script.sway.funscript").write_text('{"actions":[{"at":0,"pos":9},{"at":99,"pos":80}]}')
+        self.path("script.funscript").write_text('{"actions":[{"at":0,"pos":9},{"at":99,"pos":90}]}')
+        before = {name: self.path(name).read_bytes() for name in self.files()}
+        commands = [["record", "film.avi", "--force"], ["show", "film.avi", "a.mp4"], ["convert", "a.wav", "b.wav"],
+                    ["convert", "script.funscript", "script.funscript"], ["export", "clip.avi", "./"],
+                    ["convert", "script.funscript", "script.x.funscript", "--axis", "all"],
+                    ["record", "film.avi", "--format", "wav", "--manifest", "film.avi"],
+                    ["record", "film.avi", "--format", "wav", "--manifest", "script.funscript"],
+                    ["record", "film.avi", "--format", "wav", "--manifest", "rules.feel", "--", "feel=rules.feel"]]
+        os.symlink("script.sway.funscript", self.path("script.x.sway.funscript"))
+        if shutil.which("gnuplot"):
+            commands.append(["plot", "a.wav", "a.png"])
+        for command in commands:
+            for force in ([],) if "--force" in command else ([], ["--force"]):
+                with self.subTest(command + force):
+                    at = command.index("--") if "--" in command else len(command)
+                    said = self.spidartrack(*command[:at], *force, *command[at:], status=1)
+                    self.assertRegex(said, "is to be another file than|is no manifest|exists, and|has not made it")
+                    for name, content in before.items():
+                        self.assertEqual(self.path(name).read_bytes(), content, name)
+
+    def test_what_has_no_name_of_the_user_is_replaced_only_if_it_was_made(self):
+        self.make_film()
+        self.path("site").mkdir()
+        self.path("site/index.html").write_text("my page")
+        self.assert_said("exists, and spidartrack export has not made it", "export", "film.avi", "site/", "--force")
+        self.assertEqual(self.path("site/index.html").read_text(), "my page")
+        self.assertEqual(self.files(), {"film.avi", "site/index.html"})
+        self.make_track("film.avi.haptic.wav")
+        mine = self.path("film.avi.haptic.wav").read_bytes()
+        self.assert_said("has not made it, and does not replace it", "record", "film.avi", "--format", "wav", "--force")
+        self.assertEqual(self.path("film.avi.haptic.wav").read_bytes(), mine)
+        self.assertIn("film.avi.haptic.wav is not played as long as film.avi.haptic.flac is there",
+                      self.spidartrack("record", "film.avi"))
+
+    def test_names_and_rules_of_any_kind(self):
+        self.make_film("-x.avi")
+        self.path("films").mkdir()
+        self.make_film("films/film.avi")
+        self.spidartrack("record", "-x.avi")
+        self.assertIn("-x.avi.haptic.flac", self.files())
+        self.spidartrack("info", "-x.avi")
+        for folder in "Ring: the first", "a:b:c":
+            said = self.spidartrack("record", "films", "--folder", folder)
+            place = re.search(r"SPIDAR_TRACK_PATH=(.*)\n", said).group(1)
+            self.assertEqual(place, str(self.path(folder)))
+            self.spidartrack("info", "films/film.avi", "--folder", folder)
+            for others in "{}", "/none:{}", "{}:/none", "/tmp:{}:/none":
+                self.spidartrack("info", "films/film.avi", env=dict(os.environ, SPIDAR_TRACK_PATH=others.format(place)))
+        # More than Linux takes as an argument of a process.
+        self.path("rules.feel").write_text("".join(f"{k}-{k}.5 largest\n" for k in range(8000)))
+        self.spidartrack("record", "films", "--force", "--", "feel=rules.feel")
+        self.assertIn("is there", self.spidartrack("record", "films", "--", "feel=rules.feel"))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "needs gnuplot")
+    def test_a_picture_does_not_depend_on_the_settings_of_gnuplot(self):
+        self.make_track()
+        self.spidartrack("plot", "a.wav", "plain.png")
+        self.path(".gnuplot").write_text("set datafile separator ','\nset logscale x\nset key off\n")
+        self.spidartrack("plot", "a.wav", "with.png", env=dict(os.environ, HOME=str(self.folder)))
+        self.assertEqual(self.path("with.png").read_bytes(), self.path("plain.png").read_bytes())
+
     def test_what_cannot_be_written_is_an_error_and_leaves_nothing(self):
         """A limit of the size of a file stands for a full disk: the write fails in the same way."""
         self.make_track(count=2000)  # more than 8 KiB in every format

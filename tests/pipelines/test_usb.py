@@ -134,7 +134,7 @@ class Auto(Pipelines):
     def test_without_anything_it_is_simulated(self):
         self.assertEqual(self.chosen(),
                          ("sim", "simulated, because nothing that gives a force can be used (device=auto)"))
-        self.assertRegex(self.renders, r"^It renders force in every direction, up to \d+\.\d N, and torque\.$")
+        self.assertRegex(self.renders, r"^It renders force in every direction, up to \d+\.\d N \(3 N by max-force\), and torque\.$")
 
     def test_what_has_a_direction_comes_before_what_rumbles(self):
         bus.evdev_plug(0, Evdev.KEYBOARD)
@@ -193,7 +193,22 @@ class Auto(Pipelines):
     def test_a_board_that_was_named_is_said_too(self):
         bus.bus_plug(0, b"sh4")
         said = self.run_in_folder(f"gst-launch-1.0 videotestsrc num-buffers=3 ! spidarmotion device=usb {PROFILE} ! fakesink")
-        self.assertRegex(said, r"usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force in every direction, up to \d+\.\d N, and torque\.")
+        self.assertRegex(said, r"usb: at 1-1: CyVerse USB 2.0 SH4, rotary switch 0. It renders force in every direction, up to \d+\.\d N \(3 N by max-force\), and torque\.")
+
+    def test_another_profile_than_the_confirmed_one_is_warned_of(self):
+        bus.bus_plug_named(0, b"sh4", b"A1")
+        self.path("gst-spidar").mkdir()
+        with unittest.mock.patch.dict(os.environ, XDG_CONFIG_HOME=str(self.folder)):
+            play = lambda profile: self.run_in_folder(
+                f"gst-launch-1.0 videotestsrc num-buffers=3 ! spidarmotion device=usb {profile} max-force=0.5 ! fakesink")
+            self.assertNotIn("was confirmed", play(PROFILE))
+            self.path("gst-spidar/boards.toml").write_text('"0cec:0205 A1" = "spidar-g6x3-v2-l"\n')
+            said = play("profile=spidar-g")
+            self.assertIn("profile=spidar-g drives usb, for which profile spidar-g6x3-v2-l was confirmed", said)
+            self.assertIn("N (0.5 N by max-force), and torque", said)
+            for same in "profile=spidar-g6x3-v2-l", "":
+                self.assertNotIn("was confirmed:", play(same))
+
     def test_what_cannot_be_opened_is_passed_over_and_named(self):
         bus.evdev_plug(0, Evdev.STICK)
         bus.evdev_plug(1, Evdev.PAD)

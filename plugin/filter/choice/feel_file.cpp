@@ -19,6 +19,7 @@ namespace {
 constexpr size_t kLargest_bytes = 1 << 20;
 
 std::string read_rules_text(const std::string& path) {
+  note_read(path);
   try {
     return read_regular_file(path, kLargest_bytes);
   } catch (const std::runtime_error& error) {
