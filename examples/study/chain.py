@@ -13,8 +13,10 @@ import os
 import secrets
 from pathlib import Path
 
-COLUMNS = ["file", "salt", "digest", "link"]  # file and salt: empty once the participant has withdrawn
-SESSION, CUT_OFF = "session", "cut off"  # in place of a file; the entry before is of what was not written any more
+COLUMNS = ["file", "salt", "digest", "link"]
+# In place of a file. CUT_OFF: the entry before is of what was not written any more. WITHDRAWN, with a number: of entries
+# whose salt is gone, because their participant is; and, with a salt, the entry of the digests of these.
+SESSION, CUT_OFF, WITHDRAWN = "session", "cut off", "withdrawn"
 TABLES = ("", ".participants", ".presentations", ".briefings", ".thresholds", ".exports")
 FILES = (".settings.json", ".preview.json")
 NOTED = 8  # characters of a link, which somebody can note: 32 bits
@@ -80,14 +82,14 @@ def add_file(answers, file):
 
 
 def rows_of(answers, table):
-    """The lines of a table without its head, as they are written."""
+    """The lines of a table with its head, as they are written."""
     path = Path(f"{answers}{table}")
-    return path.read_text(encoding="utf-8").split("\n")[1:-1] if path.exists() else []
+    return path.read_text(encoding="utf-8").split("\n")[:-1] if path.exists() else []
 
 
 def matched(entries, table, rows):
     """For each row its entry, or None. Rows are in the order of their entries, unless somebody withdrew."""
-    left, found = [entry for entry in entries if entry["file"] == table and entry["salt"]], []
+    left, found = [entry for entry in entries if entry["file"] == table], []
     for row in rows:
         entry = next((each for each in left if digest_of(each["salt"], table, row.encode()) == each["digest"]), None)
         if entry:
@@ -96,14 +98,20 @@ def matched(entries, table, rows):
     return found
 
 
+def digests(entries):
+    return ",".join(entry["digest"] for entry in entries).encode()
+
+
 def forget(answers, rows, files):
     """Of a participant who withdraws: nobody can try any more what their entries were of. `rows`: by table."""
     entries = read(answers)
+    name = f"{WITHDRAWN} {1 + sum(entry['file'].startswith(WITHDRAWN) and entry['salt'] != '' for entry in entries)}"
     gone = [entry for table, lines in rows.items() for entry in matched(entries, table, lines) if entry]
-    for entry in entries:
-        if entry in gone or entry["file"] in files:
-            entry["file"] = entry["salt"] = ""
+    gone = [entry for entry in entries if entry in gone or entry["file"] in files]
+    for entry in gone:
+        entry["file"], entry["salt"] = name, ""
     write(answers, entries)
+    add(answers, name, digests(gone))
 
 
 def is_there(answers, entry):
@@ -114,7 +122,12 @@ def is_there(answers, entry):
 
 
 def begin(answers, machine):
-    """A session. A row is written after its entry: if the power failed between the two, the chain says so."""
+    """A session. A row is written after its entry: if the power failed between the two, the chain says so, and what was
+    written of the row is taken away."""
+    for path in (Path(f"{answers}{table}") for table in TABLES):
+        text = path.read_text(encoding="utf-8") if path.exists() else ""
+        if text and not text.endswith("\n"):
+            replace_file(path, text[:text.rfind("\n") + 1])
     entries = read(answers)
     if entries and not is_there(answers, entries[-1]):
         add(answers, CUT_OFF, b"")
@@ -146,12 +159,20 @@ def misfits(answers):
     for table in TABLES:
         rows = rows_of(answers, table)
         found = matched(written, table, rows)
-        for n, (row, entry) in enumerate(zip(rows, found), 2):
+        for n, (row, entry) in enumerate(zip(rows, found), 1):
             if not entry:
                 yield f"{answers}{table}:{n}: was not written so: {row}"
-        missing = sum(entry["file"] == table and entry["salt"] != "" for entry in written) - sum(map(bool, found))
+        missing = sum(entry["file"] == table for entry in written) - sum(map(bool, found))
         if missing:
             yield f"{answers}{table}: {missing} of the rows that were written are not in it"
+    gone = {entry["file"]: entry for entry in written if entry["file"].startswith(WITHDRAWN) and entry["salt"]}
+    for name in dict.fromkeys([*gone, *(entry["file"] for entry in written if not entry["salt"])]):
+        its, entry = [each for each in written if each["file"] == name and not each["salt"]], gone.get(name)
+        if not entry or digest_of(entry["salt"], name, digests(its)) != entry["digest"]:
+            yield f"{path_of(answers)}: entries are unreadable that are not of who withdrew"
+    left = sum(row.startswith(",") for row in rows_of(answers, ".participants"))
+    if left != len(gone):
+        yield f"{path_of(answers)}: {len(gone)} withdrew, and {left} of the participants"
     newest = {entry["file"]: entry for entry in written if entry["file"] in FILES or entry["file"].startswith(".traces/")}
     for file in dict.fromkeys([*FILES, *newest]):
         path, entry = Path(f"{answers}{file}"), newest.get(file)

@@ -2,7 +2,9 @@
 # Copyright 2026 the gst-spidar authors
 """A window that fills the screen while a clip plays, without taking the keys from the terminal that asks the questions."""
 
+import contextlib
 import ctypes
+import os
 import struct
 
 import gi
@@ -39,11 +41,11 @@ class FullScreen:
     """Of a pipeline, from before it plays until close(). Where there is no X, a sink that can fills the screen itself."""
 
     def __init__(self, pipeline):
-        try:
+        self.display, self.window = None, 0
+        with contextlib.suppress(OSError):
             self.x = ctypes.CDLL("libX11.so.6")
-            self.display, self.window = open_window(self.x)
-        except OSError:
-            self.display, self.window = None, 0
+            if "WAYLAND_DISPLAY" not in os.environ:  # whose sinks take other handles
+                self.display, self.window = open_window(self.x)
         pipeline.bus.set_sync_handler(self.give)
         pipeline.connect("deep-element-added", self.fill)
 

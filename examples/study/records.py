@@ -56,13 +56,14 @@ def line_of(row):
 
 def append_row(answers, table, header, row):
     """Appends a line to one of chain.TABLES, after the header in a new file, and flushes it to the disk."""
-    chain.add(answers, table, line_of(row).encode())
-    with open(f"{answers}{table}", "a", encoding="utf-8", newline="") as file:
-        if file.tell() == 0:
-            file.write(line_of(header) + "\n")
-        file.write(line_of(row) + "\n")
-        file.flush()
-        os.fsync(file.fileno())
+    path = Path(f"{answers}{table}")
+    is_new = not path.exists() or not path.stat().st_size
+    for line in map(line_of, [header, row] if is_new else [row]):
+        chain.add(answers, table, line.encode())
+        with open(path, "a", encoding="utf-8", newline="") as file:
+            file.write(line + "\n")
+            file.flush()
+            os.fsync(file.fileno())
 
 
 def parse_answer(row):
@@ -99,13 +100,13 @@ def read_answers(path):
 def names_of(paths):
     """For each of several files of answers, what becomes of the codes in it: with the machine, where there are more.
     Raises ValueError if they cannot be put together."""
-    first, machines = read_settings(paths[0]), []
+    first, machines = read_settings(paths[0]) or {}, []
     for path in paths if len(paths) > 1 else ():
         settings = read_settings(path) or {}
         require_same(path, first | {"host": ""}, settings | {"host": ""})
-        if settings["host"] in machines:
+        if settings.get("host") in machines:
             raise ValueError(f"{path}: is of the machine {settings['host']}, as another one is whose codes it may share")
-        machines.append(settings["host"])
+        machines.append(settings.get("host"))
     return [(path, lambda code, machine=machine: f"{code}@{machine}" if code else code) for path, machine in
             zip(paths, machines)] or [(paths[0], lambda code: code)]
 

@@ -72,6 +72,7 @@ class Integrity(unittest.TestCase):
                 ("", r"(,[1-5]),now", r"\g<1>,then", "answers.csv:2: was not written so: P1,"),
                 (".presentations", "weak", "", "presentations:2: was not written so: P1,1,P1-1,"),
                 (".presentations", r"P1,2,[^\n]*\n", "", "1 of the rows that were written are not in it"),
+                (".presentations", "trial,trace", "trace,trial", "presentations:1: was not written so"),
                 (".briefings", "P2,consent,yes", "P2,consent,no", "briefings:3: was not written so"),
                 (".participants", "P2,1", "P2,2", "participants:3: was not written so"),
                 (".traces/P1-2.haptic.csv", "P1", "P3", "P1-2.haptic.csv: is not as it was written"),
@@ -112,17 +113,25 @@ class Integrity(unittest.TestCase):
         self.assertNotIn("P2", chained)
         gone = [row["file"] for row in chain.read(self.path) if not row["salt"]]
         # Rows of participants and briefings, presentations and their traces, answers to 4 and 6 of these.
-        self.assertEqual(gone, [""] * (1 + 1 + 11 + 11 + 4 + 6 * 3))
+        self.assertEqual(gone, ["withdrawn 1"] * (1 + 1 + 11 + 11 + 4 + 6 * 3))
+        records.Participants(self.path).withdraw("P1")
+        self.assertNotIn("EXPLORATORY", self.report())
+        self.edit(".chain", "\n,[^,]{5,}", "\nwithdrawn 3,")
+        self.require("entries are unreadable that are not of who withdrew")
+        self.edit(".chain", "\nwithdrawn 3", "\nwithdrawn 2")
+        self.require("entries are unreadable that are not of who withdrew")
         self.edit("", "P3,1,[^\n]*\n", "")
         self.require("1 of the rows that were written are not in it")
 
     def test_a_session_that_the_power_ended_fits(self):
-        """Between an entry of the chain and its row, and within a line of the chain."""
+        """Between an entry of the chain and its row, within the row, and within a line of the chain."""
         kept = Path(f"{self.path}.briefings").read_text()
-        records.append_row(self.path, ".briefings", ["participant", "check", "answer"], ["P3", "guess", "none"])
-        Path(f"{self.path}.briefings").write_text(kept)
-        chain.begin(self.path, "lab")
-        self.assertNotIn("EXPLORATORY", self.report())
+        for written in "", "P3,gue":
+            records.append_row(self.path, ".briefings", ["participant", "check", "answer"], ["P3", "guess", "none"])
+            Path(f"{self.path}.briefings").write_text(kept + written)
+            chain.begin(self.path, "lab")
+            self.assertNotIn("EXPLORATORY", self.report())
+            self.assertEqual(Path(f"{self.path}.briefings").read_text(), kept)
         with open(f"{self.path}.chain", "a", encoding="utf-8") as file:
             file.write(".briefings,1f")
         records.append_row(self.path, ".briefings", ["participant", "check", "answer"], ["P3", "guess", "none"])
