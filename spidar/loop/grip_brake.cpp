@@ -119,6 +119,12 @@ bool GripBrake::is_withstood() const noexcept {
   return withstood_s_ >= kWithstands_s;
 }
 
+/// A grip that is let go still counts as held for as long as its way is short; the energy that it
+/// may have does not wait for that.
+bool GripBrake::withstands_at(double speed_m_s) const noexcept {
+  return is_withstood() && speed_m_s <= kHeavyFrom_m_s;
+}
+
 /// The grip has followed the force for `way_m`, which is further than a hand lets it.
 bool GripBrake::is_loose(const Eigen::Vector3d& way_m) const noexcept {
   const double force_N = pulled_N_.norm();
@@ -184,7 +190,7 @@ FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s;
   const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s;
   double share = 1;
-  if (!is_withstood()) {
+  if (!withstands_at(speed_m_s)) {
     const double left = std::sqrt(std::clamp(1 - stored_J_ / kReleased_J, 0.0, 1.0));
     share = std::max(left, kSpeedError_m_s / from_m_s);
   }
@@ -200,13 +206,14 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
     fraction_ = std::clamp(fraction_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
   }
   then_ = motion.velocity_in(kLoop_s + drive_lag_s_);
-  band_ = band_at(motion.velocity().linear_m_s.norm());
+  const double speed_m_s = motion.velocity().linear_m_s.norm();
+  band_ = band_at(speed_m_s);
   damper_ = {damping(then_.linear_m_s, 1, band_), damping(then_.angular_rad_s, radius_m_, band_)};
   // The strings cannot do both: what a torque takes, the damper of the way misses.
   left_ = {faded(fraction_ * wanted.force_N, then_.linear_m_s, 1, band_),
            left_at(then_.linear_m_s.norm(), band_) *
                faded(fraction_ * wanted.torque_Nm, then_.angular_rad_s, radius_m_, band_)};
-  if (!is_withstood()) left_.force_N = not_further_out(left_.force_N);
+  if (!withstands_at(speed_m_s)) left_.force_N = not_further_out(left_.force_N);
   if (then_.linear_m_s.norm() > kNoRise_m_s) {
     left_.force_N = without_excess(left_.force_N, not_risen_N(), then_.linear_m_s);
   }

@@ -43,11 +43,11 @@ struct FadeBand {
 ///   a slow one that has gone as far, and for one that swings back from there, fading and damping
 ///   begin kEarlier_m_s below their speeds: what the hand and the strings at rest have stored adds
 ///   to a reversed force.
-/// - Until a hand has withstood a force, the energy that the strings at rest have stored is
-///   subtracted from kReleased_J, and the speeds are lower accordingly. Otherwise a film would push
-///   a heavy grip to where no string can brake it, and the strings at rest would throw it back. For
-///   the same reason, an outward force fades to kProbes_N as that energy rises from kFarOut of
-///   kReleased_J to all of it.
+/// - Until a hand has withstood a force, and above kHeavyFrom_m_s, the energy that the strings at
+///   rest have stored is subtracted from kReleased_J, and the speeds are lower accordingly.
+///   Otherwise a film would push a heavy grip to where no string can brake it, and the strings at
+///   rest would throw it back. For the same reason, an outward force fades to kProbes_N as that
+///   energy rises from kFarOut of kReleased_J to all of it.
 ///
 /// A fading force falls at once, without a slew limit: 10 N that fell at 300 N/s would throw a grip
 /// of 50 g at 3.5 m/s. It returns at the slew limit.
@@ -96,6 +96,7 @@ class GripBrake {
   Eigen::Vector3d not_risen_N() const noexcept;
   bool is_released(const GripMotion& motion) const noexcept;
   bool is_withstood() const noexcept;
+  bool withstands_at(double speed_m_s) const noexcept;
   bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
   bool has_yielded() const noexcept;
   bool has_stored(const Eigen::Vector3d& way_m) const noexcept;

@@ -237,13 +237,12 @@ bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
 }
 
 /// Without any other force, the strings at rest throw a grip. Whatever the limits are, the damper
-/// may take back what they give, and turn it round: TensionCommand lets the strings then pull no
-/// harder than at rest.
+/// may take back what they give.
 SafetyLimits HapticLoop::braking_limits() const noexcept {
   SafetyLimits limits = limits_.in_effect();
   const Wrench& at_rest = grip_->reading().at_rest;
-  limits.max_force_N = std::max(limits.max_force_N, 2 * at_rest.force_N.norm());
-  limits.max_torque_Nm = std::max(limits.max_torque_Nm, 2 * at_rest.torque_Nm.norm());
+  limits.max_force_N = std::max(limits.max_force_N, at_rest.force_N.norm());
+  limits.max_torque_Nm = std::max(limits.max_torque_Nm, at_rest.torque_Nm.norm());
   return limits;
 }
 

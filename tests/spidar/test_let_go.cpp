@@ -175,7 +175,7 @@ TEST(LetGo, WithoutAForceTheStringsAtRestThrowNoFaster) {
       for (const Stop stop : {Stop::kPause, Stop::kSeek, Stop::kNoFrames, Stop::kNoForce,
                               Stop::kLessForce, Stop::kAtFirst}) {
         push.stop = stop;
-        // At no force the damper may only turn round what the strings at rest exert.
+        // At no force the damper may only take back what the strings at rest give.
         EXPECT_LE(thrown_m_s(profile, hand, push), 1.05 * plays_m_s)
             << 1e3 * mass_kg << " g, towards " << towards.transpose() << ", stop "
             << static_cast<int>(stop) << ", while it plays " << plays_m_s << " m/s";

@@ -165,6 +165,7 @@ class Round {
     const int64_t passed_ns = ticks_.now_ns() - now_ns_;
     now_ns_ = ticks_.now_ns();
     exchanged_ns_ = now_ns_ + std::llround(random_.uniform(0, 1) * LateTicks::kCycle_ns);
+    const Wrench at_rest = loop_->grip().reading().at_rest;
     const long before = allocations;
     loop_->tick(ticks_.deadline_ns(), now_ns_);
     EXPECT_EQ(allocations, before) << where_ << ": a tick allocates";
@@ -175,8 +176,18 @@ class Round {
     if (seen.acknowledged) rest_in_ns_ -= std::exchange(unanswered_ns_, 0);
     seen.told_N = tensions_N(device_.volts(), real_);
     seen.dt_s = 1e-9 * static_cast<double>(passed_ns);
-    seen.size_N = size_N_;
     seen.brakes = loop_->snapshot().last.brakes;
+    // Whatever the limits are, the damper may take back what the strings at rest give; what it
+    // leaves falls as fast as tensions do.
+    if (seen.brakes) {
+      damped_ns_ = std::llround(1e9 * TensionSlew::kRange_s) + kMs;
+      damper_N_ = std::max(
+          damper_N_, std::hypot(at_rest.force_N.norm(),
+                                at_rest.torque_Nm.norm() / believed_.geometry.grip_radius_m()));
+    } else if (seen.acknowledged && (damped_ns_ -= passed_ns) < 0) {
+      damper_N_ = 0;
+    }
+    seen.size_N = std::max(size_N_, damper_N_);
     seen.sees = !device_.is_tampered() && !miscounts_;
     // What a damper leaves falls as fast as tensions do.
     if (seen.brakes) rest_in_ns_ = std::max<int64_t>(rest_in_ns_, 1e9 * TensionSlew::kRange_s);
@@ -224,6 +235,8 @@ class Round {
   bool playing_ = false;
   int64_t rest_in_ns_ = 0;
   int64_t unanswered_ns_ = 0;
+  int64_t damped_ns_ = 0;  ///< for how long the damper still acts
+  double damper_N_ = 0;    ///< the largest wrench of it
   int fault_ticks_ = 0;
 };
 
