@@ -16,7 +16,7 @@ from pathlib import Path
 COLUMNS = ["file", "salt", "digest", "link"]
 # In place of a file. CUT_OFF: the entry before is of what was not written any more. WITHDRAWN, with a number: of entries
 # whose salt is gone, because their participant is; and, with a salt, the entry of the digests of these.
-SESSION, CUT_OFF, WITHDRAWN = "session", "cut off", "withdrawn"
+SESSION, END, CUT_OFF, WITHDRAWN = "session", "end", "cut off", "withdrawn"
 TABLES = ("", ".participants", ".presentations", ".briefings", ".thresholds", ".exports")
 FILES = (".settings.json", ".preview.json")
 NOTED = 8  # characters of a link, which somebody can note: 32 bits
@@ -134,14 +134,16 @@ def begin(answers, machine):
     for file in FILES:
         if Path(f"{answers}{file}").exists() and not any(entry["file"] == file for entry in entries):
             add_file(answers, file)
-    return add(answers, SESSION, machine.encode())
+    add(answers, SESSION, machine.encode())
+
+
+def end(answers):
+    """Of a session. Returns what somebody may note."""
+    return add(answers, END, b"")[:NOTED]
 
 
 def ends(answers):
-    """The link at the end of each session: what somebody may have noted."""
-    entries = read(answers)
-    begins = [n for n, entry in enumerate(entries) if entry["file"] == SESSION]
-    return [entries[end - 1]["link"][:NOTED] for end in [*begins[1:], len(entries)] if begins]
+    return [entry["link"][:NOTED] for entry in read(answers) if entry["file"] == END]
 
 
 def misfits(answers):

@@ -137,7 +137,7 @@ class Study:
         try:
             yield
         finally:
-            print(f"\nNote with the form of consent: {chain.ends(self.options.answers)[-1]}")
+            print(f"\nNote with the form of consent: {chain.end(self.options.answers)}")
 
     @contextmanager
     def taut(self):

@@ -18,6 +18,7 @@ def write(path, steps, clips=("a.avi", "b.avi"), extra=(), preview=None, **setti
     settings = SETTINGS | {"clips_sha256": dict.fromkeys(clips, "1f")} | settings
     chain.begin(path, settings["host"])
     records.write_settings(path, settings, preview or {})
+    chain.end(path)
     Path(f"{path}.traces").mkdir()
     for who, step_of in steps.items():
         chain.begin(path, settings["host"])
@@ -36,4 +37,5 @@ def write(path, steps, clips=("a.avi", "b.avi"), extra=(), preview=None, **setti
                 if step := step_of(trial, question):
                     records.append_row(path, "", records.COLUMNS, [who, trial.number, trial.part, trial.condition, trial.code,
                                                                    trial.clip, question, step, "now"])
+        chain.end(path)
     return path

@@ -63,6 +63,8 @@ class Integrity(unittest.TestCase):
         self.assertIn(f"sessions end with {', '.join(ends)}", text)
         last = self.path.with_name("answers.csv.chain").read_text().splitlines()[-1]
         self.assertTrue(last.split(",")[-1].startswith(ends[-1]))
+        records.Participants(self.path).withdraw("P2")
+        self.assertEqual(chain.ends(self.path), ends, "what was noted stays")
 
     def test_names_what_was_changed(self):
         for name, old, new, said in [
