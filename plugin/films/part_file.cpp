@@ -175,8 +175,8 @@ PartFile::PartFile(const fs::path& target, const Replaces& replaces) : PartFile(
   if (may_replace()) return;
   const std::string& maker = replaces.maker;
   if (!replaces.is_named && replaces.any) {
-    throw std::runtime_error(target.string() + ": exists, and " + maker +
-                             " has not made it; name another place, or remove it");
+    throw std::runtime_error(target.string() + ": exists, and nothing says that " + maker +
+                             " has made it; name another place, or remove it");
   }
   throw std::runtime_error(target.string() + ": exists" +
                            (maker.empty() ? "" : ", and is not as " + maker + " left it") +

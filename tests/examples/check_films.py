@@ -28,6 +28,13 @@ def check_output(play, folder):
                               capture_output=True, timeout=60)
         assert done.returncode == 2 and output in done.stderr, done
         assert "playing" not in done.stdout, done.stdout
+    with tempfile.TemporaryDirectory() as folder:
+        picture = os.path.join(folder, "spidar-play.png")
+        with open(picture, "w", encoding="utf-8") as file:
+            file.write("mine")
+        done = subprocess.run([play, "--headless", "--ball", "--output", folder], text=True, capture_output=True, timeout=60)
+        assert done.returncode != 0 and "nothing says that play.sh has made it" in done.stderr, done
+        assert "playing" not in done.stdout and os.path.getsize(picture) == 4, done
 
 
 def check_properties(play):

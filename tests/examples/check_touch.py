@@ -73,6 +73,18 @@ def check_names(program, folder):
         assert os.path.getsize(os.path.join(folder, name, "touch.png")) > 10_000, name
 
 
+def check_own_picture(program, folder):
+    """A picture that is called as the drawing is no drawing of this program."""
+    image = os.path.join(folder, "own", "touch.png")
+    os.mkdir(os.path.dirname(image))
+    shutil.copy(os.path.join(folder, "slope.png"), image)
+    for read in image, os.path.join(folder, "slope.png"):
+        done = subprocess.run([program, read, "--output", os.path.dirname(image)], text=True, capture_output=True, timeout=60)
+        assert done.returncode == 1 and "touch.png: " in done.stderr, done
+        with open(image, "rb") as kept, open(os.path.join(folder, "slope.png"), "rb") as before:
+            assert kept.read() == before.read()
+
+
 def check_mistakes(program, folder):
     none = os.path.join(folder, "none.png")
     text = os.path.join(folder, "text.png")
@@ -94,6 +106,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         check_slope(program, folder)
         check_names(program, folder)
+        check_own_picture(program, folder)
         check_mistakes(program, folder)
 
 

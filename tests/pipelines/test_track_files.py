@@ -155,7 +155,7 @@ class Files(track_case.TrackCase):
         self.make_film()
         self.path("site").mkdir()
         self.path("site/index.html").write_text("my page")
-        self.assert_said("exists, and spidartrack export has not made it", "export", "film.avi", "site/", "--force")
+        self.assert_said("exists, and nothing says that spidartrack export has made it", "export", "film.avi", "site/", "--force")
         self.assertEqual(self.path("site/index.html").read_text(), "my page")
         self.assertEqual(self.files(), {"film.avi", "site/index.html"})
         self.make_track("film.avi.haptic.wav")
