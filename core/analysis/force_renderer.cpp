@@ -93,10 +93,13 @@ void ForceRenderer::configure(const AnalyzerSettings& settings) {
 }
 
 ChoiceInput ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
-  return {frame.objects,         frame.background ? &*frame.background : nullptr,
-          frame.width,           frame.height,
-          frame.interval_s(),    frame.picture == Likeness::kFirst,
-          frame.stamp.stream_ns, turn,
+  return {frame.objects,
+          frame.background ? &*frame.background : nullptr,
+          frame.place,
+          frame.interval_s(),
+          frame.picture == Likeness::kFirst,
+          frame.stamp.stream_ns,
+          turn,
           settings_.boxes.get()};
 }
 
@@ -123,11 +126,9 @@ ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
     case MotionKind::kCamera:
       if (!frame.background) return {};
       return camera_motion(*frame.background, frame.votes, frame.interval_s());
-    case MotionKind::kObjects: {
-      const Eigen::Vector2d pointer_px((settings_.pointer.x() - 0.5) * frame.width,
-                                       (settings_.pointer.y() - 0.5) * frame.height);
-      return motion_at_pointer(frame.objects, pointer_px, frame.height);
-    }
+    case MotionKind::kObjects:
+      return motion_at_pointer(frame.objects, frame.place.film_px(settings_.pointer),
+                               frame.height());
     case MotionKind::kObject:
       break;
   }
@@ -142,7 +143,7 @@ void ForceRenderer::reset() {
 
 void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   Chosen choice;
-  if (settings_.motion != MotionKind::kMean && frame.width != 0) {
+  if (settings_.motion != MotionKind::kMean && frame.width() != 0) {
     choice = choice_.choose(choice_frame(frame, turn));
   }
   frame.choice = choice;
@@ -170,16 +171,16 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
   felt = faster(felt, lost_frames_.correction(frame.interval_ns, frame.shown_for_ns,
                                               felt.velocity_px_s.norm()));
   const double interval_s = frame.interval_s();
-  frame.motion = bound_motion(felt, frame.width, interval_s);
+  frame.motion = bound_motion(felt, frame.width(), interval_s);
   // Neither filter nor washout mixes the motions of two objects.
   if (fade_.turn_to(felt_thing(choice, frame.felt_object))) {
     filter_.reset();
     washout_.reset();
   }
   const ImageMotion steady =
-      filter_.filter(frame.motion, frame.height, interval_s, settings_.filter);
+      filter_.filter(frame.motion, frame.height(), interval_s, settings_.filter);
   const Wrench wanted =
-      render_motion(controller_, steady, settings_.axes, frame.height, interval_s);
+      render_motion(controller_, steady, settings_.axes, frame.height(), interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
   const double most_N = settings_.controller.max_force_N;
   const Wrench passed =

@@ -17,6 +17,7 @@
 #include "core/force/washout.h"
 #include "core/motion/cadence.h"
 #include "core/motion/image_motion.h"
+#include "core/picture/film_area.h"
 #include "core/points/tracker.h"
 #include "core/wrench.h"
 
@@ -26,6 +27,7 @@ namespace spidar {
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
+  AreaSetting area;  ///< in px of the pictures
   /// Position of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its
   /// bottom right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};

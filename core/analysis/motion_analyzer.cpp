@@ -23,19 +23,56 @@ bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
   return true;
 }
 
+/// The part of the picture that the film has, by what is known before it.
+PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
+  const PicturePart all = settings_.area.of_picture(picture.width, picture.height);
+  if (settings_.area.kind != AreaSetting::Kind::kAuto) return all;
+  const FilmPlace& before = frame_.place;
+  if (before.picture_width != picture.width || before.picture_height != picture.height) {
+    area_finder_.reset();
+  }
+  const std::optional<PicturePart>& found = area_finder_.area();
+  if (!found) return all;
+  const int factor = halving_factor(picture.width, picture.height);
+  // The last columns and rows may not fill a pixel of the reduced picture.
+  const int right = found->x + found->width, bottom = found->y + found->height;
+  const bool is_at_right = right == picture.width / factor;
+  const bool is_at_bottom = bottom == picture.height / factor;
+  const int x = factor * found->x, y = factor * found->y;
+  return {x, y, (is_at_right ? picture.width : factor * right) - x,
+          (is_at_bottom ? picture.height : factor * bottom) - y};
+}
+
+/// Shows the picture to the finder, reduced as the analysis has done it if the film is all of it.
+void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns) {
+  const bool is_reduced =
+      !by_points() && frame_.place == FilmPlace::whole(picture.width, picture.height);
+  if (!is_reduced) {
+    reduce_blocks(picture, halving_factor(picture.width, picture.height), whole_);
+  }
+  area_finder_.look((is_reduced ? reduced_.base() : whole_).view(), running_ns);
+  frame_.place.is_known = !area_finder_.is_searching();
+}
+
 /// Finds what moves, unless the picture waits. Returns whether it does not.
-bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
+bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
+  const PicturePart area = area_of(picture);
+  // Of another area, nothing is known that the next frame could be compared with.
+  if (area != frame_.place.area) reset_measuring();
+  frame_.place = {area, picture.width, picture.height};
+  const ImageView image = part_of(picture, area);
   const bool may_wait = cadence_.would_wait(running_ns);
   const OpenCvTracker::Result* const tracked =
       by_points() ? &tracker_.track(image, may_wait) : nullptr;
-  const Likeness picture = tracked ? tracked->picture : reduced_.read(image, may_wait);
-  const bool is_comparable = picture != Likeness::kFirst && last_running_ns_;
+  const Likeness likeness = tracked ? tracked->picture : reduced_.read(image, may_wait);
+  if (settings_.area.kind == AreaSetting::Kind::kAuto) look_for_film(picture, running_ns);
+  const bool is_comparable = likeness != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (is_comparable) {
-    step = cadence_.see(picture, running_ns,
+    step = cadence_.see(likeness, running_ns,
                         tracked ? RepeatedPicture::Repeats() : reduced_.repeats());
-    if (step.waits) {
+    if (step.waits && frame_.place.is_known) {
       frame_.picture = Likeness::kWaiting;
       return false;
     }
@@ -43,13 +80,16 @@ bool MotionAnalyzer::measure(const ImageView& image, int64_t running_ns) {
     motion_.reset();
   }
   frame_.clear_motion();
-  frame_.width = image.width;
-  frame_.height = image.height;
+  if (!frame_.place.is_known) {
+    reset_measuring();
+    cadence_.cut(running_ns);
+    return true;
+  }
   take(step);
   const bool is_compared =
       tracked ? find_mean(*tracked) : motion_.estimate(image, reduced_, frame_);
   if (is_comparable && is_compared) {
-    frame_.picture = picture;
+    frame_.picture = likeness;
   } else {
     cadence_.cut(running_ns);
     if (!tracked) reduced_.cut();
@@ -68,6 +108,7 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   renderer_.configure(settings);  // validates all of them
   tracker_.configure(settings.tracker);
   const bool was_by_points = by_points();
+  if (settings.area.kind != settings_.area.kind) area_finder_.reset();
   settings_ = settings;
   // What will be used next has not seen the last picture.
   if (was_by_points != by_points()) reset_measuring();
@@ -104,6 +145,7 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
 }
 
 void MotionAnalyzer::reset() {
+  area_finder_.reset();
   reset_measuring();
   cadence_.reset();
   last_running_ns_.reset();

@@ -10,7 +10,9 @@
 #include "core/analysis/frame.h"
 #include "core/motion/cadence.h"
 #include "core/motion/motion_estimator.h"
+#include "core/picture/area_finder.h"
 #include "core/picture/image_view.h"
+#include "core/picture/padded_image.h"
 #include "core/picture/reduced_frame.h"
 #include "core/points/tracker.h"
 
@@ -38,7 +40,7 @@ class MotionAnalyzer {
   /// causes a restart, because the interval would not be positive. A cut in the picture or a new
   /// size restarts points and filter only: the largest speed of eq. 13 and what the adaptive
   /// controller has learnt belong to the whole video.
-  /// Throws std::invalid_argument for a frame that require_usable() refuses.
+  /// Throws std::invalid_argument for a frame that require_usable() refuses, or whose area it does.
   /// The position in the film, and how the frame is turned before it is shown, are for
   /// AnalyzerSettings::feel alone. The result is valid until the next call.
   const Frame& analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns = 0,
@@ -56,11 +58,15 @@ class MotionAnalyzer {
  private:
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   void take(const Cadence::Step& step);
-  bool measure(const ImageView& image, int64_t running_ns);
+  bool measure(const ImageView& picture, int64_t running_ns);
+  PicturePart area_of(const ImageView& picture);
+  void look_for_film(const ImageView& picture, int64_t running_ns);
   bool find_mean(const OpenCvTracker::Result& tracked);
   void reset_measuring();
 
   AnalyzerSettings settings_;
+  AreaFinder area_finder_;
+  PaddedImage whole_;  ///< the reduced picture, where the film is a part of it
   ReducedFrame reduced_;
   OpenCvTracker tracker_;   ///< for MotionKind::kMean
   MotionEstimator motion_;  ///< for all other kinds

@@ -25,10 +25,20 @@ ImageView SquarePixelResampler::view(const ImageView& picture, double pixel_aspe
   return {resampled_.data(), width, picture.height, width};
 }
 
+PicturePart in_square_pixels(const PicturePart& area, int width, int square_width) {
+  if (width == square_width) return area;
+  const double fraction = static_cast<double>(square_width) / width;
+  const auto scaled = [&](int x) { return static_cast<int>(std::lround(x * fraction)); };
+  const int left = scaled(area.x);
+  return {left, area.y, scaled(area.x + area.width) - left, area.height};
+}
+
 void to_stored_pixels(Frame& frame, int width) {
-  if (frame.width == width || frame.width == 0) return;
-  const double fraction = static_cast<double>(width) / frame.width;
-  frame.width = width;
+  FilmPlace& place = frame.place;
+  if (place.picture_width == width || place.picture_width == 0) return;
+  const double fraction = static_cast<double>(width) / place.picture_width;
+  place.area = in_square_pixels(place.area, place.picture_width, width);
+  place.picture_width = width;
   const auto narrow = [&](Eigen::Vector2d& along) { along.x() *= fraction; };
   narrow(frame.motion.velocity_px_s);
   for (FollowedPoint& point : frame.points) {

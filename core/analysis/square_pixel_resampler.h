@@ -27,7 +27,9 @@ class SquarePixelResampler {
 };
 
 /// Converts `frame`, measured in the pixels of SquarePixelResampler, to those of the picture as it
-/// is stored, `width` pixels wide.
+/// is stored, `width` pixels wide; and `area` of that picture to the pixels of a picture that is
+/// `square_width` pixels wide.
 void to_stored_pixels(Frame& frame, int width);
+PicturePart in_square_pixels(const PicturePart& area, int width, int square_width);
 
 }  // namespace spidar

@@ -75,7 +75,7 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
   }
   const Eigen::Vector2d direction = frame.turn.to_stored(rule.direction);
-  return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height);
+  return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height());
 }
 
 /// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
@@ -226,7 +226,8 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chose
   } else if (rule.kind == FeelRule::Kind::kObjectAt && !seen_from_begin_) {
     choice.state = Chosen::State::kNotSeen;
   } else if (rule.kind == FeelRule::Kind::kObjectAt) {
-    choice.object = ruled_.update(frame.objects, frame.height, frame.interval_s, frame.background);
+    choice.object =
+        ruled_.update(frame.objects, frame.height(), frame.interval_s, frame.background);
     missed_ |= ruled_.state() == FollowedObject::State::kWaiting;
     if (ruled_.state() == FollowedObject::State::kLost) {
       choice.state = Chosen::State::kLost;
@@ -244,7 +245,7 @@ bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
     clicked_.begin(frame.px(kept_.position), 0);
   }
   const MovingObject* const object =
-      clicked_.update(frame.objects, frame.height, frame.interval_s, frame.background);
+      clicked_.update(frame.objects, frame.height(), frame.interval_s, frame.background);
   const FollowedObject::State state = clicked_.state();
   if (state == FollowedObject::State::kLooking) return false;
   choice.is_kept = true;

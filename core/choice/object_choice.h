@@ -16,6 +16,7 @@
 #include "core/motion/camera/background.h"
 #include "core/motion/objects/moving_object.h"
 #include "core/orientation.h"
+#include "core/picture/film_area.h"
 
 namespace spidar {
 
@@ -59,17 +60,17 @@ struct Chosen {
 struct ChoiceInput {
   const std::vector<MovingObject>& objects;
   const Background* background;  ///< null when it is not known
-  int width, height;             ///< px
-  double interval_s;             ///< since the previous frame; 0 when there is none
-  bool is_cut;                   ///< nothing in it was in the previous frame
-  int64_t stream_ns;             ///< position in the film
-  Orientation turn;              ///< of the frame before it is shown
+  const FilmPlace& place;
+  int height() const { return place.area.height; }  ///< of the film, px
+  double interval_s;  ///< since the previous frame; 0 when there is none
+  bool is_cut;        ///< nothing in it was in the previous frame
+  int64_t stream_ns;  ///< position in the film
+  Orientation turn;   ///< of the frame before it is shown
   const std::vector<PictureBox>* boxes = nullptr;  ///< that came with the frame; null: none
 
-  /// Converts a position in the picture as it is shown to px from the middle of the frame.
+  /// Converts a position in the picture as it is shown to px from the middle of the film.
   Eigen::Vector2d px(const Eigen::Vector2d& position) const {
-    const Eigen::Vector2d coded = turn.stored_position(position);
-    return {(coded.x() - 0.5) * width, (coded.y() - 0.5) * height};
+    return place.film_px(turn.stored_position(position));
   }
   /// The same for a box with these two corners.
   Eigen::AlignedBox2d px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner) const {

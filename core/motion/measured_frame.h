@@ -10,6 +10,7 @@
 #include "core/motion/camera/background.h"
 #include "core/motion/image_motion.h"
 #include "core/motion/objects/moving_object.h"
+#include "core/picture/film_area.h"
 #include "core/picture/repeated_picture.h"
 #include "core/points/tracker.h"
 
@@ -18,8 +19,8 @@ namespace spidar {
 /// In a frame that waits, all but `picture` is that of the previous picture.
 struct MeasuredFrame {
   Likeness picture = Likeness::kFirst;
-  int width = 0;  ///< px
-  int height = 0;
+  /// All lengths are the film's, and positions are from its middle, unless stated otherwise.
+  FilmPlace place;
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
   int64_t shown_for_ns = 0;  ///< see Cadence::Step
   int features = 0;          ///< points looked for in the next frame
@@ -34,6 +35,8 @@ struct MeasuredFrame {
 
   /// Null when no object is dominant.
   const MovingObject* dominant_object() const { return find_object(objects, dominant); }
+  int width() const { return place.area.width; }  ///< of the film, px
+  int height() const { return place.area.height; }
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
   /// Forgets what moves, but keeps the memory.
   void clear_motion() {

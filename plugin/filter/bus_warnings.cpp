@@ -49,8 +49,12 @@ constexpr FaultWords kFaultWords[] = {
      "The half that is picture is smaller than %1$d x %1$d pixels; it is neither felt nor touched.",
      "Half of the frame is picture and half is depth. Larger frames are felt; with touch=off or "
      "luma, the whole frame is picture."},
+    {"area leaves too little of it",
+     "Of the property area, less than %1$d x %1$d pixels lie in the picture; it is only shown.",
+     "area=X,Y,WIDTH,HEIGHT counts pixels of the frame from its top left corner; area=whole is all "
+     "of it."},
 };
-static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameReport::Fault::kSmallHalf) + 1);
+static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameReport::Fault::kSmallArea) + 1);
 
 const FaultWords& words_for(FrameReport::Fault fault) {
   return kFaultWords[static_cast<size_t>(fault)];

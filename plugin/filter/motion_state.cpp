@@ -115,7 +115,7 @@ const FrameReport& MotionState::process(const GstVideoFrame& frame, const GstSeg
   report_ = report_of(frame, segment);
   if (!report_.has_wrench()) return report_;
   warnings.check_trace(trace.write(report_));
-  if (report_.analyzed) stats.add(report_.frame, report_.took_ns);
+  if (report_.analyzed) stats.add(report_);
   return report_;
 }
 

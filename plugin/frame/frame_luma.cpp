@@ -73,10 +73,10 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
 
 }  // namespace
 
-VisiblePart visible_part(const GstVideoFrame& frame) {
+PicturePart visible_part(const GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame);
   const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  VisiblePart part{0, 0, width, height};
+  PicturePart part{0, 0, width, height};
   if (const GstVideoCropMeta* crop = gst_buffer_get_video_crop_meta(frame.buffer)) {
     part.x = static_cast<int>(std::min<guint>(crop->x, static_cast<guint>(width)));
     part.y = static_cast<int>(std::min<guint>(crop->y, static_cast<guint>(height)));
@@ -140,7 +140,7 @@ bool FrameLuma::takes(const GstVideoInfo& info) {
   return fits(GST_VIDEO_INFO_WIDTH(&info)) && fits(GST_VIDEO_INFO_HEIGHT(&info));
 }
 
-ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const VisiblePart& shown) {
+ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const PicturePart& shown) {
   const GstVideoFormatInfo* const format = frame.info.finfo;
   const GstVideoFormatInfo* const wide = gst_video_format_get_info(format->unpack_format);
   const bool is_rgb = GST_VIDEO_FORMAT_INFO_IS_RGB(wide);
@@ -187,7 +187,7 @@ ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
 }
 
 ImageView FrameLuma::view(const GstVideoFrame& frame) {
-  const VisiblePart shown = visible_part(frame);
+  const PicturePart shown = visible_part(frame);
   if (shown.width < kSmallestSide || shown.height < kSmallestSide) return {};
   const ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
   const uint8_t* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +

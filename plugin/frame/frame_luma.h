@@ -10,6 +10,7 @@
 
 #include "core/field/combing.h"
 #include "core/picture/image_view.h"
+#include "core/picture/picture_part.h"
 
 namespace spidar {
 
@@ -49,10 +50,7 @@ namespace spidar {
 
 /// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it; of two
 /// views beside or above each other, the first.
-struct VisiblePart {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-VisiblePart visible_part(const GstVideoFrame& frame);
+PicturePart visible_part(const GstVideoFrame& frame);
 
 /// Width over height of a pixel as it is shown; 1 where the caps say nothing, or more than
 /// kMaxAspect or less than its inverse: no format goes beyond 2.84 (half of a side-by-side picture
@@ -88,7 +86,7 @@ class FrameLuma {
   ImageView view(const GstVideoFrame& frame);
 
  private:
-  ImageView unpacked(const GstVideoFrame& frame, const VisiblePart& shown);
+  ImageView unpacked(const GstVideoFrame& frame, const PicturePart& shown);
   ImageView first_field(const ImageView& frame, bool top_first);
 
   Combing combing_;

@@ -57,6 +57,7 @@ struct FrameReport {
     kNotShown,          ///< outside the segment, or cropped to less than FrameLuma::kSmallestSide
     kWrongSize,         ///< more or less than FrameLuma takes
     kSmallHalf,         ///< depth in a half leaves a picture of less than 16 px on a side
+    kSmallArea,         ///< the property `area` leaves as little of it
   };
 
   Fault fault = Fault::kNone;
@@ -67,13 +68,23 @@ struct FrameReport {
   /// In pixels of the frame as it is stored, with the times at the element, and the wrench turned
   /// as the picture is shown. While a haptic track is played, only times and wrench are set.
   Frame frame;
-  Orientation turn;                               ///< of the frame before it is shown
-  VisiblePart visible;                            ///< the part of the frame that was analysed
-  int64_t took_ns = 0;                            ///< the analysis
-  NoForceReason no_force = NoForceReason::kNone;  ///< of this frame, in the film
+  Orientation turn;                                      ///< of the frame before it is shown
+  PicturePart visible;                                   ///< the part of the frame that is picture
+  int64_t took_ns = 0;                                   ///< the analysis
+  NoForceReason no_force = NoForceReason::kNone;         ///< of this frame, in the film
   NoForceReason device_no_force = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchScene touch;
 
+  /// The part of the frame that was analysed.
+  PicturePart film_part() const {
+    const PicturePart& area = frame.place.area;
+    return {visible.x + area.x, visible.y + area.y, area.width, area.height};
+  }
+  /// Whether the film has only a part of the picture.
+  bool has_area() const {
+    const FilmPlace& place = frame.place;
+    return place.area != PicturePart{0, 0, place.picture_width, place.picture_height};
+  }
   /// Whether there is a wrench, be it of the analysis or of a haptic track.
   bool has_wrench() const { return analyzed || track; }
 };

@@ -31,6 +31,13 @@ void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
   }
 }
 
+void set_area(GstStructure* structure, const PicturePart& film) {
+  gst_structure_set(structure, "area-x", G_TYPE_UINT, static_cast<guint>(film.x), "area-y",
+                    G_TYPE_UINT, static_cast<guint>(film.y), "area-width", G_TYPE_UINT,
+                    static_cast<guint>(film.width), "area-height", G_TYPE_UINT,
+                    static_cast<guint>(film.height), nullptr);
+}
+
 void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure) {
   gst_structure_set(structure, "no-force-reason", G_TYPE_STRING, nick(film), "no-force-text",
                     G_TYPE_STRING, sentence(film), "device-no-force-reason", G_TYPE_STRING,
@@ -53,6 +60,7 @@ void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTi
       "object", G_TYPE_UINT, frame.felt_object,                                     //
       "track", G_TYPE_STRING, report.track ? report.track->c_str() : "",            //
       nullptr);
+  set_area(s, report.film_part());
   set_motion(s, frame.motion.velocity_px_s, frame.wrench);
   gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
   describe_no_force(report.no_force, report.device_no_force, s);

@@ -16,6 +16,9 @@ namespace spidar {
 void set_motion(GstStructure* structure, const Eigen::Vector2d& velocity_px_s,
                 const Wrench& wrench);
 
+/// Adds area-x, -y, -width and -height (uints): the part of the frame that the film is in.
+void set_area(GstStructure* structure, const PicturePart& film);
+
 /// Adds no-force-reason and device-no-force-reason (strings, see nick()), and no-force-text and
 /// device-no-force-text (strings: a sentence, empty for "none").
 void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure);

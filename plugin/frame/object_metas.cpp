@@ -36,7 +36,7 @@ void remove_ours(GstBuffer* buffer) {
 }
 
 /// The whole pixels of the frame that it touches; an object may reach over the edge.
-ObjectBox box_of(const MovingObject& object, const VisiblePart& part, int width, int height) {
+ObjectBox box_of(const MovingObject& object, const PicturePart& part, int width, int height) {
   const Eigen::Vector2d middle_px =
       Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height);
   const Eigen::Array2d size_px(width, height);
@@ -139,7 +139,7 @@ void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width,
   remove_ours(buffer);
   for (const MovingObject& object : report.frame.objects) {
     if (object.points == 0) continue;
-    const ObjectBox box = box_of(object, report.visible, width, height);
+    const ObjectBox box = box_of(object, report.film_part(), width, height);
     if (box.width <= 0 || box.height <= 0) continue;
     GstVideoRegionOfInterestMeta* const region = gst_buffer_add_video_region_of_interest_meta(
         buffer, kObjectName, static_cast<guint>(box.x), static_cast<guint>(box.y),
@@ -155,7 +155,7 @@ std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& fra
                                                         std::optional<touch::DepthLayout> packed,
                                                         const Orientation& turn) {
   std::vector<ObjectBox> found = read_object_metas(frame.buffer);
-  VisiblePart part = visible_part(frame);
+  PicturePart part = visible_part(frame);
   if (packed) (*packed == touch::DepthLayout::kRight ? part.width : part.height) /= 2;
   if (found.empty() || part.width <= 0 || part.height <= 0) return nullptr;
   const auto position = [&](double x_px, double y_px) {

@@ -21,8 +21,8 @@ bool has(const std::vector<OwnedPoint>& sorted, uint32_t id) {
   return std::binary_search(sorted.begin(), sorted.end(), wanted, by_id);
 }
 
-Eigen::Vector2d centre_px(const VisiblePart& visible) {
-  return {visible.x + 0.5 * (visible.width - 1), visible.y + 0.5 * (visible.height - 1)};
+Eigen::Vector2d centre_px(const PicturePart& film) {
+  return {film.x + 0.5 * (film.width - 1), film.y + 0.5 * (film.height - 1)};
 }
 
 bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
@@ -32,9 +32,9 @@ bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
 
 /// Assigns the point to the background if it follows it, otherwise to the object with the most
 /// similar velocity among those whose box contains the point.
-void find_owner(const Frame& frame, const VisiblePart& visible, OwnedPoint& point) {
-  // Relative to the centre of the picture.
-  const Eigen::Vector2d middle_px(0.5 * (visible.width - 1), 0.5 * (visible.height - 1));
+void find_owner(const Frame& frame, OwnedPoint& point) {
+  // Relative to the centre of the film.
+  const Eigen::Vector2d middle_px(0.5 * (frame.width() - 1), 0.5 * (frame.height() - 1));
   const Eigen::Vector2d from_px = Eigen::Vector2d(point.from.x_px, point.from.y_px) - middle_px;
   const Eigen::Vector2d to_px = Eigen::Vector2d(point.to.x_px, point.to.y_px) - middle_px;
   const Background& background = *frame.background;
@@ -68,12 +68,12 @@ std::vector<uint32_t> felt_objects(const DrawnFrame& report) {
   return felt;
 }
 
-Eigen::AlignedBox2d box_px(const MovingObject& object, const VisiblePart& visible) {
-  return {centre_px(visible) + object.drawn_low_px(), centre_px(visible) + object.drawn_high_px()};
+Eigen::AlignedBox2d box_px(const MovingObject& object, const PicturePart& film) {
+  return {centre_px(film) + object.drawn_low_px(), centre_px(film) + object.drawn_high_px()};
 }
 
 Eigen::Vector2d force_origin_px(const DrawnFrame& report) {
-  const Eigen::Vector2d middle_px = centre_px(report.visible);
+  const Eigen::Vector2d middle_px = centre_px(report.film_part());
   if (report.felt.size() != 1) return middle_px;
   const uint32_t felt = report.felt.front();
   std::vector<Eigen::Vector2d> on_px;
@@ -101,14 +101,15 @@ void PointOwners::find(DrawnFrame& report) {
   report.points.clear();
   report.lost.clear();
   if (report.frame.picture == Likeness::kFirst) return reset();
-  const auto left_px = static_cast<float>(report.visible.x);
-  const auto top_px = static_cast<float>(report.visible.y);
+  const PicturePart film = report.film_part();
+  const auto left_px = static_cast<float>(film.x);
+  const auto top_px = static_cast<float>(film.y);
   for (const FollowedPoint& given : report.frame.points) {
     OwnedPoint point;
     point.id = given.id;
     point.from = given.from;
     point.to = given.to;
-    if (report.frame.background) find_owner(report.frame, report.visible, point);
+    if (report.frame.background) find_owner(report.frame, point);
     for (ImagePoint* end : {&point.from, &point.to}) {
       end->x_px += left_px;
       end->y_px += top_px;

@@ -17,11 +17,11 @@ namespace spidar {
 std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 
 /// Where the arrow of the force begins, in pixels of the frame: on the one object that is
-/// felt, where its points are and not merely its box, else in the middle of the picture.
+/// felt, where its points are and not merely its box, else in the middle of the film.
 Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 
-/// An object's box, in pixels of the frame.
-Eigen::AlignedBox2d box_px(const MovingObject& object, const VisiblePart& visible);
+/// An object's box, in pixels of the frame, of which `film` is the part that was analysed.
+Eigen::AlignedBox2d box_px(const MovingObject& object, const PicturePart& film);
 
 /// Assigns points to the background or to objects, and follows them from frame to frame.
 class PointOwners {

@@ -48,6 +48,9 @@ constexpr Wording kWordings[] = {
     {"not-chosen",
      "By what was chosen (feel, or a click with pointer=mouse), nothing is felt now: the rule says "
      "so, or its object is not in sight."},
+    {"area-unknown",
+     "What is around the film moves, or has just changed: it is not known where the film is. With "
+     "area=whole, all of the picture is the film."},
     {"camera-unknown",
      "How the camera moves cannot be told: no motion explains more than a small part of the "
      "picture. What moves against the background is therefore unknown, too."},
@@ -134,12 +137,13 @@ std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept {
 }
 
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
+  if (!frame.place.is_known) return NoForceReason::kAreaUnknown;
   if (frame.picture == Likeness::kFirst) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
-  if (frame.height > 0 &&
-      reference_speeds_px_s(frame.motion, {}, frame.height).norm() >= kMoving_px_s) {
+  if (frame.height() > 0 &&
+      reference_speeds_px_s(frame.motion, {}, frame.height()).norm() >= kMoving_px_s) {
     return NoForceReason::kTooWeak;
   }
   if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;

@@ -38,6 +38,7 @@ enum class NoForceReason {
   kFewPictures,
   kTooFewPoints,
   kNotChosen,
+  kAreaUnknown,
   kCameraUnknown,
   kCameraOnly,
   kObjectsOnly,

@@ -15,7 +15,7 @@
 namespace spidar {
 namespace {
 
-constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130};
+constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130}, kFilm{90, 200, 250};
 /// Height of a number, of the picture's.
 constexpr double kNumberFraction = 0.035;
 /// The strip with the curve at the lower edge, as fractions of the height of the picture: all of
@@ -76,7 +76,7 @@ void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame)
 /// its first one. Soft edges make its pixels those of premultiplied alpha.
 class Sheet {
  public:
-  Sheet(const GstVideoFrame& frame, const VisiblePart& visible)
+  Sheet(const GstVideoFrame& frame, const PicturePart& visible)
       : visible_(visible), pixel_aspect_(pixel_aspect(frame.info)) {
     const double width_px = std::max(1.0, std::round(visible.width * pixel_aspect_));
     pixels_ = cv::Mat::zeros(visible.height, static_cast<int>(width_px), CV_8UC4);
@@ -146,7 +146,7 @@ class Sheet {
             static_cast<int>(std::lround(px.y() * unit))};
   }
 
-  VisiblePart visible_;
+  PicturePart visible_;
   double pixel_aspect_;
   cv::Mat pixels_;
 };
@@ -220,7 +220,7 @@ void draw_felt(const Wrench& wrench, const ArrowStyle& style, Sheet& sheet) {
   sheet.text(newtons, felt->tip_px + 2 * felt->width_px * along, along, style.turn);
 }
 
-void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle style,
+void draw_touch(const TouchMark& touch, const PicturePart& visible, ArrowStyle style,
                 Sheet& sheet) {
   // Position 0 is the left edge of the first pixel, half a pixel from its centre.
   const auto at_px = [&](const Eigen::Vector2d& position) {
@@ -242,11 +242,10 @@ void draw_touch(const TouchMark& touch, const VisiblePart& visible, ArrowStyle s
 }
 
 /// Thick and orange where it is felt.
-void draw_outline(const MovingObject& object, bool is_felt, const VisiblePart& visible,
+void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& film, double thin_px,
                   Sheet& sheet) {
-  const Eigen::AlignedBox2d box = box_px(object, visible);
+  const Eigen::AlignedBox2d box = box_px(object, film);
   const Eigen::Vector2d low_px = sheet.at_px(box.min()), high_px = sheet.at_px(box.max());
-  const double thin_px = visible.height / 480.0;
   if (!is_felt) return sheet.box(low_px, high_px, thin_px, kWhite);
   sheet.box(low_px, high_px, 4 * thin_px, kBlack);
   sheet.box(low_px, high_px, 2 * thin_px, kProxy);
@@ -283,7 +282,7 @@ void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) 
 
 void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve) {
-  const VisiblePart& visible = report.visible;
+  const PicturePart& visible = report.visible;
   const std::vector<uint32_t>& felt = report.felt;
   Sheet sheet(frame, visible);
   ArrowStyle style;
@@ -305,9 +304,16 @@ void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVi
       sheet.line(lost_px - b, lost_px + b, half_px / 2, kWhite);
     }
   }
+  const PicturePart film = report.film_part();
+  const double thin_px = visible.height / kReferenceHeight_px;
+  if (report.has_area()) {
+    sheet.box(sheet.at_px(Eigen::Vector2d(film.x, film.y)),
+              sheet.at_px(Eigen::Vector2d(film.x + film.width - 1, film.y + film.height - 1)),
+              2 * thin_px, kFilm);
+  }
   for (const MovingObject& object : report.frame.objects) {
     const bool is_felt = std::find(felt.begin(), felt.end(), object.id) != felt.end();
-    if (object.points > 0) draw_outline(object, is_felt, visible, sheet);
+    if (object.points > 0) draw_outline(object, is_felt, film, thin_px, sheet);
   }
   draw_felt(report.frame.wrench, style, sheet);
   if (report.touch_mark) draw_touch(*report.touch_mark, visible, style, sheet);

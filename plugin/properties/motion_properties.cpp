@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/properties/motion_properties.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,36 @@ MotionRow pointer_row() {
       }};
 }
 
+/// The same as for set_pointer().
+void set_area(MotionProperties& properties, const GValue* value) {
+  const char* const text = g_value_get_string(value);
+  const std::optional<AreaSetting> area = parse_area(text ? text : "");
+  if (area) {
+    properties.analyzer.area = *area;
+  } else {
+    g_warning(
+        "area=\"%s\" is neither 'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, whole numbers of pixels, "
+        "of which "
+        "width and height are at least %d",
+        text ? text : "", kMinSide_px);
+  }
+}
+
+MotionRow area_row() {
+  return {[](const MotionProperties& defaults) {
+            return g_param_spec_string(
+                "area", "Area",
+                "Which part of the picture the film is in, of which alone the motion is felt: "
+                "'whole', 'auto' (where pixels go on changing while those around do not), or "
+                "X,Y,WIDTH,HEIGHT in pixels of the frame from its top left corner",
+                text_of(defaults.analyzer.area).c_str(), kPlaying);
+          },
+          set_area,
+          [](const MotionProperties& properties, GValue* value) {
+            g_value_take_string(value, g_strdup(text_of(properties.analyzer.area).c_str()));
+          }};
+}
+
 /// With analysis_mark().
 std::vector<MotionRow> marked(std::vector<MotionRow> rows) {
   for (MotionRow& row : rows) {
@@ -114,6 +145,7 @@ std::vector<MotionRow> analysis_rows() {
            "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, or the rules "
            "themselves, with semicolons between them"},
           kPlaying, KEPT_IN(feel)),
+      area_row(),
       pointer_row(),
       MotionRow::number({"max-force", "Maximum force",
                          "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
@@ -313,6 +345,34 @@ std::string text_of(const Pointer& pointer) {
   char x[G_ASCII_DTOSTR_BUF_SIZE], y[G_ASCII_DTOSTR_BUF_SIZE];
   return std::string(g_ascii_formatd(x, sizeof x, "%g", pointer.position.x())) + "," +
          g_ascii_formatd(y, sizeof y, "%g", pointer.position.y());
+}
+
+std::optional<AreaSetting> parse_area(const std::string& text) {
+  AreaSetting area;
+  if (text == "whole") return area;
+  area.kind = AreaSetting::Kind::kAuto;
+  if (text == "auto") return area;
+  area.kind = AreaSetting::Kind::kFixed;
+  PicturePart& part = area.part;
+  const char* next = text.c_str();
+  for (int* const number : {&part.x, &part.y, &part.width, &part.height}) {
+    gchar* end = nullptr;
+    const gint64 read = g_ascii_strtoll(next, &end, 10);
+    const char after = number == &part.height ? '\0' : ',';
+    if (end == next || *end != after || read < 0 || read > kMaxSide_px) return std::nullopt;
+    *number = static_cast<int>(read);
+    next = end + 1;
+  }
+  if (std::min(part.width, part.height) < kMinSide_px) return std::nullopt;
+  return area;
+}
+
+std::string text_of(const AreaSetting& area) {
+  if (area.kind == AreaSetting::Kind::kWhole) return "whole";
+  if (area.kind == AreaSetting::Kind::kAuto) return "auto";
+  const PicturePart& part = area.part;
+  return std::to_string(part.x) + "," + std::to_string(part.y) + "," + std::to_string(part.width) +
+         "," + std::to_string(part.height);
 }
 
 }  // namespace spidar

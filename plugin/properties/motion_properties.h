@@ -99,4 +99,12 @@ std::optional<Pointer> parse_pointer(const std::string& text);
 /// The inverse of parse_pointer().
 std::string text_of(const Pointer& pointer);
 
+/// "whole", "auto", or four whole numbers with commas between them: x, y, width and height in
+/// pixels, from 0 and kMinSide_px to kMaxSide_px; nothing for all else.
+std::optional<AreaSetting> parse_area(const std::string& text);
+/// The inverse of parse_area().
+std::string text_of(const AreaSetting& area);
+/// The largest number of an area; no video format knows so large a frame.
+constexpr int kMaxSide_px = 1 << 16;
+
 }  // namespace spidar

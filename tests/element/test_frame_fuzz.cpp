@@ -40,7 +40,7 @@ GreyPicture picture_of(int width, int height, double dx, double dy) {
   return picture;
 }
 
-GreyPicture part_of(const GreyPicture& whole, const VisiblePart& part) {
+GreyPicture part_of(const GreyPicture& whole, const PicturePart& part) {
   GreyPicture picture{part.width, part.height, {}};
   for (int y = 0; y < part.height; ++y) {
     for (int x = 0; x < part.width; ++x) {
@@ -106,7 +106,7 @@ class Film {
     shown_.y = static_cast<int>(random_.between(0, whole_.height - shown_.height));
   }
 
-  GstCaps* caps(const std::string& format, const VisiblePart& size, bool top_first) const {
+  GstCaps* caps(const std::string& format, const PicturePart& size, bool top_first) const {
     GstCaps* caps = make_caps(format.c_str(), size.width, size.height);
     if (interlaced_) {
       gst_caps_set_simple(caps, "interlace-mode", G_TYPE_STRING, "interleaved", "field-order",
@@ -152,7 +152,7 @@ class Film {
 
   RandomSource& random_;
   std::string format_;
-  VisiblePart whole_, shown_;
+  PicturePart whole_, shown_;
   bool interlaced_ = false, top_first_ = false, overlay_ = false;
   FrameLuma luma_;
 };

@@ -41,7 +41,7 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
 Frame unfelt() {
   Frame frame;
   frame.picture = Likeness::kOther;
-  frame.height = 480;
+  frame.place.area.height = 480;
   frame.interval_ns = kFrame_ns;
   frame.features = 100;
   return frame;

@@ -10,18 +10,19 @@
 namespace spidar::test::point_owners_test {
 namespace {
 
-DrawnFrame report_of(const std::vector<FollowedPoint>& points, const VisiblePart& visible) {
+DrawnFrame report_of(const std::vector<FollowedPoint>& points, const PicturePart& visible) {
   DrawnFrame report;
   report.frame.picture = Likeness::kOther;
   report.frame.points = points;
   report.frame.interval_ns = 40'000'000;
   report.visible = visible;
+  report.frame.place = FilmPlace::whole(visible.width, visible.height);
   return report;
 }
 
 TEST(PointOwners, TellsNewAndLostPoints) {
   PointOwners owners;
-  const VisiblePart visible{10, 20, 320, 240};
+  const PicturePart visible{10, 20, 320, 240};
   const std::vector<FollowedPoint> first{{1, {0, 0}, {1, 0}}, {2, {5, 5}, {6, 5}}};
   const std::vector<FollowedPoint> second{{3, {9, 9}, {9, 9}}, {1, {1, 0}, {2, 0}}};
   DrawnFrame report = report_of(first, visible);
@@ -48,6 +49,7 @@ TEST(PointOwners, TellsNewAndLostPoints) {
 TEST(PointOwners, TheArrowOfTheForceBeginsOnTheObjectThatIsFelt) {
   DrawnFrame report;
   report.visible = {10, 20, 321, 241};
+  report.frame.place = FilmPlace::whole(321, 241);
   report.frame.objects.resize(1);
   report.frame.objects[0].id = 7;
   report.frame.objects[0].position_px = {-30, 40};

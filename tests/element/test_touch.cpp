@@ -30,8 +30,7 @@ Profile profile_of_simulation() {
 /// Of a frame of 320 × 240 that is 40 ms after the one before.
 Frame some_analysis() {
   Frame analysis;
-  analysis.width = 320;
-  analysis.height = 240;
+  analysis.place = FilmPlace::whole(320, 240);
   analysis.interval_ns = static_cast<int64_t>(kFrame);
   analysis.picture = Likeness::kOther;
   return analysis;
@@ -72,6 +71,17 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
     still.picture = says_nothing;
     EXPECT_EQ(filter::touched_displacement_px(still, {0.5, 0.5}).norm(), 0);
   }
+}
+
+TEST(TouchedMotion, IsNoneAroundTheFilm) {
+  Frame analysis = some_analysis();
+  analysis.place.area = {160, 0, 160, 120};
+  analysis.background.emplace();
+  analysis.background->model.kind = ModelKind::kTranslation;
+  analysis.background->model.shift_px = {3, 0};
+  EXPECT_EQ(filter::touched_displacement_px(analysis, {0.9, 0.1}), Eigen::Vector2d(3, 0));
+  EXPECT_EQ(filter::touched_displacement_px(analysis, {0.4, 0.1}), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(filter::touched_displacement_px(analysis, {0.9, 0.6}), Eigen::Vector2d(0, 0));
 }
 
 TEST(TouchedMotion, WithoutModelsItIsThatOfTheWholePicture) {

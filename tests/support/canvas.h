@@ -44,6 +44,10 @@ class Canvas {
     GstVideoFrame frame;
     ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer_, GST_MAP_READWRITE));
     report.visible = visible_part(frame);
+    FilmPlace& place = report.frame.place;
+    if (place.picture_width == 0) {
+      place = FilmPlace::whole(report.visible.width, report.visible.height);
+    }
     draw_overlay(report, has_points, scale, frame, curve);
     gst_video_frame_unmap(&frame);
     after_ = rgb();

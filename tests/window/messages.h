@@ -20,6 +20,7 @@ inline window::FrameShown some_frame() {
   report.frame.interval_ns = 40 * 1'000'000;
   report.took_ns = 600'000;
   report.visible = {1, 2, 320, 240};
+  report.frame.place = {{3, 4, 300, 200}, 320, 240};
   report.points.push_back({1, {60, 80}, {68, 81}, PointOwner::kObject, 4, true});
   report.lost.push_back({3.5, 4.5});
   MovingObject object;

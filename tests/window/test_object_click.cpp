@@ -28,6 +28,7 @@ const window::Rect kPicture{10, 20, 400, 200};
 DrawnFrame report() {
   DrawnFrame made;
   made.visible = {0, 0, 200, 100};
+  made.frame.place = FilmPlace::whole(200, 100);
   made.frame.objects = {object(1, {-50, 0}, {60, 60}), object(2, {-50, 0}, {20, 20}),
                         object(3, {50, 0}, {40, 40})};
   return made;

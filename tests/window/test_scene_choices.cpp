@@ -228,6 +228,7 @@ TEST_F(Choices, NeedATimeInTheFilm) {
 DrawnFrame seen(double at_s, double scene_s, const std::vector<uint32_t>& objects) {
   DrawnFrame report;
   report.visible = {0, 0, 200, 100};
+  report.frame.place = FilmPlace::whole(200, 100);
   report.frame.stamp.stream_ns = static_cast<int64_t>(at_s * 1e9);
   report.film.begin_ns = static_cast<int64_t>(scene_s * 1e9);
   for (const uint32_t id : objects) {

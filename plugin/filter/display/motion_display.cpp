@@ -46,7 +46,7 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
     follow_film(report);
     shown.film = film_;
     shown.speed_px_s =
-        reference_speeds_px_s(report.frame.motion, settings.analyzer.axes, report.visible.height)
+        reference_speeds_px_s(report.frame.motion, settings.analyzer.axes, report.frame.height())
             .norm();
   }
   // Before the overlay draws into the frame, because the window draws arrows of its own.

@@ -28,7 +28,7 @@ class SinkHand {
     touched_ = true;
     pointer_ = report.touch.pointer;
     const double w = width, h = height;
-    const VisiblePart& part = report.visible;
+    const PicturePart& part = report.visible;
     picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
   }
   /// False when there is no hand to lead: nothing is touched, or the device is not simulated.

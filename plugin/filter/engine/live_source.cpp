@@ -138,10 +138,19 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
     report.fault = luma.data ? FrameReport::Fault::kSmallHalf : FrameReport::Fault::kNotShown;
     return false;
   }
+  AnalyzerSettings settings = frame.settings.analyzer;
+  const PicturePart area = settings.area.of_picture(picture.width, picture.height);
+  if (std::min(area.width, area.height) < FrameLuma::kSmallestSide) {
+    begin_run();
+    report.fault = FrameReport::Fault::kSmallArea;
+    return false;
+  }
   const int64_t begin_ns = monotonic_now_ns();
-  analyzer_.configure(frame.settings.analyzer);
-  report.frame = analyzer_.analyze(square_.view(picture, pixel_aspect(frame.video.info)), paced_ns,
-                                   std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
+  const ImageView square = square_.view(picture, pixel_aspect(frame.video.info));
+  settings.area.part = in_square_pixels(area, picture.width, square.width);
+  analyzer_.configure(settings);
+  report.frame =
+      analyzer_.analyze(square, paced_ns, std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
   report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
   report.no_force = reason_in_frame(report.frame, frame.settings.analyzer.motion);
   to_stored_pixels(report.frame, picture.width);

@@ -62,11 +62,14 @@ Json json_of(const MovingObject& object) {
 std::string json_line(const Frame& frame) {
   Json objects = Json::array();
   for (const MovingObject& object : frame.objects) objects.push_back(json_of(object));
+  const PicturePart& area = frame.place.area;
   const Json json = {{"running_time_ns", frame.stamp.running_ns},
                      {"stream_time_ns", frame.stamp.stream_ns},
                      {"interval_ns", frame.interval_ns},
-                     {"width_px", frame.width},
-                     {"height_px", frame.height},
+                     {"left_px", area.x},
+                     {"top_px", area.y},
+                     {"width_px", area.width},
+                     {"height_px", area.height},
                      {"restarted", frame.picture == Likeness::kFirst},
                      {"repeated", is_again(frame.picture)},
                      {"features", frame.features},

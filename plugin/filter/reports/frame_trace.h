@@ -14,10 +14,10 @@ namespace spidar::filter {
 /// One JSON object and a line end. Keys carry their units; positions are pixels from the centre of
 /// the frame, x right, y down:
 ///
-///     running_time_ns, stream_time_ns, interval_ns, width_px, height_px, restarted, repeated,
-///     features, object, motion: {velocity_px_s: [x, y], growth_1_s, roll_rad_s, tracked},
-///     wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]},
-///     background: {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
+///     running_time_ns, stream_time_ns, interval_ns, left_px, top_px, width_px, height_px,
+///     restarted, repeated, features, object, motion: {velocity_px_s: [x, y], growth_1_s,
+///     roll_rad_s, tracked}, wrench: {force_N: [x, y, z], torque_Nm: [x, y, z]}, background:
+///     {model, shift_px, linear: [[xx, xy], [yx, yy]], perspective_1_px, sigma_px,
 ///                  coverage} or null,
 ///     objects: [{id, position_px, size_px, velocity_px_s, error_px_s, on_screen_px_s, growth_1_s,
 ///                roll_rad_s, model, points, prominence}, …]

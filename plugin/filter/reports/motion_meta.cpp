@@ -37,11 +37,13 @@ void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& poi
   gst_structure_set(structure, "points", G_TYPE_VARIANT, array, nullptr);
 }
 
-void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, gboolean repeated) {
+void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, const PicturePart& film,
+                gboolean repeated) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
                     m.interval, "growth", G_TYPE_DOUBLE, m.growth, "roll", G_TYPE_DOUBLE, m.roll,
                     "repeated", G_TYPE_BOOLEAN, repeated, nullptr);
+  set_area(structure, film);
   set_motion(structure, {m.velocity_x, m.velocity_y},
              {{m.force_x, m.force_y, m.force_z}, {m.torque_x, m.torque_y, m.torque_z}});
 }
@@ -50,6 +52,26 @@ void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, gboolean
 Eigen::Vector2d mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector2d half{0.5, 0.5};
   return (map * (position + half).homogeneous()).hnormalized() - half;
+}
+
+/// The pixels of the picture `out` that show the film of `from`; turns are by right angles.
+PicturePart mapped_area(const Eigen::Matrix3d& map, GstBuffer* from, const GstVideoInfo& out) {
+  guint x = 0, y = 0, width = 0, height = 0;
+  GstCustomMeta* const meta = gst_buffer_get_custom_meta(from, GST_SPIDAR_MOTION_META_NAME);
+  if (!gst_structure_get(gst_custom_meta_get_structure(meta), "area-x", G_TYPE_UINT, &x, "area-y",
+                         G_TYPE_UINT, &y, "area-width", G_TYPE_UINT, &width, "area-height",
+                         G_TYPE_UINT, &height, nullptr)) {
+    return {};
+  }
+  const Eigen::Array2d size_px(GST_VIDEO_INFO_WIDTH(&out), GST_VIDEO_INFO_HEIGHT(&out));
+  const auto corner = [&](double at_x, double at_y) -> Eigen::Array2d {
+    const Eigen::Vector2d to = (map * Eigen::Vector3d(at_x, at_y, 1)).hnormalized();
+    if (!to.allFinite()) return Eigen::Array2d::Zero();
+    return to.array().round().max(0.0).min(size_px);
+  };
+  const Eigen::Array2d a = corner(x, y), b = corner(x + width, y + height);
+  const Eigen::Array2i low = a.min(b).cast<int>(), high = a.max(b).cast<int>();
+  return {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
 }
 
 /// How lengths and directions change where `position` is.
@@ -117,7 +139,8 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const Eigen::Matrix3d& map,
   }
   g_array_unref(points);
   GstStructure* structure = add_meta(to);
-  set_values(structure, motion, gst_buffer_repeats_spidar_motion(from));
+  set_values(structure, motion, mapped_area(map, from, out),
+             gst_buffer_repeats_spidar_motion(from));
   set_points(structure, moved);
   return true;
 }
@@ -205,7 +228,7 @@ void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, 
       torque.z(),
   };
   GstStructure* structure = add_meta(buffer);
-  set_values(structure, motion, frame.is_continuation() ? TRUE : FALSE);
+  set_values(structure, motion, report.film_part(), frame.is_continuation() ? TRUE : FALSE);
   std::vector<SerialisedPoint> points;
   points.reserve(report.points.size());
   for (const OwnedPoint& point : report.points) {

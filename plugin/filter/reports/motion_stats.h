@@ -9,7 +9,8 @@
 
 #include <gst/gst.h>
 
-#include "core/analysis/frame.h"
+#include "plugin/frame/frame_report.h"
+#include "plugin/frame/motion_message.h"
 #include "spidar/realtime/latency_histogram.h"
 
 namespace spidar::filter {
@@ -25,9 +26,11 @@ class MotionStats {
     tracked_ = 0;
     model_.reset();
     objects_ = 0;
+    film_ = {};
     analysis_.reset();
   }
-  void add(const Frame& frame, int64_t took_ns) {
+  void add(const FrameReport& report) {
+    const Frame& frame = report.frame;
     const std::lock_guard<std::mutex> lock(mutex_);
     ++frames_;
     if (frame.picture == Likeness::kFirst) ++restarts_;
@@ -36,7 +39,8 @@ class MotionStats {
     model_.reset();
     if (frame.background) model_ = frame.background->model.kind;
     objects_ = static_cast<int>(frame.objects.size());
-    analysis_.add(took_ns);
+    film_ = report.film_part();
+    analysis_.add(report.took_ns);
   }
 
   uint64_t frames() const {
@@ -47,6 +51,7 @@ class MotionStats {
   /// Adds the fields that docs/fields.toml describes, of what is felt or of the last frame.
   void describe(GstStructure* structure) const {
     const std::lock_guard<std::mutex> lock(mutex_);
+    set_area(structure, film_);
     gst_structure_set(
         structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64, restarts_,
         "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked", G_TYPE_UINT,
@@ -65,6 +70,7 @@ class MotionStats {
   int tracked_ = 0;
   std::optional<ModelKind> model_;
   int objects_ = 0;
+  PicturePart film_;
   /// 10 µs to 50 ms: more than that is too slow for any video.
   DurationHistogram<5000, 10'000> analysis_;
 };

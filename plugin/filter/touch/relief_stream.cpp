@@ -38,8 +38,9 @@ Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2
     return Eigen::Vector2d::Zero();
   }
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
-  const Eigen::Vector2d at_px((position.x() - 0.5) * frame.width,
-                              (position.y() - 0.5) * frame.height);
+  const Eigen::Vector2d at_px = frame.place.film_px(position);
+  const Eigen::Array2d film_px(frame.width(), frame.height());
+  if ((2 * at_px.array().abs() > film_px).any()) return Eigen::Vector2d::Zero();  // around the film
   const MovingObject* const object = object_at(frame.objects, at_px);
   if (object != nullptr) return passed_s * object->on_screen_px_s;
   if (frame.background) return frame.background->model.displacement_px(at_px);
@@ -200,8 +201,8 @@ void ReliefStream::add(const ImageView& luma, const Frame& analyzed, int64_t sho
   frame->has_surface = true;
   frame->contact = contact_settings(properties, profile_);
   const Eigen::Vector2d moved_px = touched_displacement_px(analyzed, finger);
-  const Eigen::Vector2d moved = turn_.to_displayed(
-      Eigen::Vector2d(moved_px.x() / analyzed.width, moved_px.y() / analyzed.height));
+  const Eigen::Vector2d moved = turn_.to_displayed(Eigen::Vector2d(
+      moved_px.x() / analyzed.place.picture_width, moved_px.y() / analyzed.place.picture_height));
   frame->displacement_m = {moved.x() * frame->relief.width_m(),
                            -moved.y() * frame->relief.height_m()};
   stiffness_N_m_ = frame->contact.stiffness_N_m;

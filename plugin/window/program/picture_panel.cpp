@@ -19,6 +19,7 @@ constexpr unsigned kFelt = 210, kFaint = 64;  // opacity of points without detai
 constexpr double kThinArrow_px = 1;           // their width
 constexpr ImU32 kNewColor = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kOtherColor = IM_COL32(255, 255, 255, 90);
+constexpr ImU32 kFilmColor = IM_COL32(90, 200, 250, 160);
 
 /// What is drawn over the picture, in the coordinates of the window.
 struct Overlay {
@@ -32,7 +33,7 @@ struct Overlay {
   }
   /// Upper left and lower right corner of an object's box.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
-    const Eigen::AlignedBox2d box = box_px(object, report.visible);
+    const Eigen::AlignedBox2d box = box_px(object, report.film_part());
     return {map(box.min()), map(box.max())};
   }
 };
@@ -81,6 +82,15 @@ void draw_points(const Overlay& over) {
     brush.list.AddLine({at.x - radius, at.y + radius}, {at.x + radius, at.y - radius}, kWarnColor,
                        width);
   }
+}
+
+/// The part of the picture that the film is in, where that is not all of it.
+void draw_area(const Overlay& over) {
+  const PicturePart film = over.report.film_part();
+  const Eigen::Vector2d corner(film.x, film.y), half(0.5, 0.5);
+  const Eigen::Vector2d far_corner = corner + Eigen::Vector2d(film.width, film.height);
+  over.brush.list.AddRect(im(over.map(corner - half)), im(over.map(far_corner - half)), kFilmColor,
+                          0, 0, over.brush.px(1.5));
 }
 
 void draw_objects(const Overlay& over) {
@@ -174,7 +184,7 @@ void draw_relief(const Brush& brush, const Rect& shown, const ShownPicture& pict
 }
 
 PictureMap map_of(const Rect& panel, const ShownPicture& picture, const DrawnFrame& report) {
-  const VisiblePart& visible = report.visible;
+  const PicturePart& visible = report.visible;
   return map_picture(panel, visible.x, visible.y, visible.width, visible.height,
                      picture.pixel_aspect);
 }
@@ -193,7 +203,7 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
                   const DrawnFrame& report) {
   brush.list.AddRectFilled(upper_left(panel), lower_right(panel), IM_COL32(10, 11, 14, 255),
                            brush.px(6));
-  const VisiblePart& visible = report.visible;
+  const PicturePart& visible = report.visible;
   if (!has_picture(picture, report)) {
     draw_text(brush, brush.fonts.body, im(panel.x + 12 * brush.scale, panel.y + 10 * brush.scale),
               kMutedColor, "No frame yet");
@@ -212,6 +222,7 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   style.max_force_N = picture.max_force_N;
   style.turn = report.turn;
   const Overlay over{brush, map, report, picture};
+  if (report.has_area()) draw_area(over);
   draw_points(over, style);
   if (picture.detail) draw_points(over);
   draw_objects(over);

@@ -128,8 +128,13 @@ void transfer(Wire& wire, ImagePoint& point) {
 }
 
 template <typename Wire>
-void transfer(Wire& wire, VisiblePart& part) {
+void transfer(Wire& wire, PicturePart& part) {
   wire(part.x, part.y, part.width, part.height);
+}
+
+template <typename Wire>
+void transfer(Wire& wire, FilmPlace& place) {
+  wire(place.area, place.picture_width, place.picture_height);
 }
 
 template <typename Wire>
@@ -200,7 +205,7 @@ void transfer(Wire& wire, TouchScene& touch) {
 template <typename Wire>
 void transfer(Wire& wire, DrawnFrame& report) {
   Frame& frame = report.frame;
-  wire(frame.stamp, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
+  wire(frame.stamp, frame.place, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
   wire(report.film, report.took_ns, report.visible, report.turn, report.points, report.lost,
        report.felt);
   wire.choice(report.motion, MotionKind::kCamera);

@@ -17,8 +17,7 @@ namespace spidar::window {
 /// The object in sight whose box has the position in it, the smallest of several; null when there
 /// is none. Positions are fractions of the visible part of the frame.
 inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vector2d& position) {
-  const Eigen::Vector2d at_px((position.x() - 0.5) * report.visible.width,
-                              (position.y() - 0.5) * report.visible.height);
+  const Eigen::Vector2d at_px = report.frame.place.film_px(position);
   const MovingObject* found = nullptr;
   for (const MovingObject& object : report.frame.objects) {
     const Eigen::Vector2d off_px = (at_px - object.position_px).cwiseAbs();
@@ -31,8 +30,9 @@ inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vect
 /// A position that is in the box of this object and in no smaller one, if there is such a position:
 /// a click there means this object. As a fraction of the visible part of the frame.
 inline Eigen::Vector2d position_of(const DrawnFrame& report, const MovingObject& object) {
-  const Eigen::Vector2d frame_px(report.visible.width, report.visible.height);
-  const Eigen::Vector2d middle_px = object.position_px + frame_px / 2, none(0, 0);
+  const FilmPlace& place = report.frame.place;
+  const Eigen::Vector2d frame_px(place.picture_width, place.picture_height), none(0, 0);
+  const Eigen::Vector2d middle_px = object.position_px - place.film_px(none);
   const Eigen::Vector2d low_px = (middle_px - object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);
   const Eigen::Vector2d high_px =
       (middle_px + object.size_px / 2).cwiseMax(none).cwiseMin(frame_px);

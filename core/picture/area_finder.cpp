@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/picture/area_finder.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "core/picture/opencv.h"
+
+namespace spidar {
+namespace {
+
+/// A pixel of the reduced picture has changed if it differs by more than so many grey levels: more
+/// than rounding and what good encoders leave of a picture at rest.
+constexpr uint8_t kChanged_grey = 3;
+/// A change adds so much to what a pixel has, and each picture takes 1 from that. Two changes
+/// within some pictures are lasting; kMost / 1 pictures later they are forgotten.
+constexpr uint8_t kRise = 8;
+constexpr uint8_t kLasts = 2 * kRise - 2;
+constexpr uint8_t kMost = 24;
+/// What changes between the first two pictures may be lasting.
+constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
+
+/// A picture is a repeated one if fewer pixels change in it than this fraction of those that change
+/// lastingly; more than so many in a row are none (RepeatedPicture::kMaxAtOnce).
+constexpr double kOfRepeated = 0.25;
+constexpr int kMaxSkipped = 2;
+
+constexpr int kCell_px = 8;
+/// Lasting pixels of a cell that has them: one line of it.
+constexpr int kLineOfCell = kCell_px;
+
+/// A side is straight if so much of what begins near it begins within two lines of pixels, and that
+/// is so much of its length. The sides of a disc of 80 px have 0.2 and 0.3.
+constexpr double kBeginsTogether = 0.4;
+constexpr double kOfLength = 0.3;
+/// Two cells, of which the outer one may have a line only.
+constexpr int kNear_px = 2 * kCell_px;
+/// So much of what begins at a side must have changed in the newest picture, too: where an object
+/// has left, nothing does.
+constexpr double kStillChanges = 0.1;
+/// The smallest film, as a fraction of the picture's width and height, and of its cells that
+/// change.
+constexpr double kSmallest = 0.15;
+constexpr double kFilled = 0.4;
+/// A side is crossed if so much of what is beside it changes: more than what covers a part of it.
+constexpr double kCrossed = 0.6;
+/// How far beside a side that is looked for: behind a pixel that shows a part of the film.
+constexpr int kBeside_px = 2;
+/// By how much a side may seem to move while it stays.
+constexpr int kStaysWithin_px = 1;
+
+bool is_same(int a, int b) {
+  return std::abs(a - b) <= kStaysWithin_px;
+}
+
+/// The sum of eight bytes, below 256.
+int sum_of_8(const uint8_t* bytes) {
+  uint64_t eight;
+  std::memcpy(&eight, bytes, sizeof eight);
+  return static_cast<int>((eight * 0x0101010101010101u) >> 56);
+}
+
+bool contains(const PicturePart& outer, const PicturePart& inner) {
+  return inner.x >= outer.x - kStaysWithin_px && inner.y >= outer.y - kStaysWithin_px &&
+         inner.x + inner.width <= outer.x + outer.width + kStaysWithin_px &&
+         inner.y + inner.height <= outer.y + outer.height + kStaysWithin_px;
+}
+
+bool is_same(const PicturePart& a, const PicturePart& b) {
+  return contains(a, b) && contains(b, a);
+}
+
+}  // namespace
+
+void AreaFinder::begin(const ImageView& picture) {
+  width_ = picture.width;
+  height_ = picture.height;
+  stride_ = (width_ + 15) / 16 * 16;
+  const size_t size = static_cast<size_t>(stride_) * static_cast<size_t>(height_);
+  before_.assign(size, 0);
+  changed_.assign(size, 0);
+  lasting_.assign(size, 0);
+  columns_ = (width_ + kCell_px - 1) / kCell_px;
+  rows_ = (height_ + kCell_px - 1) / kCell_px;
+  cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
+  open_.reserve(cells_.size());
+  begins_ = false;
+  stayed_ = crossed_ = lasting_pixels_ = skipped_ = 0;
+  area_.reset();
+  searches_since_ns_.reset();
+}
+
+/// Compares the picture with the one before, and keeps it. False if it shows the same.
+bool AreaFinder::take(const ImageView& picture) {
+  using cv::v_uint8x16;
+  const v_uint8x16 zero = cv::v_setzero_u8(), one = cv::v_setall_u8(1);
+  const v_uint8x16 rise = cv::v_setall_u8(compared_ == 0 ? kFirstRise : kRise);
+  const v_uint8x16 most = cv::v_setall_u8(kMost), lasts = cv::v_setall_u8(kLasts);
+  const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey);
+  DifferenceSum changes;
+  alignas(16) uint8_t sixteen[16];
+  const int lasting_before = std::exchange(lasting_pixels_, 0);
+  for (int row = 0; row < rows_; ++row) {
+    const int below = std::min((row + 1) * kCell_px, height_);
+    for (int x = 0; x < width_; x += 16) {
+      v_uint8x16 lasting = zero;  // lines of the cells, for each column of pixels
+      for (int y = row * kCell_px; y < below; ++y) {
+        const uint8_t* from = picture.at(x, y);
+        if (x + 16 > width_) {
+          std::memset(sixteen, 0, sizeof sixteen);
+          std::memcpy(sixteen, from, static_cast<size_t>(width_ - x));
+          from = sixteen;
+        }
+        const auto at = static_cast<size_t>(y * stride_ + x);
+        const v_uint8x16 now = cv::v_load(from);
+        const v_uint8x16 changed = cv::v_absdiff(now, cv::v_load(&before_[at])) > grey;
+        const v_uint8x16 had = cv::v_load(&lasting_[at]) - one;  // not below 0
+        const v_uint8x16 has = cv::v_min(had + (changed & rise), most);
+        cv::v_store(&before_[at], now);
+        cv::v_store(&changed_[at], changed);
+        cv::v_store(&lasting_[at], has);
+        changes.add(changed & one, zero);
+        lasting = lasting + ((has >= lasts) & one);
+      }
+      cv::v_store(sixteen, lasting);
+      for (int k = 0; k < 2 && x / kCell_px + k < columns_; ++k) {
+        const int count = sum_of_8(sixteen + k * kCell_px);
+        cells_[static_cast<size_t>(row * columns_ + x / kCell_px + k)] =
+            static_cast<uint8_t>(count);
+        lasting_pixels_ += count;
+      }
+    }
+  }
+  if (changes.total() == 0) return false;
+  ++compared_;
+  // Of a picture that is shown again, an encoder changes little of what changes otherwise.
+  const bool repeats = changes.total() < kOfRepeated * lasting_before && skipped_ < kMaxSkipped;
+  skipped_ = repeats ? skipped_ + 1 : 0;
+  return !repeats;
+}
+
+/// Adds all cells that are connected to this one, and marks them as taken.
+bool AreaFinder::grow(size_t cell, Candidate& candidate) {
+  int left = columns_, right = -1, top = rows_, bottom = -1;
+  candidate.cells = 0;
+  open_.clear();
+  open_.push_back(cell);
+  cells_[cell] = 0;
+  while (!open_.empty()) {
+    const int column = static_cast<int>(open_.back()) % columns_;
+    const int row = static_cast<int>(open_.back()) / columns_;
+    open_.pop_back();
+    ++candidate.cells;
+    left = std::min(left, column);
+    right = std::max(right, column);
+    top = std::min(top, row);
+    bottom = std::max(bottom, row);
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows_ - 1); ++y) {
+      for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns_ - 1); ++x) {
+        uint8_t& next = cells_[static_cast<size_t>(y * columns_ + x)];
+        if (next < kLineOfCell) continue;
+        next = 0;
+        open_.push_back(static_cast<size_t>(y * columns_ + x));
+      }
+    }
+  }
+  const int columns = right - left + 1, rows = bottom - top + 1;
+  candidate.part = {left * kCell_px, top * kCell_px,
+                    std::min(columns * kCell_px, width_ - left * kCell_px),
+                    std::min(rows * kCell_px, height_ - top * kCell_px)};
+  return columns >= kSmallest * columns_ && rows >= kSmallest * rows_ &&
+         candidate.cells >= kFilled * columns * rows;
+}
+
+/// The left (`is_column`) or upper side of what changes in `part`, or the right or lower one.
+AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bool is_far) const {
+  const int across = is_column ? width_ : height_;
+  const int first = is_column ? part.x : part.y;
+  const int length = is_column ? part.height : part.width;
+  const int begin = is_column ? part.y : part.x;
+  // From outside inwards.
+  const int outside = is_far ? first + (is_column ? part.width : part.height) - 1 : first;
+  const int step = is_far ? -1 : 1;
+  // A film that ends in the next cell, by less than a line of that.
+  const int from = std::clamp(outside - kStaysWithin_px * step, 0, across - 1);
+  const ptrdiff_t inwards = is_column ? step : step * stride_;
+  std::array<int, kNear_px + 1> begins{};
+  int all = 0;
+  for (int k = begin; k < begin + length; ++k) {
+    const int x = is_column ? from : k, y = is_column ? k : from;
+    const uint8_t* at = &lasting_[static_cast<size_t>(y * stride_ + x)];
+    for (size_t i = 0; i < begins.size(); ++i, at += inwards) {
+      if (at[0] < kLasts || at[inwards] < kLasts) continue;
+      ++begins[i];
+      ++all;
+      break;
+    }
+  }
+  size_t best = 0;
+  for (size_t i = 0; i + 1 < begins.size(); ++i) {
+    if (begins[i] + begins[i + 1] > begins[best] + begins[best + 1]) best = i;
+  }
+  const int together = begins[best] + begins[best + 1];
+  // Of two lines, the outer one may show only a part of the film.
+  const int at = static_cast<int>(best) + (begins[best] < begins[best + 1] ? 1 : 0);
+  Side side;
+  side.at = from + at * step;
+  const int beside = is_far ? across - 1 - side.at : side.at;
+  side.is_border = (is_far ? across - 1 - outside : outside) == 0 && beside <= kStaysWithin_px + 1;
+  int changed = 0;
+  for (int k = begin; k < begin + length; ++k) {
+    const int x = is_column ? side.at : k, y = is_column ? k : side.at;
+    const uint8_t* const now = &changed_[static_cast<size_t>(y * stride_ + x)];
+    changed += (now[0] | now[inwards]) != 0;
+  }
+  side.is_straight = together >= kBeginsTogether * all && together >= kOfLength * length &&
+                     changed >= kStillChanges * together;
+  return side;
+}
+
+/// Whether what changes is a rectangle that is not all of the picture. At most one of its sides may
+/// not show, as below a sky.
+bool AreaFinder::has_straight_sides(Candidate& candidate) const {
+  // side_of() looks inwards.
+  if (candidate.part.width <= 2 * kNear_px || candidate.part.height <= 2 * kNear_px) return false;
+  int inside = 0, straight = 0;
+  for (size_t i = 0; i < candidate.sides.size(); ++i) {
+    Side& side = candidate.sides[i];
+    side = side_of(candidate.part, i < 2, i % 2 != 0);
+    inside += !side.is_border;
+    straight += !side.is_border && side.is_straight;
+  }
+  if (straight < 2 || inside - straight > (straight >= 3 ? 1 : 0)) return false;
+  const auto& [left, right, top, bottom] = candidate.sides;
+  const int x = left.is_border ? 0 : left.at, y = top.is_border ? 0 : top.at;
+  candidate.part = {x, y, (right.is_border ? width_ : right.at + 1) - x,
+                    (bottom.is_border ? height_ : bottom.at + 1) - y};
+  return true;
+}
+
+/// The rectangle in which most changes.
+std::optional<AreaFinder::Candidate> AreaFinder::best_candidate() {
+  std::optional<Candidate> best;
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] < kLineOfCell) continue;
+    Candidate candidate;
+    if (!grow(i, candidate) || (best && candidate.cells <= best->cells)) continue;
+    if (has_straight_sides(candidate)) best = candidate;
+  }
+  return best;
+}
+
+/// Whether the candidate has stayed for long enough.
+bool AreaFinder::confirm(const Candidate& candidate) {
+  bool stays = stayed_ > 0;
+  for (size_t i = 0; i < candidate.sides.size(); ++i) {
+    const Side &now = candidate.sides[i], &before = pending_.sides[i];
+    stays = stays && now.is_border == before.is_border;
+    if (now.is_straight && before.is_straight) stays = stays && is_same(now.at, before.at);
+  }
+  if (!stays) {
+    pending_ = candidate;
+    stayed_ = 0;
+  }
+  return ++stayed_ >= kStays;
+}
+
+/// Of how many sides most of what is beside them reaches `least` in `map`.
+int AreaFinder::crossed_sides(const std::vector<uint8_t>& map, uint8_t least) const {
+  int crossed = 0;
+  for (size_t i = 0; i < sides_.size(); ++i) {
+    if (sides_[i].is_border) continue;
+    const bool is_column = i < 2;
+    const int beside = i % 2 != 0 ? kBeside_px : -kBeside_px;
+    const int at = sides_[i].at + beside;
+    if (at < 0 || at >= (is_column ? width_ : height_)) continue;
+    const int begin = is_column ? area_->y : area_->x;
+    const int length = is_column ? area_->height : area_->width;
+    int reached = 0;
+    for (int k = begin; k < begin + length; ++k) {
+      reached += map[static_cast<size_t>(is_column ? k * stride_ + at : at * stride_ + k)] >= least;
+    }
+    crossed += reached > kCrossed * length;
+  }
+  return crossed;
+}
+
+void AreaFinder::search(int64_t running_ns) {
+  if (area_) searches_from_ = *area_;
+  area_.reset();
+  stayed_ = 0;
+  // What has changed before was elsewhere.
+  std::fill(lasting_.begin(), lasting_.end(), uint8_t{0});
+  searches_since_ns_ = running_ns;
+}
+
+int AreaFinder::lasting_cells(const PicturePart& part) const {
+  int count = 0;
+  for (int y = part.y + kCell_px / 2; y < part.y + part.height; y += kCell_px) {
+    for (int x = part.x + kCell_px / 2; x < part.x + part.width; x += kCell_px) {
+      count += lasting_[static_cast<size_t>(y * stride_ + x)] >= kLasts;
+    }
+  }
+  return count;
+}
+
+/// What becomes of the area that is known.
+void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confirmed,
+                        int64_t running_ns) {
+  if (!candidate || is_same(candidate->part, *area_)) {
+    active_ns_ = running_ns;
+    return;
+  }
+  // Of another film, or of a part of this one, while the rest of it still changes.
+  const bool is_part = contains(*area_, candidate->part);
+  const int others = lasting_cells(candidate->part);
+  const int own = lasting_cells(*area_) - (is_part ? others : 0);
+  if (contains(candidate->part, *area_) || 8 * own > others) active_ns_ = running_ns;
+  if (is_confirmed && running_ns - active_ns_ >= (is_part ? kSearch_ns : kRests_ns)) {
+    area_ = candidate->part;
+    sides_ = candidate->sides;
+    active_ns_ = running_ns;
+  }
+}
+
+void AreaFinder::look(const ImageView& picture, int64_t running_ns) {
+  if (picture.width != width_ || picture.height != height_) {
+    begin(picture);
+    take(picture);
+    std::fill(lasting_.begin(), lasting_.end(), uint8_t{0});
+    compared_ = 0;
+    return;
+  }
+  if (!take(picture)) return;
+  if (area_ && crossed_sides(changed_, 255) > crossed_sides(lasting_, kLasts)) search(running_ns);
+  if (area_) {
+    crossed_ = crossed_sides(lasting_, kLasts) >= 2 ? crossed_ + 1 : 0;
+    if (crossed_ >= kStays) area_.reset();
+  }
+  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || (!area_ && stayed_ > 0);
+  if (!expects && compared_ % kStays != 0) return;
+  const std::optional<Candidate> candidate = best_candidate();
+  if (!candidate) stayed_ = 0;
+  const bool is_confirmed = candidate && confirm(*candidate);
+  if (area_) return follow(candidate, is_confirmed, running_ns);
+  const bool has_searched = searches_since_ns_ && running_ns - *searches_since_ns_ >= kSearch_ns;
+  // All that moves while a page does is no film.
+  const bool may_be_page = searches_since_ns_ && !has_searched && candidate &&
+                           candidate->part != searches_from_ &&
+                           contains(candidate->part, searches_from_);
+  if (is_confirmed && !may_be_page) {
+    area_ = candidate->part;
+    sides_ = candidate->sides;
+    active_ns_ = running_ns;
+    crossed_ = 0;
+    searches_since_ns_.reset();
+  } else if (has_searched) {
+    searches_since_ns_.reset();
+  }
+  begins_ = !area_ && compared_ <= 2 * kStays && stayed_ > 0;
+}
+
+}  // namespace spidar

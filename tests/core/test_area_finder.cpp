@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+// Where the film is in pages, frames and windows of every kind, and that all of a film is found to
+// be all of it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/picture/area_finder.h"
+#include "tests/support/picture.h"
+#include "tests/support/texture.h"
+
+namespace spidar {
+
+void PrintTo(const PicturePart& part, std::ostream* to) {
+  *to << part.x << "," << part.y << "," << part.width << "," << part.height;
+}
+
+namespace test::area_finder_test {
+namespace {
+
+/// A reduced picture.
+constexpr int kWidth = 427, kHeight = 240;
+constexpr int kRate = 25;
+constexpr int64_t kPicture_ns = 1'000'000'000 / kRate;
+
+using Part = PicturePart;
+/// Grey level of picture n at a position, px from the upper left corner of what it is about.
+using Scene = std::function<double(int n, double x, double y)>;
+
+/// A texture with linear interpolation between pixels, which takes a tenth of the time.
+class Sheet {
+ public:
+  Sheet(uint32_t seed, double cell_px) {
+    const Texture texture(seed, cell_px);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) grey_.push_back(static_cast<float>(texture.at(x, y)));
+    }
+  }
+  double at(double x, double y) const {
+    const double left = std::floor(x), top = std::floor(y), right = x - left, down = y - top;
+    const auto grey = [&](int across, int below) -> double {
+      const auto column = static_cast<size_t>(static_cast<int>(left) + across) % kSide;
+      const auto row = static_cast<size_t>(static_cast<int>(top) + below) % kSide;
+      return grey_[row * kSide + column];
+    };
+    return (1 - down) * ((1 - right) * grey(0, 0) + right * grey(1, 0)) +
+           down * ((1 - right) * grey(0, 1) + right * grey(1, 1));
+  }
+
+ private:
+  static constexpr int kSide = 512;  // a power of 2: negative positions repeat it, too
+  std::vector<float> grey_;
+};
+
+const Sheet kWall(1, 10), kThing(2, 8), kPage(3, 4), kOther(4, 9);
+
+bool is_in(const Part& part, double x, double y) {
+  return x >= part.x && y >= part.y && x < part.x + part.width && y < part.y + part.height;
+}
+
+double pan(int n, double x, double y) {
+  return kWall.at(x + 2.2 * n, y + 0.7 * n);
+}
+
+/// A camera at rest, and a disc that goes around.
+double disc(int n, double x, double y) {
+  const double at_x = 100 + 50 * std::cos(0.1 * n), at_y = 70 + 30 * std::sin(0.1 * n);
+  if (std::hypot(x - at_x, y - at_y) < 25) return kThing.at(x - at_x, y - at_y);
+  return kWall.at(x, y);
+}
+
+/// Lines of words.
+double page(int, double x, double y) {
+  if (std::fmod(y + 1000, 8) < 3 || std::fmod(x + 1000, 37) < 4) return 240;
+  return kPage.at(x, y) > 128 ? 40 : 240;
+}
+
+Scene at_rest(const Scene& scene) {
+  return [=](int, double x, double y) { return scene(0, x, y); };
+}
+
+/// `film` in `part` of `around`.
+Scene within(const Scene& around, const Part& part, const Scene& film) {
+  return [=](int n, double x, double y) {
+    return is_in(part, x, y) ? film(n, x - part.x, y - part.y) : around(n, x, y);
+  };
+}
+
+/// `later` from picture `n` on.
+Scene then(int n, const Scene& first, const Scene& later) {
+  return [=](int now, double x, double y) { return now < n ? first(now, x, y) : later(now, x, y); };
+}
+
+Scene moved(const Scene& scene, const std::function<double(int n)>& down) {
+  return [=](int n, double x, double y) { return scene(n, x, y - down(n)); };
+}
+
+struct Seen {
+  std::vector<std::optional<Part>> area;
+  std::vector<bool> searches;
+
+  size_t first() const {
+    const auto known = [](const std::optional<Part>& part) { return part.has_value(); };
+    return static_cast<size_t>(std::find_if(area.begin(), area.end(), known) - area.begin());
+  }
+};
+
+Seen see(const Scene& scene, int pictures, double noise_grey = 0) {
+  AreaFinder finder;
+  Picture picture(kWidth, kHeight);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, std::max(noise_grey, 1e-9));
+  Seen seen;
+  for (int n = 0; n < pictures; ++n) {
+    picture.fill([&](double x, double y) {
+      return std::clamp(scene(n, x, y) + (noise_grey > 0 ? noise(random) : 0), 0.0, 255.0);
+    });
+    finder.look(picture.view(), n * kPicture_ns);
+    seen.area.push_back(finder.area());
+    seen.searches.push_back(finder.is_searching());
+  }
+  return seen;
+}
+
+/// Sides are found to a pixel of the reduced picture.
+bool is_near(const std::optional<Part>& found, const Part& true_part) {
+  if (!found) return false;
+  const Part& a = *found;
+  const Part& b = true_part;
+  return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1 &&
+         std::abs(a.x + a.width - b.x - b.width) <= 1 &&
+         std::abs(a.y + a.height - b.y - b.height) <= 1;
+}
+
+/// Found within `most` pictures, and kept.
+void expect_found(const Seen& seen, const Part& part, const std::string& what,
+                  size_t most = kRate) {
+  EXPECT_LE(seen.first(), most) << what;
+  for (size_t n = seen.first(); n < seen.area.size(); ++n) {
+    ASSERT_TRUE(is_near(seen.area[n], part))
+        << what << " " << n << ": " << testing::PrintToString(seen.area[n]);
+  }
+}
+
+/// All of the picture, though its first pictures may leave a doubt.
+void expect_whole(const Seen& seen, const std::string& what) {
+  for (size_t n = 0; n < seen.area.size(); ++n) {
+    ASSERT_FALSE(seen.area[n]) << what << " " << n << ": " << testing::PrintToString(*seen.area[n]);
+    if (n > 2 * AreaFinder::kStays) ASSERT_FALSE(seen.searches[n]) << what << " " << n;
+  }
+}
+
+const Part kMiddle{90, 50, 240, 135};
+const Part kPlaces[] = {
+    kMiddle,           {0, 0, 256, 144},  {427 - 171, 240 - 96, 171, 96}, {40, 30, 340, 190},
+    {0, 30, 427, 180}, {100, 0, 200, 240}};
+
+TEST(AreaFinder, FindsAFilmWhoseCameraMovesInWhateverRests) {
+  const std::vector<std::pair<const char*, Scene>> frames{
+      {"page", page},
+      {"photograph", [](int, double x, double y) { return kOther.at(x, y); }},
+      {"black", [](int, double, double) { return 16.0; }},
+      {"blurred", [](int, double x, double y) { return kOther.at(x / 12, y / 12); }}};
+  for (const auto& [name, frame] : frames) {
+    for (const Part& part : kPlaces) {
+      expect_found(see(within(frame, part, pan), kRate + 15), part, name);
+    }
+  }
+}
+
+TEST(AreaFinder, FindsItBesideOtherThingsThatMove) {
+  // A ticker, an advertisement, and a box that wanders around the film.
+  const auto around = [](int n, double x, double y) {
+    if (y >= 222 && y < 232) return page(0, x + 3.0 * n, y);
+    if (x >= 350 && x < 420 && y >= 20 && y < 60) return kOther.at(x + 4.0 * n, y);
+    const double box_x = std::fmod(5.0 * n, 320);
+    if (is_in({static_cast<int>(box_x), 4, 30, 24}, x, y)) return kThing.at(x - box_x, y);
+    return page(n, x, y);
+  };
+  expect_found(see(within(around, kMiddle, pan), 3 * kRate), kMiddle, "busy page");
+}
+
+TEST(AreaFinder, TakesAWholeFilmForAllOfThePicture) {
+  const std::vector<std::pair<const char*, Scene>> films{
+      {"pan", pan},
+      {"disc", disc},
+      {"nothing", at_rest(pan)},
+      {"cut", then(20, disc, pan)},
+      {"cut to rest", then(20, pan, disc)},
+      {"below a plain sky",
+       [](int n, double x, double y) { return y < 100 ? 200.0 : pan(n, x, y); }},
+      {"hills",
+       [](int n, double x, double y) {
+         return y < 100 + 20 * std::sin((x + 2.2 * n) / 30) ? 200.0 : pan(n, x, y);
+       }},
+      {"typing",
+       [](int n, double x, double y) { return y < 80 && x < 3 * n ? page(n, x, y) : 240; }},
+      {"a clock over a pan", [](int n, double x, double y) {
+         return is_in({360, 10, 50, 16}, x, y) ? page(0, x + 13 * (n / 25), y) : pan(n, x, y);
+       }}};
+  for (const auto& [name, film] : films) {
+    expect_whole(see(film, 3 * kRate), name);
+    expect_whole(see(film, 2 * kRate, 1), std::string(name) + ", noise");
+  }
+}
+
+/// The sides of such an object are straight, but do not stay.
+TEST(AreaFinder, TakesNoObjectForAFilm) {
+  for (const double speed : {0.3, 0.6, 1.0, 2.0, 5.0}) {
+    for (const auto& [across, down] : {std::pair{1.0, 0.0}, {0.7, 0.7}, {0.0, -0.5}}) {
+      const Scene square = [speed, across = across, down = down](int n, double x, double y) {
+        const double at_x = 60 + speed * across * n, at_y = 80 + speed * down * n;
+        const bool is_inside = std::abs(x - at_x - 60) < 60 && std::abs(y - at_y - 45) < 45;
+        return is_inside ? kThing.at(x - at_x, y - at_y) : kWall.at(x, y);
+      };
+      const std::string name = std::to_string(speed) + " px a picture, " + std::to_string(across);
+      expect_whole(see(square, 2 * kRate), name);
+      expect_whole(see(square, 2 * kRate, 1), name + ", noise");
+    }
+  }
+}
+
+TEST(AreaFinder, KeepsAFilmWhoseCameraComesToRest) {
+  expect_found(see(within(page, kMiddle, then(kRate, pan, disc)), 4 * kRate), kMiddle, "rest");
+  // Before the camera moves, there is no area or this one.
+  const Seen seen = see(within(page, kMiddle, then(kRate, disc, pan)), 3 * kRate);
+  expect_found(seen, kMiddle, "later", 2 * kRate);
+}
+
+TEST(AreaFinder, KeepsItBelowANotificationControlsAndSubtitles) {
+  const Scene film = within(page, kMiddle, pan);
+  const auto covered = [&](const Part& part, double opaque, bool moves) {
+    return [=](int n, double x, double y) {
+      const double below = film(n, x, y);
+      if (n < 30 || n > 90 || !is_in(part, x, y)) return below;
+      return (1 - opaque) * below + opaque * page(0, x, y + (moves ? n : 0));
+    };
+  };
+  const std::pair<const char*, Scene> films[] = {
+      {"a notification", covered({250, 10, 170, 70}, 1, false)},
+      {"controls", covered({90, 165, 240, 20}, 0.6, false)},
+      {"subtitles", covered({140, 190, 140, 16}, 1, true)},
+      {"a window before it", covered({20, 100, 150, 120}, 1, true)}};
+  for (const auto& [name, scene] : films) expect_found(see(scene, 5 * kRate), kMiddle, name);
+}
+
+/// From where the page begins to move at `begin` to where it ends, nothing is felt; soon after
+/// `end`, the film is known again.
+void expect_followed(const Seen& seen, size_t begin, size_t end, const std::optional<Part>& part,
+                     const std::string& what) {
+  for (size_t n = begin; n <= end; ++n) EXPECT_TRUE(seen.searches[n]) << what << " " << n;
+  const size_t known = end + 1 + kRate;  // AreaFinder::kSearch_ns
+  for (size_t n = known; n < seen.area.size(); ++n) {
+    EXPECT_FALSE(seen.searches[n]) << what << " " << n;
+    if (part)
+      EXPECT_TRUE(is_near(seen.area[n], *part))
+          << what << " " << n << ": " << testing::PrintToString(seen.area[n]);
+    if (!part) EXPECT_FALSE(seen.area[n]) << what << " " << n;
+  }
+}
+
+TEST(AreaFinder, FollowsAWindowThatMovesAndAFullScreen) {
+  const Scene film = within(page, kMiddle, pan);
+  const Part theatre{0, 20, 427, 190}, aside{150, 90, 240, 135}, larger{70, 40, 320, 180};
+  const int when = 2 * kRate;
+  for (const Part& part : {theatre, aside, larger}) {
+    expect_followed(see(then(when, film, within(page, part, pan)), 5 * kRate), when, when, part,
+                    testing::PrintToString(part));
+  }
+  expect_followed(see(then(when, film, pan), 5 * kRate), when, when, std::nullopt, "full screen");
+}
+
+TEST(AreaFinder, KnowsThatAPageThatScrollsIsNoCamera) {
+  const int begin = 2 * kRate, length = 20;
+  for (const double step : {2.0, 7.0, 12.0}) {
+    const auto down = [=](int n) { return -step * std::clamp(n - begin + 1, 0, length); };
+    const Part film{90, 60 + static_cast<int>(step * length) / 4, 240, 135};
+    const Scene scene = moved(within(page, film, pan), down);
+    Part after = film;
+    after.y += static_cast<int>(down(begin + length));
+    if (after.y < 0) {
+      after.height += after.y;
+      after.y = 0;
+    }
+    const bool is_left = after.height > 60;
+    expect_followed(see(scene, 6 * kRate), begin, begin + length - 1,
+                    is_left ? std::optional<Part>(after) : std::nullopt, std::to_string(step));
+  }
+}
+
+TEST(AreaFinder, StaysWithAFilmUntilItHasRestedForTwoSeconds) {
+  const Part second{10, 10, 150, 85}, first{170, 60, 250, 150};
+  const auto both = [&](int first_rests) {
+    return within(
+        within(page, second, [](int n, double x, double y) { return kOther.at(x - 2 * n, y); }),
+        first, then(first_rests, pan, at_rest(pan)));
+  };
+  expect_found(see(both(1000), 3 * kRate), first, "the larger");
+  const int rests = 2 * kRate;
+  const Seen seen = see(both(rests), 7 * kRate);
+  for (size_t n = kRate; n < seen.area.size(); ++n) {
+    const bool is_first = n < rests + 2 * kRate;
+    const bool is_second = n > rests + 4 * kRate;
+    if (is_first) EXPECT_TRUE(is_near(seen.area[n], first)) << n;
+    if (is_second) EXPECT_TRUE(is_near(seen.area[n], second)) << n;
+  }
+}
+
+}  // namespace
+}  // namespace test::area_finder_test
+}  // namespace spidar
