@@ -16,6 +16,9 @@ namespace {
 /// What is seen so briefly is not said: a cut, a film that is paused and goes on.
 constexpr int64_t kBrief_ns = 2'000'000'000;
 
+/// Reasons in `stats`.
+constexpr const char *kUnknown = "area-unknown", *kResting = "repeated-frames";
+
 std::string text_in(const GstStructure* structure, const char* name) {
   const char* const text = gst_structure_get_string(structure, name);
   return text ? text : "";
@@ -32,6 +35,7 @@ FeltScreen::FeltScreen(View& view, const std::vector<std::string>& properties)
           "! videoconvert ! spidarmotion name=felt ! fakesink sync=false")) {
   GstBin* const bin = GST_BIN(pipeline_);
   felt_ = Ref<GstElement>(gst_bin_get_by_name(bin, "felt")).get();
+  gst_util_set_object_arg(G_OBJECT(felt_), "area", "auto");
   follow::set_properties(felt_, properties);
   // Of the sources, some bring a clock of their own.
   const Ref<GstClock> clock(gst_system_clock_obtain());
@@ -68,18 +72,43 @@ bool FeltScreen::read_messages() {
   return true;
 }
 
+void FeltScreen::say(Remark& last, const std::string& text) {
+  const int64_t now_ns = monotonic_now_ns();
+  if (text != last.text) last = {text, now_ns};
+  if (text.empty() || now_ns - last.since_ns < kBrief_ns) return;
+  if (said_.insert(text).second) follow::tell(text);
+}
+
+/// Empty while it is not known.
+std::string FeltScreen::words_for_film(const GstStructure* stats) const {
+  const Ref<GstPad> pad(gst_element_get_static_pad(felt_, "sink"));
+  const Ref<GstCaps> caps(gst_pad_get_current_caps(pad.get()));
+  gint width = 0, height = 0;
+  if (caps) {
+    const GstStructure* const format = gst_caps_get_structure(caps.get(), 0);
+    gst_structure_get(format, "width", G_TYPE_INT, &width, "height", G_TYPE_INT, &height, nullptr);
+  }
+  guint x = 0, y = 0, film_width = 0, film_height = 0;
+  gst_structure_get(stats, "area-x", G_TYPE_UINT, &x, "area-y", G_TYPE_UINT, &y, "area-width",
+                    G_TYPE_UINT, &film_width, "area-height", G_TYPE_UINT, &film_height, nullptr);
+  if (width == 0 || film_width == 0 || text_in(stats, "no-force-reason") == kUnknown) return "";
+  const bool is_all =
+      static_cast<guint>(width) == film_width && static_cast<guint>(height) == film_height;
+  const std::string size = std::to_string(film_width) + " x " + std::to_string(film_height);
+  if (!is_all)
+    return "a film is in it, " + size + " at " + std::to_string(x) + ", " + std::to_string(y);
+  return "no film with something at rest around it is seen: all of it is felt, " + size;
+}
+
 void FeltScreen::say_what_is_seen() {
   GstStructure* stats = nullptr;
   g_object_get(felt_, "stats", &stats, nullptr);
-  const std::string film = text_in(stats, "no-force-text"),
-                    device = text_in(stats, "device-no-force-text");
+  say(film_, words_for_film(stats));
+  const std::string device = text_in(stats, "device-no-force-text");
+  std::string text = device.empty() ? text_in(stats, "no-force-text") : device;
+  if (text_in(stats, "no-force-reason") == kResting) text += " Protected video is captured black.";
+  say(reason_, text);
   gst_structure_free(stats);
-  const std::string text = device.empty() ? film : device;
-  const int64_t now_ns = monotonic_now_ns();
-  if (text != next_) next_since_ns_ = now_ns;
-  next_ = text;
-  if (now_ns - next_since_ns_ < kBrief_ns || text.empty()) return;
-  if (said_.insert(text).second) follow::tell(text);
 }
 
 bool FeltScreen::check() {

@@ -29,17 +29,24 @@ class FeltScreen {
   bool check();
 
  private:
+  /// Something that is said when it has been so for a while, and only once.
+  struct Remark {
+    std::string text;
+    int64_t since_ns = 0;
+  };
+
   bool read_messages();
   void say_what_is_seen();
+  void say(Remark& last, const std::string& text);
+  std::string words_for_film(const GstStructure* stats) const;
 
   View& view_;
   GstElement* pipeline_;
   GstElement* felt_ = nullptr;  ///< owned by the pipeline
   bool is_simulated_ = false;
   std::set<std::string> said_;
-  std::string seen_;  ///< what is seen, as it was said last
-  std::string next_;  ///< as it would be said now
-  int64_t next_since_ns_ = 0;
+  Remark film_;    ///< where it is
+  Remark reason_;  ///< why nothing is felt
 };
 
 }  // namespace spidar::screen

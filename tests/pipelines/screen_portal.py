@@ -100,7 +100,6 @@ class PipeWire:
     def __init__(self, folder, bus):
         self.env = dict(os.environ, XDG_RUNTIME_DIR=str(folder), XDG_STATE_HOME=str(folder), XDG_CONFIG_HOME=str(folder),
                         DBUS_SESSION_BUS_ADDRESS=bus.address, DISPLAY="")
-        self.env.pop("LD_PRELOAD", None)
         self.socket = str(folder / "pipewire-0")
         self.running = []
         self.start("pipewire")

@@ -130,6 +130,19 @@ class Windows(screen.ScreenCase, LookedAtCase):
         self.assertEqual(self.look("=Two").wait(), 1)
         self.expect_said('no window is called "Two"; there are "One"')
 
+    def test_the_film_is_found_among_what_moves_and_rests(self):
+        """Everything in its picture moves, in another way than the patch in it."""
+        self.run_in_folder("ffmpeg -v error -f lavfi -i color=gray:s=800x480:d=1,noise=alls=100,gblur=2 -frames:v 1 texture.png")
+        self.run_in_folder(
+            "ffmpeg -v error -loop 1 -i texture.png -filter_complex '[0]split[a][b];[a]crop=320:240:240+100*sin(t):100[far];"
+            "[b]crop=80:80:0:0[near];[far][near]overlay=120+80*sin(3*t):80+40*cos(3*t)' -r 25 -t 60 -c:v mjpeg -q:v 3 film.avi")
+        self.show("Ball", at=(800, 500))
+        self.show("Page", RESTING, at=(0, 400))
+        self.show("Film", f"filesrc location={self.path('film.avi')} ! avidemux ! jpegdec", at=(400, 100))
+        self.look()
+        self.expect_said("a film is in it, 320 x 240 at 400, 100")
+        self.expect_felt()
+
     def test_own_windows_are_left_out(self):
         """A film in a window of this class is black. It says why nothing is felt."""
         film = self.show("Own", at=(100, 100))

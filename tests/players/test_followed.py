@@ -45,10 +45,12 @@ def number_in(row):
 class Watched:
     """When each picture was first on the screen: (monotonic s, position in the film, s)."""
 
-    def __init__(self):
+    def __init__(self, at=(0, 0)):
+        """`at`: where on the screen the film is."""
         self.seen = []
         self.pipeline = Gst.parse_launch(
-            f"ximagesrc show-pointer=false use-damage=false endx={WIDTH - 1} endy={BAR_PX - 1} ! video/x-raw,framerate=200/1 ! "
+            f"ximagesrc show-pointer=false use-damage=false startx={at[0]} starty={at[1]} endx={at[0] + WIDTH - 1} "
+            f"endy={at[1] + BAR_PX - 1} ! video/x-raw,framerate=200/1 ! "
             "appsink name=out emit-signals=true sync=false max-buffers=1 drop=true")
         self.pipeline.get_by_name("out").connect("new-sample", self.take)
         self.pipeline.set_state(Gst.State.PLAYING)
