@@ -95,12 +95,12 @@ def main():
     parser.add_argument("--shares", default="40,60,80")
     parser.add_argument("--frames", default="text,photo,blur,boxes,ticker")
     parser.add_argument("--places", default="middle,corner")
-    parser.add_argument("--properties", default="area=auto", help="with two commas between them")
+    parser.add_argument("--properties", default="area=auto", help="with spaces between them")
     parser.add_argument("--every", type=int, default=1, help="only each so many-th film")
     parser.add_argument("--verbose", action="store_true", help="each film, too")
     options = parser.parse_args()
     films = films_of(options.folders)[::options.every]
-    properties = options.properties.split(",,")
+    properties = options.properties.split()
     print_head("share", "picture around it", "place", "within 30° %", "beyond 60° %", "felt where the film gives nothing %")
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
