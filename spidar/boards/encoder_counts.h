@@ -24,61 +24,72 @@ class CountUnwrapper {
   /// 16 … 31 bits.
   explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
 
-  /// Converts the board's counter values to counts that continue from the last ones. Returns false
-  /// and changes nothing when a counter has moved further than `max_step`.
+  /// Converts the board's counter values to counts that continue from the last ones. If those were
+  /// wrong, because a bit flipped on the way, they continue from the ones before. Returns false and
+  /// changes nothing when a counter has moved further than `max_step` from both.
   bool update(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
               int32_t max_step = kMaxStep) noexcept {
-    std::array<int32_t, kMaxStrings> next = count_;
-    for (size_t i = 0; i < channels; ++i) {
-      const int32_t step = signed_difference(raw[i] - raw_[i]);
-      if (step > max_step || step < -max_step) return false;
-      next[i] =
-          static_cast<int32_t>(static_cast<uint32_t>(count_[i]) + static_cast<uint32_t>(step));
+    if (distance(raw, last_.raw, channels) > max_step) {
+      if (distance(raw, before_.raw, channels) > max_step) return false;
+      last_ = before_;
+    } else {
+      before_ = last_;
     }
-    count_ = next;
-    raw_ = raw;
+    for (size_t i = 0; i < channels; ++i) {
+      const auto step = static_cast<uint32_t>(signed_difference(raw[i] - last_.raw[i]));
+      last_.count[i] = static_cast<int32_t>(static_cast<uint32_t>(last_.count[i]) + step);
+    }
+    last_.raw = raw;
     return true;
   }
 
   /// Takes the counters after a break in which the board was not read. Returns false and changes
   /// nothing when a counter has jumped, or when the counters seem to have been reset by a loss of
-  /// power: all of them are near zero now, were not near zero before, and are far from their
-  /// previous values. A grip that a hand moved while it was near the counters' zero looks the same.
-  /// Mistaking this for a reset costs a new zero; the opposite mistake would keep a wrong zero.
-  /// Call begin() to accept the new values.
+  /// power: they are nearer to zero than to their previous values, which were not near zero
+  /// themselves. A grip that a hand moved towards the counters' zero looks the same. Mistaking this
+  /// for a reset costs a new zero; the opposite mistake would keep a wrong zero. Call begin() to
+  /// accept the new values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    const bool anew = within(kNearZero, raw, {}, channels) && !within(kStill, raw_, {}, channels) &&
-                      !within(kStill, raw, raw_, channels);
+    const int32_t moved = distance(raw, last_.raw, channels);
+    const bool anew = moved > kStill && distance(last_.raw, {}, channels) > kStill &&
+                      distance(raw, {}, channels) <= moved;
     return !anew && update(raw, channels);
   }
 
   /// Takes the counter values, sign extended, as counts; for a first reading.
   void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
-    raw_ = raw;
-    count_ = {};
-    for (size_t i = 0; i < channels; ++i) count_[i] = signed_difference(raw[i]);
+    last_ = {raw, {}};
+    for (size_t i = 0; i < channels; ++i) last_.count[i] = signed_difference(raw[i]);
+    before_ = last_;
   }
 
   /// Makes the present position zero.
-  void zero() noexcept { count_ = {}; }
+  void zero() noexcept {
+    last_.count = {};
+    before_ = last_;
+  }
 
-  const std::array<int32_t, kMaxStrings>& counts() const noexcept { return count_; }
+  const std::array<int32_t, kMaxStrings>& counts() const noexcept { return last_.count; }
 
  private:
-  /// 17 mm at 17 µm a count: the slack of the strings while a board without power is switched on.
-  static constexpr int32_t kNearZero = 1024;
+  struct Values {
+    std::array<uint32_t, kMaxStrings> raw{};
+    std::array<int32_t, kMaxStrings> count{};
+  };
 
   /// 1 mm: a zero that is off by less does no harm, and a grip that nobody moves stays within it.
   static constexpr int32_t kStill = 64;
 
-  /// Whether no counter differs from that of `other` by more than `counts`.
-  bool within(int32_t counts, const std::array<uint32_t, kMaxStrings>& raw,
-              const std::array<uint32_t, kMaxStrings>& other, size_t channels) const noexcept {
+  /// By how much the counter differs that differs most.
+  int32_t distance(const std::array<uint32_t, kMaxStrings>& from,
+                   const std::array<uint32_t, kMaxStrings>& to, size_t channels) const noexcept {
+    int32_t most = 0;
     for (size_t i = 0; i < channels; ++i) {
-      const int32_t difference = signed_difference(raw[i] - other[i]);
-      if (difference > counts || difference < -counts) return false;
+      const int32_t difference = signed_difference(from[i] - to[i]);
+      // The most negative number has no opposite.
+      most = std::max({most, difference, -std::max(difference, -INT32_MAX)});
     }
-    return true;
+    return most;
   }
 
   int32_t signed_difference(uint32_t difference) const noexcept {
@@ -88,8 +99,8 @@ class CountUnwrapper {
   }
 
   int bits_;
-  std::array<uint32_t, kMaxStrings> raw_{};
-  std::array<int32_t, kMaxStrings> count_{};
+  Values last_;
+  Values before_;  ///< of the reading that was taken before the last one
 };
 
 class EncoderCounts {
@@ -106,11 +117,11 @@ class EncoderCounts {
     channels_ = channels;
     if (!counted_) unwrapper_.begin(raw, channels);
     counted_ = true;
-    restarted_ = !unwrapper_.resume(raw, channels);
+    restarted_ |= !unwrapper_.resume(raw, channels);
   }
 
-  /// The counters were reset since the board was last open: their values are meaningless until
-  /// zero().
+  /// The counters were reset since the board was first open: their values are meaningless until
+  /// zero(), also those that look right later, because a hand has moved the grip.
   bool restarted() const noexcept { return restarted_; }
 
   /// Sets zero to the position of the first reading.

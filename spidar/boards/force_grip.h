@@ -12,6 +12,7 @@
 #include "spidar/boards/link_thread.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
+#include "spidar/grip/reading_gate.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar::boards {
@@ -26,6 +27,7 @@ class ForceGrip final : public Grip {
   void open() override {
     link_->open();
     trust_ = {};
+    gate_.reset();
     reading_.delivered = {};
     reading_.pose = {};
     reading_.motion.reset();
@@ -81,7 +83,12 @@ class ForceGrip final : public Grip {
     reading_.lag_ns = answer.lag_ns;
     const int64_t read_ns = PoseTrust::time_of(answer.read_ns, command.now_ns);
     const PoseFault fault = judge(answer, read_ns);
-    if (fault == PoseFault::kNone || fault == PoseFault::kJump) {
+    const bool known = fault == PoseFault::kNone || fault == PoseFault::kJump;
+    if (traits_.can_fly && known && !gate_.take(answer.position_m, read_ns)) {
+      ++reading_.pose_errors;
+      return trust_.fail(PoseFault::kJump);
+    }
+    if (known) {
       reading_.pose.position_m = answer.position_m;
       trust_.locate(read_ns);
     }
@@ -105,9 +112,13 @@ class ForceGrip final : public Grip {
     return traits_.can_fly && trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
   }
 
+  /// More than a count of the coarsest device: the Falcon's moves its arm by 38 µm.
+  static constexpr double kPositionError_m = 50e-6;
+
   const std::unique_ptr<ForceLink> link_;
   const GripTraits traits_;
   GripReading reading_;
+  ReadingGate<3> gate_{kPositionError_m};
   PoseTrust trust_;
 };
 

@@ -32,7 +32,8 @@ GripWatch::GripWatch(const Profile& profile)
       encoders_(profile),
       radius_m_(profile.geometry.grip_radius_m()),
       reach_m_(spidar::reach_m(profile.geometry)),
-      solver_(profile.geometry, profile.max_pose_residual_m()) {}
+      solver_(profile.geometry, profile.max_pose_residual_m()),
+      gate_(0.5 * profile.max_pose_residual_m()) {}
 
 void GripWatch::reset() noexcept {
   trust_ = {};
@@ -40,6 +41,7 @@ void GripWatch::reset() noexcept {
   residual_m_ = 0;
   faulty_string_ = -1;
   counted_ = frozen_ = follows_ = false;
+  gate_.reset();
   solver_.reset();
 }
 
@@ -75,7 +77,12 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& comma
 void GripWatch::update(const DeviceReading& reading, const GripCommand& command) noexcept {
   const int64_t read_ns = PoseTrust::time_of(reading.read_ns, command.now_ns);
   const bool frozen = is_frozen(reading, command);
-  const PoseResult result = solver_.solve(encoders_.lengths_m(reading.count));
+  const StringVector lengths_m = encoders_.lengths_m(reading.count);
+  if (!gate_.take(lengths_m, read_ns, faulty_string_)) {
+    ++pose_errors_;
+    return trust_.fail(PoseFault::kJump);
+  }
+  const PoseResult result = solver_.solve(lengths_m);
   residual_m_ = result.residual_m;
   // A rotation counts as the way of the points at which the strings are tied.
   const double way_m = (result.pose.position_m - pose_.position_m).norm() +

@@ -13,6 +13,7 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
+#include "spidar/grip/reading_gate.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
@@ -77,6 +78,7 @@ class GripWatch {
   double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
   PoseSolver solver_;
 
+  ReadingGate<kMaxStrings> gate_;
   PoseTrust trust_;
   Pose pose_;
   double residual_m_ = 0;

@@ -42,13 +42,26 @@ TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
   counts.open({5000}, 1);
   EXPECT_TRUE(counts.update({5000}, now_ns));
   EXPECT_TRUE(counts.update({5000 + 4096}, now_ns += kMs));
-  EXPECT_FALSE(counts.update({5000}, now_ns += kMs - 1));  // 2048 for less than a millisecond
+  EXPECT_FALSE(counts.update({9096 + 4096}, now_ns += kMs - 1));  // 2048 within a millisecond
   // The counters began anew: that does not pass by waiting for it.
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.update({0}, now_ns += kMs));
   EXPECT_EQ(counts.counts()[0], 9096);
   // After a break of many milliseconds a quarter of the range, after a longer one no more.
   EXPECT_FALSE(counts.update({9096 + 16385}, now_ns += 100 * kMs));
   EXPECT_TRUE(counts.update({9096 + 16384}, now_ns += 7 * kMs));
+}
+
+/// Bit 11 is 2048 counts, as far as a hand gets in a millisecond.
+TEST(EncoderCounts, ComeBackFromABitThatFlipped) {
+  int64_t now_ns = 0;
+  const auto next_ns = [&] { return now_ns += 1'000'000; };
+  boards::EncoderCounts counts(16);
+  counts.open({5000, 7000}, 2);
+  EXPECT_TRUE(counts.update({5000, 7000}, next_ns()));
+  EXPECT_TRUE(counts.update({5000 + 2048, 7001}, next_ns()));
+  EXPECT_TRUE(counts.update({4999, 7002}, next_ns()));
+  EXPECT_EQ(counts.counts()[0], 4999);
+  EXPECT_EQ(counts.counts()[1], 7002);
 }
 
 /// The other end of the example in docs/extend.md.

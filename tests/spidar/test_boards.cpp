@@ -191,21 +191,38 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     *wire = LinkFault::kGone;
     EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
     *wire = LinkFault::kNone;
-    motors.count[3] = 3;  // began anew
-    for (int attempt = 0; attempt < 2; ++attempt) {
+    // It began anew, and a hand moves the grip from there: also when the counters look right again.
+    for (const int32_t count : {3, 1500, 5100}) {
+      motors.count[3] = count;
       try {
         device->open();
-        FAIL();
+        FAIL() << count;
       } catch (const DeviceError& error) {
         EXPECT_NE(std::string(error.what()).find("was without power"), std::string::npos);
       }
     }
     EXPECT_EQ(device->health().last_fault, LinkFault::kCounterJump);
-    // Had it its power after all, nothing is lost.
-    motors.count[3] = 5100;
+    const auto anew = this->device(false, policy);
+    anew->open();
+    ASSERT_EQ(anew->exchange({}, reading), LinkFault::kNone);
+    EXPECT_EQ(reading.count[3], policy == boards::CountZero::kNever ? 5100 : 0);
+  }
+}
+
+/// Nearer to where they were than to zero, with or without a jump from there.
+TEST_P(Boards, ABoardThatHadItsPowerIsTakenBack) {
+  for (const int32_t count : {5000, 5100, 2600}) {
+    motors.count[3] = 5000;
+    const auto device = this->device(false);
+    device->open();
+    DeviceReading reading;
+    *wire = LinkFault::kGone;
+    EXPECT_EQ(device->exchange({}, reading), LinkFault::kGone);
+    *wire = LinkFault::kNone;
+    motors.count[3] = count;
     device->open();
     ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
-    EXPECT_EQ(reading.count[3], policy == boards::CountZero::kNever ? 5100 : 100);
+    EXPECT_EQ(reading.count[3], count - 5000);
   }
 }
 

@@ -203,6 +203,23 @@ TEST(ForceGrip, ThePoseBecomesKnownOnlyWithoutAForceAndIsLostWithTheAnswers) {
   EXPECT_EQ(stick.grip->reading().delivered.force_N.x(), 1) << "the last that was acknowledged";
 }
 
+/// In every fifth answer: the position is 40 mm off, 1 mm, or one that no device has.
+TEST(ForceGrip, ABitThatFlipsIsNoMotion) {
+  Driven device("inverse3");
+  device.command.wrench = {};
+  device.exchange(PoseTrust::kGoodPoses);
+  for (const int off_um : {40'000, 1'000, -200'000}) {
+    for (int n = 0; n < 10; ++n) {
+      device.bench.motors.count[1] = off_um;
+      device.exchange(1);
+      device.bench.motors.count[1] = 0;
+      device.exchange(4);
+      ASSERT_TRUE(device.grip->reading().knows_pose()) << off_um;
+      ASSERT_TRUE(device.grip->reading().motion.velocity().linear_m_s.isZero(0)) << off_um;
+    }
+  }
+}
+
 /// A device, or its service, that measures from another origin from now on.
 TEST(ForceGrip, AJumpIsNotFollowedUntilItHasLasted) {
   Driven device("inverse3");
@@ -210,6 +227,8 @@ TEST(ForceGrip, AJumpIsNotFollowedUntilItHasLasted) {
   device.exchange(PoseTrust::kGoodPoses);
   ASSERT_TRUE(device.grip->reading().knows_pose());
   device.bench.motors.count[0] = 200'000;  // µm
+  device.exchange(1);
+  EXPECT_TRUE(device.grip->reading().pose.position_m.isZero(0)) << "a bit may have flipped";
   device.exchange(1);
   EXPECT_EQ(device.grip->reading().pose_fault, PoseFault::kJump);
   device.exchange(PoseTrust::kGoodPoses - 1);

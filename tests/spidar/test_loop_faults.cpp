@@ -4,6 +4,7 @@
 /// is not used.
 #include <array>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,26 @@ struct Bench {
 /// The most that a string may change in a tick.
 double step_N(const Profile& profile, int string) {
   return 1e-3 * TensionSlew::pace_N_s(profile.drives[static_cast<size_t>(string)]);
+}
+
+/// Neither for the brake, nor for the strings, of which none is left out for it.
+TEST(LoopFaults, ABitThatFlipsInEveryFifthAnswerIsNoMotion) {
+  Bench bench;
+  std::mt19937 random(1);
+  const auto below = [&](unsigned end) {
+    return std::uniform_int_distribution<int>(0, end - 1)(random);
+  };
+  const uint64_t faults = bench.snapshot().counters.string_faults;
+  for (int n = 0; n < 1000; ++n) {
+    // The bits below say less than a hand trembles.
+    bench.device.flip(static_cast<size_t>(below(8)), 5 + below(11));
+    bench.run(5);
+    const TickRecord last = bench.snapshot().last;
+    ASSERT_EQ(last.pose_fault, PoseFault::kNone) << n;
+    ASSERT_FALSE(last.brakes) << n;
+    ASSERT_EQ(last.commanded.force_N, push_right(1).force_N) << n;
+  }
+  EXPECT_EQ(bench.snapshot().counters.string_faults, faults);
 }
 
 Pose far_hand() {

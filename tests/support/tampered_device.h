@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "spidar/device.h"
 #include "spidar/profiles/profile.h"
@@ -20,6 +21,12 @@ class TamperedDevice final : public StringDevice {
 
   /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
+
+  /// In the next answer, this bit of the count of a string is the other one.
+  void flip(size_t string, int bit) {
+    flipped_ = string;
+    flip_ = 1 << bit;
+  }
 
   bool is_tampered() const { return stopped_ != 0; }
 
@@ -44,6 +51,7 @@ class TamperedDevice final : public StringDevice {
       if (!(stopped_ >> i & 1)) last_.count[i] = read.count[i];
     last_.read_ns = read.read_ns;
     reading = last_;
+    reading.count[flipped_] ^= std::exchange(flip_, 0);
     return status_;
   }
   void close() noexcept override {
@@ -54,6 +62,8 @@ class TamperedDevice final : public StringDevice {
  private:
   StringDevice& inner_;
   unsigned stopped_ = 0;
+  size_t flipped_ = 0;
+  int32_t flip_ = 0;
   MotorVolts volts_;
   LinkFault status_ = LinkFault::kGone;
   DeviceReading last_;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Leaves out single wrong readings, such as those in which a bit flipped on the way.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "core/history.h"
+
+namespace spidar {
+
+/// Judges readings of N lengths or coordinates, m, by where the last two lead. A reading that no
+/// hand explains is left out once: the one after it counts, so that what really happened is seen
+/// one tick later. For a brake, a grip that is 1 mm off for one tick moves at 1 m/s.
+template <int N>
+class ReadingGate {
+ public:
+  using Values = Eigen::Matrix<double, N, 1>;
+
+  /// Of a grip that a hand holds, or 10 N on the lightest one, 34 g. An impact exceeds it.
+  static constexpr double kMax_m_s2 = 300;
+  /// Error of the time of a reading: half of an exchange.
+  static constexpr double kTimeError_s = 0.3e-3;
+
+  /// `error_m`: how far a reading is off, at most.
+  explicit ReadingGate(double error_m) noexcept : error_m_(error_m) {}
+
+  void reset() noexcept {
+    taken_.clear();
+    left_out_ = false;
+  }
+
+  /// Whether the reading counts. `unreliable`: the index of a value that is not judged; −1 if all
+  /// are.
+  bool take(const Values& now_m, int64_t read_ns, int unreliable = -1) noexcept {
+    const bool plausible = is_plausible(now_m, read_ns, unreliable);
+    left_out_ = !plausible && !left_out_;
+    if (left_out_) return false;
+    if (!plausible) taken_.clear();  // what was before does not lead to it
+    // A reading in a burst after a late tick replaces the one before: the velocity between them is
+    // but an error.
+    if (taken_.size() > 1 && read_ns - taken_[1].read_ns < kApart_ns) {
+      taken_[0] = {now_m, read_ns};
+    } else {
+      taken_.add({now_m, read_ns});
+    }
+    return true;
+  }
+
+ private:
+  struct Taken {
+    Values m;
+    int64_t read_ns;
+  };
+  static constexpr int64_t kApart_ns = 500'000;
+
+  bool is_plausible(const Values& now_m, int64_t read_ns, int unreliable) const noexcept {
+    if (taken_.size() < 3) return true;
+    const Taken& last = taken_[0];
+    const Taken& before = last.read_ns - taken_[1].read_ns < kApart_ns ? taken_[2] : taken_[1];
+    const double passed_s = 1e-9 * static_cast<double>(last.read_ns - before.read_ns);
+    const double ahead_s = 1e-9 * static_cast<double>(read_ns - last.read_ns);
+    if (!(passed_s > 0)) return true;
+    const double ratio = ahead_s / passed_s;
+    const double margin_m =
+        2 * error_m_ * (1 + ratio) + 0.5 * kMax_m_s2 * ahead_s * (ahead_s + passed_s);
+    for (Eigen::Index i = 0; i < N; ++i) {
+      const double way_m = last.m[i] - before.m[i];
+      const double off_m = now_m[i] - last.m[i] - ratio * way_m;
+      const double late_m = kTimeError_s / passed_s * (1 + ratio) * std::fabs(way_m);
+      if (i != unreliable && std::fabs(off_m) > margin_m + late_m) return false;
+    }
+    return true;
+  }
+
+  const double error_m_;
+  History<Taken, 3> taken_;
+  bool left_out_ = false;  ///< the last reading was
+};
+
+}  // namespace spidar
