@@ -20,8 +20,8 @@ constexpr double kUnits[kTrackChannels] = {kTrackForceScale_N,   kTrackForceScal
                                            kTrackTorqueScale_Nm, kTrackTorqueScale_Nm};
 /// Times that were rounded to a microsecond may be as much before their sample.
 constexpr double kRounding_ms = 1e-3;
-/// A longer rest at the begin is a time of the day, or of a machine.
-constexpr double kMaxBegin_ms = 24.0 * 3600 * 1000;
+/// A longer rest at the begin is a time of the day, or of a machine; later, a mistake.
+constexpr double kMaxRest_ms = 24.0 * 3600 * 1000;
 
 std::string_view trimmed(std::string_view text) {
   const auto is_edge = [](char c) { return c == ' ' || c == '\r' || c == '"'; };
@@ -32,13 +32,12 @@ std::string_view trimmed(std::string_view text) {
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
-  for (size_t end = 0; end != std::string_view::npos;
-       line.remove_prefix(std::min(end + 1, line.size()))) {
-    end = line.find(separator);
+  while (true) {
+    const size_t end = line.find(separator);
     fields.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) break;
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
   }
-  return fields;
 }
 
 char separator_of(std::string_view line) {
@@ -127,8 +126,11 @@ void CsvTrackReader::add(std::string_view line) {
   };
   const double now_ms = 1000 * number(*time_) / second_;
   if (last_ms_ && !(now_ms > *last_ms_)) fail("its time is not after that of the line before");
-  if (!last_ms_ && (now_ms < 0 || now_ms > kMaxBegin_ms)) {
+  if (!last_ms_ && (now_ms < 0 || now_ms > kMaxRest_ms)) {
     fail("its time is not within a day from 0, where the film begins: subtract where it began");
+  }
+  if (last_ms_ && now_ms - *last_ms_ > kMaxRest_ms) {
+    fail("its time is more than a day after that of the line before");
   }
   std::array<double, kTrackChannels> now{};
   for (size_t i = 0; i < kTrackChannels; ++i) {

@@ -272,7 +272,8 @@ class Conversion(track_case.TrackCase):
         for text, said in (("time,velocity\n0,1\n", "line 1: names no column time and none of fx"), ("", "the table has no rows"),
                            ("0,1,2\n", "line 1: has 3 columns without names"), ("t,fx\n0,a\n", 'line 2: "a" is not a number'),
                            ("t,fx\n0,1\n0,1\n", "line 3: its time is not after"), ("t,fx\n0,1,2\n", "line 2: has 3 columns, and not 2"),
-                           ("t,fx\n1764427000,1\n", "subtract where it began")):
+                           ("t,fx\n1764427000,1\n", "subtract where it began"),
+                           ("t,fx\n0,1\n1e12,1\n", "line 3: its time is more than a day after")):
             self.path("a.csv").write_text(text)
             self.assert_said(f"a.csv, {said}" if said.startswith("line") else said, "info", "a.csv")
 
