@@ -299,8 +299,10 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   if (fault == LinkFault::kNone) {
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
-    late_s_ += fraction_passed(step.falls_s, kLateness_s) *
-               (std::max(0.0, step.falls_s - kTick_s) - late_s_);
+    // A device without an answer for longer is lost: then it was this program that stood still.
+    const double interval_s = std::min(step.falls_s, kMaxErrors * kTick_s);
+    late_s_ +=
+        fraction_passed(interval_s, kLateness_s) * (std::max(0.0, interval_s - kTick_s) - late_s_);
     unanswered_ns_ = 0;
     above_rest_ = exerted_ - grip.at_rest;
     above_rest_.torque_Nm -= power_ * record.commanded.torque_Nm;

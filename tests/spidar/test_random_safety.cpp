@@ -181,9 +181,10 @@ class Round {
     // leaves falls as fast as tensions do.
     if (seen.brakes) {
       damped_ns_ = std::llround(1e9 * TensionSlew::kRange_s) + kMs;
-      damper_N_ = std::max(
-          damper_N_, std::hypot(at_rest.force_N.norm(),
-                                at_rest.torque_Nm.norm() / believed_.geometry.grip_radius_m()));
+      damper_N_ =
+          std::max(damper_N_, std::hypot(std::max(limits_.max_force_N, at_rest.force_N.norm()),
+                                         std::max(limits_.max_torque_Nm, at_rest.torque_Nm.norm()) /
+                                             believed_.geometry.grip_radius_m()));
     } else if (seen.acknowledged && (damped_ns_ -= passed_ns) < 0) {
       damper_N_ = 0;
     }
