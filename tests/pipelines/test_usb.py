@@ -203,8 +203,8 @@ class Auto(Pipelines):
                 f"gst-launch-1.0 videotestsrc num-buffers=3 ! spidarmotion device=usb {profile} max-force=0.5 ! fakesink")
             self.assertNotIn("was confirmed", play(PROFILE))
             self.path("gst-spidar/boards.toml").write_text('"0cec:0205 A1" = "spidar-g6x3-v2-l"\n')
-            said = play("profile=spidar-g")
-            self.assertIn("profile=spidar-g drives usb, for which profile spidar-g6x3-v2-l was confirmed", said)
+            said = play("profile=spidar-g645")
+            self.assertIn("profile=spidar-g645 drives usb, for which profile spidar-g6x3-v2-l was confirmed", said)
             self.assertIn("N (0.5 N by max-force), and torque", said)
             for same in "profile=spidar-g6x3-v2-l", "":
                 self.assertNotIn("was confirmed:", play(same))
