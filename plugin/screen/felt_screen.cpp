@@ -105,9 +105,9 @@ void FeltScreen::say_what_is_seen() {
   g_object_get(felt_, "stats", &stats, nullptr);
   say(film_, words_for_film(stats));
   const std::string device = text_in(stats, "device-no-force-text");
-  std::string text = device.empty() ? text_in(stats, "no-force-text") : device;
-  if (text_in(stats, "no-force-reason") == kResting) text += " Protected video is captured black.";
-  say(reason_, text);
+  std::string film = text_in(stats, "no-force-text");
+  if (text_in(stats, "no-force-reason") == kResting) film += " Protected video is captured black.";
+  say(reason_, device.empty() ? film : device);
   gst_structure_free(stats);
 }
 

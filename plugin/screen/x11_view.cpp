@@ -241,7 +241,7 @@ Window chosen_window(Display* display, const std::string& what) {
 
 std::unique_ptr<View> view_of_x11(const std::string& what) {
   XInitThreads();
-  ignore_x11_errors();
+  handle_x11_errors();
   X11View::Connection connection(XOpenDisplay(nullptr), XCloseDisplay);
   if (!connection) {
     const char* const name = g_getenv("DISPLAY");

@@ -5,7 +5,9 @@
 #include <X11/Xatom.h>
 #include <X11/Xutil.h>
 #include <X11/cursorfont.h>
+#include <cstdio>
 #include <memory>
+#include <unistd.h>
 
 namespace spidar::screen {
 namespace {
@@ -50,8 +52,12 @@ bool is_of_program(Display* display, Window window) {
 
 }  // namespace
 
-void ignore_x11_errors() {
+void handle_x11_errors() {
   XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
+  XSetIOErrorHandler([](Display*) -> int {
+    std::fputs("spidar-feel: the screen has ended\n", stderr);
+    _exit(1);
+  });
 }
 
 std::string title_of(Display* display, Window window) {

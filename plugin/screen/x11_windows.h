@@ -13,8 +13,9 @@ namespace spidar::screen {
 constexpr const char* kOwnClass = "spidar-window";
 
 /// From now on, a call that fails because a window is gone has no consequence; otherwise Xlib ends
-/// the process. For all connections of the process.
-void ignore_x11_errors();
+/// the process. It does so when the server ends, and the guardian sets the motors to zero. For all
+/// connections of the process.
+void handle_x11_errors();
 
 /// Empty for a window without one.
 std::string title_of(Display* display, Window window);

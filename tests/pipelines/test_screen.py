@@ -161,6 +161,15 @@ class Windows(screen.ScreenCase, LookedAtCase):
             self.expect_said(said)
 
 
+class End(screen.ScreenCase, LookedAtCase):
+    def test_it_ends_with_the_screen(self):
+        felt = self.look()
+        self.expect_said("looks at the whole screen")
+        self.screen.stop()
+        self.assertEqual(felt.wait(), 1)
+        self.expect_said("the screen has ended")
+
+
 @unittest.skipUnless(Bus.is_there(), "dbus-daemon is not installed (package dbus-daemon)")
 class Wayland(LookedAtCase):
     def setUp(self):
