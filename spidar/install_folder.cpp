@@ -55,7 +55,7 @@ fs::path installed(const std::string& below) {
 }
 
 std::vector<fs::path> listed_folders(const char* name) {
-  const char* const value = std::getenv(name);
+  const char* const value = secure_getenv(name);
   std::vector<fs::path> folders;
   for (std::string rest = value ? value : ""; !rest.empty();) {
     std::error_code none;

@@ -17,6 +17,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "spidar/realtime/uninterrupted.h"
+
 namespace spidar {
 
 std::string read_regular_file(const std::string& path, size_t most_bytes) {
@@ -25,7 +27,8 @@ std::string read_regular_file(const std::string& path, size_t most_bytes) {
     ~File() {
       if (descriptor >= 0) close(descriptor);
     }
-  } const file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  } const file{
+      uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })};
   struct stat status {};
   if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0) {
     throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
@@ -34,8 +37,7 @@ std::string read_regular_file(const std::string& path, size_t most_bytes) {
   std::string text;
   char part[1 << 14];
   while (true) {
-    const ssize_t got = read(file.descriptor, part, sizeof part);
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got = uninterrupted([&] { return read(file.descriptor, part, sizeof part); });
     if (got < 0) {
       throw std::runtime_error(std::string("it cannot be read: ") + std::strerror(errno));
     }
@@ -106,12 +108,12 @@ namespace {
 
 bool write_all(int file, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
-    const ssize_t written = write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written =
+        uninterrupted([&] { return write(file, text.data() + done, text.size() - done); });
     if (written <= 0) return false;
     done += static_cast<size_t>(written);
   }
-  return fsync(file) == 0;
+  return uninterrupted([&] { return fsync(file); }) == 0;
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ static void set_filter(GstElement* element) {
   const spidar::Ref<GstElement> own(before);
   // The application's own, or the one that this tracer set for the previous film.
   if (own || (flags & kPlayVideo) == 0) return;
-  GstElement* filter = gst_spidar_feel_bin_new(g_getenv(SPIDAR_FEEL_VARIABLE));
+  GstElement* filter = gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE));
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 

@@ -20,7 +20,7 @@ constexpr guint32 kReplace = 2, kDoNotQueue = 4, kIsOwner = 1;
 
 /// Empty where there is no bus: GLib would start one.
 std::string bus_address() {
-  const gchar* const address = g_getenv("DBUS_SESSION_BUS_ADDRESS");
+  const gchar* const address = secure_getenv("DBUS_SESSION_BUS_ADDRESS");
   if (address) return address;
   g_autofree gchar* socket = g_build_filename(g_get_user_runtime_dir(), "bus", nullptr);
   return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";

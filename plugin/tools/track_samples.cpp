@@ -27,6 +27,7 @@
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_tags.h"
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::tools {
@@ -52,10 +53,11 @@ SampleSource SampleFile::samples(double gain) const {
   return {count_, [this, gain](const SampleSource::Take& take) {
             std::vector<TrackSample> samples(kAtOnce);
             for (size_t at = 0; at < count_;) {
-              const ssize_t got =
-                  pread(part_.descriptor(), samples.data(), samples.size() * sizeof(TrackSample),
-                        static_cast<off_t>(at * sizeof(TrackSample)));
-              if (got < 0 && errno == EINTR) continue;
+              const ssize_t got = uninterrupted([&] {
+                return pread(part_.descriptor(), samples.data(),
+                             samples.size() * sizeof(TrackSample),
+                             static_cast<off_t>(at * sizeof(TrackSample)));
+              });
               const size_t whole = got > 0 ? static_cast<size_t>(got) / sizeof(TrackSample) : 0;
               if (whole == 0) {
                 throw std::runtime_error(

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "spidar/install_folder.h"
+#include "spidar/realtime/uninterrupted.h"
 
 extern char** environ;
 
@@ -24,7 +25,7 @@ namespace {
 
 /// $SPIDAR_WINDOW, or the program that was built or installed with this plugin.
 std::string program() {
-  const char* const named = std::getenv("SPIDAR_WINDOW");
+  const char* const named = secure_getenv("SPIDAR_WINDOW");
   if (named && *named) return named;
   const std::filesystem::path beside = own_file().replace_filename("spidar-window");
   std::error_code error;
@@ -85,8 +86,7 @@ std::string Process::finish(int patience_ms) {
   int status = 0;
   pid_t ended = 0;
   for (int waited_ms = 0; ended == 0; waited_ms += kStep_ms) {
-    ended = waitpid(process_, &status, WNOHANG);
-    if (ended < 0 && errno == EINTR) ended = 0;
+    ended = uninterrupted([&] { return waitpid(process_, &status, WNOHANG); });
     if (ended != 0) break;
     if (waited_ms == patience_ms / kStep_ms * kStep_ms) kill(process_, SIGKILL);
     const timespec step{0, kStep_ms * 1'000'000};

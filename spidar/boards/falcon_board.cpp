@@ -11,6 +11,7 @@
 
 #include "spidar/boards/board_parts.h"
 #include "spidar/boards/falcon_kinematics.h"
+#include "spidar/user_folder.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::boards {
@@ -22,9 +23,9 @@ constexpr int kHellos = 10;
 constexpr size_t kMaxFirmware = 65'536;
 
 std::string firmware_path() {
-  if (const char* named = std::getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;
-  const char* home = std::getenv("HOME");
-  return (home ? std::string(home) : "") + "/.local/share/gst-spidar/novint-falcon.bin";
+  if (const char* named = secure_getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;
+  const std::filesystem::path folder = user_folder("XDG_DATA_HOME", ".local/share");
+  return folder.empty() ? "" : folder / "gst-spidar/novint-falcon.bin";
 }
 
 std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {

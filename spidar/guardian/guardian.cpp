@@ -20,6 +20,7 @@
 #include "spidar/guardian/sleep_inhibitor.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/uninterrupted.h"
 
 extern char** environ;
 
@@ -31,7 +32,7 @@ constexpr int kPatience_s = 5;
 constexpr int kScopePatience_s = 2;
 
 std::string program() {
-  const char* named = std::getenv("SPIDAR_GUARDIAN");
+  const char* named = secure_getenv("SPIDAR_GUARDIAN");
   return named && *named ? named : installed(SPIDAR_GUARDIAN_PATH).string();
 }
 
@@ -76,6 +77,10 @@ int spawn(std::vector<std::string> command, int its_end, pid_t& process) {
   return error;
 }
 
+int64_t seconds_from_now_ns(int seconds) {
+  return monotonic_now_ns() + seconds * kSecond_ns;
+}
+
 void set_patience(int socket, int seconds) {
   const timeval patience{seconds, 0};
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
@@ -83,7 +88,7 @@ void set_patience(int socket, int seconds) {
 }
 
 /// The will, the device's file, and a descriptor by which the end of this process is noticed.
-bool send_will(int socket, const LastWill& will) {
+bool send_will(int socket, const LastWill& will, int64_t until_ns) {
   const int self = static_cast<int>(syscall(SYS_pidfd_open, getpid(), 0));
   if (self < 0) return false;
   const std::array<int, 2> files{will.file, self};
@@ -100,7 +105,9 @@ bool send_will(int socket, const LastWill& will) {
   rights->cmsg_type = SCM_RIGHTS;
   rights->cmsg_len = CMSG_LEN(sizeof files);
   std::memcpy(CMSG_DATA(rights), files.data(), sizeof files);
-  const bool all = sendmsg(socket, &message, MSG_NOSIGNAL) == ssize_t{sizeof sent};
+  const bool all = uninterrupted_until(until_ns, [&] {
+                     return sendmsg(socket, &message, MSG_NOSIGNAL);
+                   }) == ssize_t{sizeof sent};
   const int error = errno;
   ::close(self);
   errno = error;
@@ -148,17 +155,24 @@ bool Guardian::connect_to(const std::string& path) {
   socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
   if (socket_ < 0) return false;
   set_patience(socket_, kPatience_s);  // a service that accepts nobody has a full queue
-  return connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  return uninterrupted_until(seconds_from_now_ns(kPatience_s), [&] {
+           return connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+         }) == 0;
 }
 
 /// Gives the guardian its will and waits for its answer.
 bool Guardian::greet(const LastWill& will, int patience_s) {
   set_patience(socket_, patience_s);
+  const int64_t until_ns = seconds_from_now_ns(patience_s);
   char answer = 0;
   errno = 0;
-  if (send_will(socket_, will) && recv(socket_, &answer, 1, 0) == 1) return true;
+  const auto is_answered = [&] {
+    return uninterrupted_until(until_ns, [&] { return recv(socket_, &answer, 1, 0); }) == 1;
+  };
+  if (send_will(socket_, will, until_ns) && is_answered()) return true;
   // Whatever was started has no will, or is a program that sleeps.
-  const int error = errno == EAGAIN || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
+  const int error =
+      errno == EAGAIN || errno == EINTR || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
   send_signal(SIGKILL);
   finish(End::kWait);
   errno = error;
@@ -177,7 +191,7 @@ void Guardian::carry_out() noexcept {
 bool Guardian::say(HostWord word) noexcept {
   const ssize_t sent = send(socket_, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
   // A full socket belongs to a guardian that sleeps; missing answers reveal that.
-  return sent == 1 || errno == EAGAIN || errno == EINTR;
+  return sent == 1 || errno == EAGAIN;
 }
 
 bool Guardian::watch(bool pulling) noexcept {
@@ -188,7 +202,7 @@ bool Guardian::watch(bool pulling) noexcept {
     zeroed_ |= answer == GuardianWord::kZeroed;
     unanswered_ns_ = 0;
   }
-  if (zeroed_ || got == 0 || (errno != EAGAIN && errno != EINTR)) return false;
+  if (zeroed_ || got == 0 || errno != EAGAIN) return false;
   const int64_t now_ns = monotonic_now_ns();
   if (unanswered_ns_ != 0 && now_ns - unanswered_ns_ > kAnswer_ms * kSecond_ns / 1000) return false;
   const bool due = now_ns - said_ns_ >= kBeat_ms * kSecond_ns / 1000;
@@ -214,15 +228,15 @@ void Guardian::finish(End end) noexcept {
     shutdown(socket_, SHUT_WR);
     char answer = 0;
     ssize_t got = 0;
+    const int64_t until_ns = seconds_from_now_ns(kEnd_s);
     do {
-      got = recv(socket_, &answer, 1, 0);
-    } while (got > 0 || (got < 0 && errno == EINTR));
+      got = uninterrupted_until(until_ns, [&] { return recv(socket_, &answer, 1, 0); });
+    } while (got > 0);
     // Its end of the socket is still open, so its process id has not been reused.
-    const bool open = got < 0 && errno == EAGAIN;
+    const bool open = got < 0 && (errno == EAGAIN || errno == EINTR);
     if (open && end == End::kWait) send_signal(SIGKILL);
     const bool leave = open && end == End::kLeave;
-    while (process_ > 0 && !leave && waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    if (process_ > 0 && !leave) uninterrupted([&] { return waitpid(process_, nullptr, 0); });
   }
   ::close(socket_);
   socket_ = -1;

@@ -27,6 +27,7 @@
 #include "spidar/guardian/sleep_inhibitor.h"
 #include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/standard_descriptors.h"
+#include "spidar/realtime/uninterrupted.h"
 
 namespace {
 
@@ -182,7 +183,9 @@ bool receive(LastWill& will, int& host) {
   message.msg_iovlen = 1;
   message.msg_control = space.data();
   message.msg_controllen = space.size();
-  if (recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC) != ssize_t{sizeof will}) return false;
+  const ssize_t got =
+      spidar::uninterrupted([&] { return recvmsg(STDIN_FILENO, &message, MSG_CMSG_CLOEXEC); });
+  if (got != ssize_t{sizeof will}) return false;
   const cmsghdr* rights = CMSG_FIRSTHDR(&message);
   if (!rights || rights->cmsg_type != SCM_RIGHTS || rights->cmsg_len != CMSG_LEN(sizeof files)) {
     return false;
@@ -213,8 +216,8 @@ bool watch(int host, LastWill& will, bool& pulled) {
   for (;;) {
     std::array<pollfd, 2> events{pollfd{STDIN_FILENO, POLLIN, 0}, pollfd{host, POLLIN, 0}};
     const int wait_ms = failed ? kRetry_ms : pulling || zeroed ? spidar::kSilence_ms : -1;
-    const int ready = poll(events.data(), events.size(), wait_ms);
-    if (ready < 0 && errno == EINTR) continue;
+    const int ready =
+        spidar::uninterrupted([&] { return poll(events.data(), events.size(), wait_ms); });
     if (ready < 0) return true;
     if (ready == 0) {
       // Once only, so that a host that continues gets its answers while the board fails.

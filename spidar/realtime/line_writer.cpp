@@ -16,6 +16,7 @@
 
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/realtime/uninterrupted.h"
 
 namespace spidar {
 namespace {
@@ -89,7 +90,8 @@ struct LineWriter::Output {
   /// 0, EAGAIN when it is given up, or why it fails.
   int write_all(std::string_view text) {
     while (!text.empty()) {
-      const ssize_t written = ::write(file, text.data(), text.size());
+      const ssize_t written =
+          uninterrupted([&] { return ::write(file, text.data(), text.size()); });
       if (written >= 0) {
         text.remove_prefix(static_cast<size_t>(written));
         written_bytes += static_cast<uint64_t>(written);
@@ -97,7 +99,7 @@ struct LineWriter::Output {
         if (is_given_up()) return EAGAIN;
         pollfd writable{file, POLLOUT, 0};
         poll(&writable, 1, static_cast<int>(kPeriod.count()));
-      } else if (errno != EINTR) {
+      } else {
         return errno;
       }
     }

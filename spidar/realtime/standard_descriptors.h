@@ -17,6 +17,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "spidar/realtime/uninterrupted.h"
+
 namespace spidar {
 
 /// Opens /dev/null for each of the descriptors 0 to 2 that is closed, as after `>&-` in a shell.
@@ -73,7 +75,9 @@ inline int open_linked_output(const char* path) noexcept {
 /// file overwritten; other links are followed (open_linked_output()). Returns the descriptor, or −1
 /// with the reason in errno: ELOOP for such a link, EPIPE for a pipe that nobody reads.
 inline int open_output(const char* path, int flags) noexcept {
-  int opened = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0666);
+  int opened = uninterrupted([&] {
+    return open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | flags, 0666);
+  });
   if (opened < 0 && errno == ELOOP) opened = open_linked_output(path);
   struct stat status {};
   if (opened < 0) {
@@ -99,7 +103,7 @@ inline bool is_empty_or_begins(const char* path, std::string_view begin) {
   const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
   std::string found(begin.size(), '\0');
-  const ssize_t bytes = pread(file, found.data(), found.size(), 0);
+  const ssize_t bytes = uninterrupted([&] { return pread(file, found.data(), found.size(), 0); });
   close(file);
   return bytes == 0 || (bytes == static_cast<ssize_t>(begin.size()) && found == begin);
 }

@@ -16,6 +16,7 @@
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/toml.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/user_folder.h"
 #include "spidar/whole_file.h"
 
 namespace spidar {
@@ -23,18 +24,8 @@ namespace spidar {
 namespace fs = std::filesystem;
 
 fs::path remembered_profiles_file() {
-  const auto variable = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return fs::path(value ? value : "");
-  };
-  // The specification ignores a relative path.
-  fs::path folder = variable("XDG_CONFIG_HOME");
-  if (!folder.is_absolute()) {
-    folder = variable("HOME");
-    if (!folder.is_absolute()) return {};
-    folder /= ".config";
-  }
-  return folder / "gst-spidar" / "boards.toml";
+  const fs::path folder = user_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? fs::path() : folder / "gst-spidar" / "boards.toml";
 }
 
 namespace {
@@ -77,7 +68,7 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 void store_profile(const std::string& usb_id, const std::string& serial,
                    const std::string& profile) {
   const fs::path file = remembered_profiles_file();
-  if (file.empty()) throw ProfileError("no profile can be remembered: HOME is not set");
+  if (file.empty()) throw ProfileError("no profile can be remembered: this user has no home");
   toml::table boards = remembered_boards(file);
   const bool is_path =
       profile.find('/') != std::string::npos || fs::path(profile).extension() == ".toml";

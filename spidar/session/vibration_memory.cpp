@@ -19,7 +19,9 @@
 
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/transports/transport.h"
+#include "spidar/user_folder.h"
 
 namespace spidar {
 namespace {
@@ -42,12 +44,12 @@ constexpr size_t kMaxText = 200;
 class LockedFile {
  public:
   explicit LockedFile(const std::string& path) {
-    std::error_code ignored;
-    fs::create_directories(fs::path(path).parent_path(), ignored);
+    std::error_code not_made;
+    fs::create_directories(fs::path(path).parent_path(), not_made);
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
     struct stat status {};
     if (file_ < 0 || fstat(file_, &status) != 0) {
-      error = errno;
+      error = errno == ENOENT && not_made ? not_made.value() : errno;
     } else if (!S_ISREG(status.st_mode)) {
       error = EINVAL;
     } else if (!lock_device(file_)) {
@@ -74,14 +76,15 @@ class LockedFile {
   std::string read() {
     if (error != 0) return {};
     std::array<char, kMaxText> text{};
-    const ssize_t length = pread(file_, text.data(), text.size(), 0);
+    const ssize_t length = uninterrupted([&] { return pread(file_, text.data(), text.size(), 0); });
     if (length < 0) error = errno;
     return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
   }
   /// In one piece, and always of the same length: nobody finds a part of it.
   void write(const std::string& text) {
     if (error != 0) return;
-    const ssize_t length = pwrite(file_, text.data(), text.size(), 0);
+    const ssize_t length =
+        uninterrupted([&] { return pwrite(file_, text.data(), text.size(), 0); });
     if (length != static_cast<ssize_t>(text.size())) error = length < 0 ? errno : ENOSPC;
     if (ftruncate(file_, static_cast<off_t>(text.size())) != 0) error = errno;
   }
@@ -92,21 +95,6 @@ class LockedFile {
  private:
   int file_ = -1;
 };
-
-std::string file_of_user() {
-  const auto variable = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return fs::path(value ? value : "");
-  };
-  if (std::getenv("SPIDAR_STATE")) {
-    const fs::path folder = variable("SPIDAR_STATE");
-    return folder.empty() ? "" : folder / "vibration";
-  }
-  fs::path folder = variable("XDG_STATE_HOME");
-  // The specification has it that others are ignored.
-  if (!folder.is_absolute()) folder = variable("HOME") / ".local/state";
-  return folder / "gst-spidar/vibration";
-}
 
 }  // namespace
 
@@ -129,7 +117,14 @@ int64_t VibrationMemory::Entry::left_ns(const Moment& now) const noexcept {
 
 VibrationMemory& VibrationMemory::of_user() {
   // Never destroyed: when a player exits, a session may still be open.
-  static auto& memory = *new VibrationMemory(file_of_user());
+  static auto& memory = *[] {
+    if (const char* const folder = secure_getenv("SPIDAR_STATE")) {
+      return new VibrationMemory(*folder ? fs::path(folder) / "vibration" : fs::path());
+    }
+    const fs::path folder = user_folder("XDG_STATE_HOME", ".local/state");
+    if (folder.empty()) return new VibrationMemory("", "this user has no home");
+    return new VibrationMemory(folder / "gst-spidar/vibration");
+  }();
   return memory;
 }
 
@@ -166,6 +161,7 @@ int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
   };
   std::optional<LockedFile> file;
   bool is_known = false;
+  if (!why_no_file_.empty()) distrust(why_no_file_);
   if (!file_.empty()) {
     file.emplace(file_);
     const std::string text = file->read();
@@ -183,7 +179,7 @@ int64_t VibrationMemory::add(int64_t taken_ns, const Moment& now) {
     if (file->error != 0) distrust(std::strerror(file->error));
   }
   if (!wrong.empty() && error_.empty()) {
-    error_ = file_ +
+    error_ = (file_.empty() ? "The file" : file_) +
              ", which keeps how much a hand was shaken within a day, cannot be used: " + wrong +
              ". Half of what is allowed in a day counts as used.";
   }

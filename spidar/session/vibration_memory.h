@@ -36,11 +36,13 @@ class VibrationMemory {
   static constexpr auto kUnknown_ns = static_cast<int64_t>(1e9 * VibrationBudget::kStore_m2_s3 / 2 /
                                                            VibrationBudget::kRefill_m2_s4);
 
-  /// Without a file, nothing is kept beyond this object.
-  explicit VibrationMemory(std::string file) : file_(std::move(file)) {}
+  /// Without a file, nothing is kept beyond this object; unless that is wanted, `why_no_file` says
+  /// why there is none.
+  explicit VibrationMemory(std::string file, std::string why_no_file = {})
+      : file_(std::move(file)), why_no_file_(std::move(why_no_file)) {}
 
-  /// The memory of the user, in $XDG_STATE_HOME/gst-spidar or, if SPIDAR_STATE is set, in that
-  /// folder; if SPIDAR_STATE is empty, a memory of this process only.
+  /// The memory of the user, in $XDG_STATE_HOME/gst-spidar (user_folder()) or, if SPIDAR_STATE is
+  /// set, in that folder; if SPIDAR_STATE is empty, a memory of this process only.
   static VibrationMemory& of_user();
 
   /// Adds what was taken since the last call, as the time that refilling it takes, and returns the
@@ -60,7 +62,7 @@ class VibrationMemory {
   static std::optional<Entry> parse(const std::string& text);
   static std::string text_of(const Entry& entry);
 
-  const std::string file_;
+  const std::string file_, why_no_file_;
   mutable std::mutex mutex_;
   std::optional<Entry> last_;  ///< known in this process
   std::string error_;

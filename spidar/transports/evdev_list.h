@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <linux/input.h>
@@ -12,22 +11,10 @@
 #include <sys/ioctl.h>
 #include <vector>
 
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/transports/device_identity.h"
 
 namespace spidar {
-
-/// Repeats a call that a signal has interrupted.
-template <typename Call>
-auto uninterrupted(const Call& call) noexcept {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-template <typename Argument>
-int call_ioctl(int file, unsigned long request, Argument* argument) noexcept {
-  return uninterrupted([&] { return ioctl(file, request, argument); });
-}
 
 template <size_t Bits>
 using BitSet = std::array<uint8_t, Bits / 8 + 1>;

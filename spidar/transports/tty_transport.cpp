@@ -18,6 +18,7 @@
 
 #include "spidar/device.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/text.h"
 #include "spidar/transports/transport.h"
 
@@ -86,7 +87,7 @@ LinkFault fault_of_line(int error) noexcept {
 /// more.
 bool set_raw(int file, int baud) noexcept {
   termios2 settings{};
-  if (ioctl(file, TCGETS2, &settings) != 0) return false;
+  if (call_ioctl(file, TCGETS2, &settings) != 0) return false;
   settings.c_iflag = 0;
   settings.c_oflag = 0;
   settings.c_lflag = 0;
@@ -95,7 +96,7 @@ bool set_raw(int file, int baud) noexcept {
   settings.c_ospeed = static_cast<speed_t>(baud);
   settings.c_cc[VMIN] = 0;
   settings.c_cc[VTIME] = 0;
-  return ioctl(file, TCSETS2, &settings) == 0;
+  return call_ioctl(file, TCSETS2, &settings) == 0;
 }
 
 /// FTDI adapters otherwise collect bytes for 16 ms. Other drivers do not support it, and pseudo
@@ -140,7 +141,8 @@ void TtyTransport::open() {
   if (first_.known() && access(path_.c_str(), F_OK) == 0) {
     first_.require(name_, tty_identity(path_));
   }
-  file_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  file_ = uninterrupted(
+      [&] { return ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); });
   if (file_ < 0) fail("cannot be opened");
   if (!lock_device(file_)) fail("cannot be locked");
   try {

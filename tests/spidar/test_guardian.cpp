@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -311,6 +312,26 @@ TEST(Guardian, IsRequiredUnlessDisabled) {
   settings.guardian = false;
   EXPECT_NO_THROW(make_device("usb", profile, settings)->open());
   setenv("SPIDAR_GUARDIAN", before.c_str(), 1);
+  clear_bus();
+}
+
+/// Profilers and music programs have timers. Some calls fail then with EINTR, the receiving of an
+/// answer with a limit even where the handler restarts calls.
+TEST(Guardian, IsStartedInAProgramThatGetsSignals) {
+  plug(0, "sh4");
+  for (const int flags : {0, SA_RESTART}) {
+    struct sigaction handler {
+    }, before{};
+    handler.sa_handler = [](int) {};
+    handler.sa_flags = flags;
+    sigaction(SIGALRM, &handler, &before);
+    const itimerval often{{0, 1000}, {0, 1000}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    EXPECT_NO_THROW(make_device("usb", load_profile(kUsbProfile))->open());
+    const itimerval never{};
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before, nullptr);
+  }
   clear_bus();
 }
 

@@ -3,9 +3,11 @@
 /// What a hand was shaken counts in the next program, too.
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <pwd.h>
 #include <string>
 #include <sys/file.h>
 #include <sys/resource.h>
@@ -18,6 +20,7 @@
 
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/vibration_memory.h"
+#include "spidar/user_folder.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test::vibration_memory_test {
@@ -136,6 +139,51 @@ TEST_F(VibrationMemories, AFileThatCannotBeOpenedIsSaid) {
   VibrationMemory nowhere("/proc/none/vibration");
   EXPECT_EQ(nowhere.add(0, at(kHour)), kEmpty_ns / 2);
   EXPECT_NE(nowhere.error(), "");
+}
+
+TEST_F(VibrationMemories, AUserWithoutAHomeHasHalf) {
+  VibrationMemory memory("", "this user has no home");
+  EXPECT_EQ(memory.add(0, at(kHour)), kEmpty_ns / 2);
+  EXPECT_EQ(memory.add(kHour, at(kHour)), kEmpty_ns / 2 + kHour);
+  EXPECT_EQ(memory.error(),
+            "The file, which keeps how much a hand was shaken within a day, cannot be used: this "
+            "user has no home. Half of what is allowed in a day counts as used.");
+  VibrationMemory wanted("");
+  EXPECT_EQ(wanted.add(0, at(kHour)), 0);
+  EXPECT_EQ(wanted.error(), "");
+}
+
+TEST_F(VibrationMemories, AHomeThatMayNotBeWrittenIsNamedAsThat) {
+  const uid_t user = geteuid();
+  fs::permissions(folder.path, fs::perms::owner_write, fs::perm_options::remove);
+  if (user == 0) ASSERT_EQ(seteuid(65534), 0);
+  VibrationMemory memory(file);
+  memory.add(0, at(kHour));
+  ASSERT_EQ(seteuid(user), 0);
+  fs::permissions(folder.path, fs::perms::owner_write, fs::perm_options::add);
+  EXPECT_NE(memory.error().find("Permission denied"), std::string::npos) << memory.error();
+}
+
+TEST(UserFolder, IsNeverBelowTheCurrentOne) {
+  const char* const before = std::getenv("HOME");
+  const std::string home = before ? before : "";
+  setenv("HOME", "/home/somebody", 1);
+  unsetenv("SPIDAR_TEST_HOME");
+  EXPECT_EQ(user_folder("SPIDAR_TEST_HOME", ".local"), "/home/somebody/.local");
+  setenv("SPIDAR_TEST_HOME", "/elsewhere", 1);
+  EXPECT_EQ(user_folder("SPIDAR_TEST_HOME", ".local"), "/elsewhere");
+  setenv("SPIDAR_TEST_HOME", "relative", 1);
+  EXPECT_EQ(user_folder("SPIDAR_TEST_HOME", ".local"), "/home/somebody/.local");
+  const passwd* const user = getpwuid(geteuid());
+  const fs::path of_database = user ? fs::path(user->pw_dir) / ".local" : fs::path();
+  for (const char* none : {"", "relative"}) {
+    setenv("HOME", none, 1);
+    EXPECT_EQ(user_folder("SPIDAR_TEST_HOME", ".local"), of_database);
+  }
+  unsetenv("HOME");
+  EXPECT_EQ(user_folder("SPIDAR_TEST_HOME", ".local"), of_database);
+  unsetenv("SPIDAR_TEST_HOME");
+  if (before) setenv("HOME", home.c_str(), 1);
 }
 
 /// What it says may be too little, or too much.
