@@ -34,9 +34,22 @@
 
 namespace spidar {
 
-/// The line of the first byte above ASCII that is neither in a string nor in a comment; 0 without
-/// one.
-inline int line_of_bare_letter(std::string_view text) {
+/// What toml++ must not be given, and its line; 0: there is nothing of that.
+struct TomlTrap {
+  int line = 0;
+  const char* what = "";
+};
+
+/// Looks for the first byte above ASCII that is neither in a string nor in a comment, at some of
+/// which, as U+01BA, toml++ 3.3 runs into undefined behaviour, and for a name of so many parts that
+/// a table for each of them, in another one, fills the stack.
+inline TomlTrap trap_in_toml(std::string_view text) {
+  constexpr int kMaxDots = 15;
+  int dots = 0;
+  const auto trap = [&](size_t at, const char* what) {
+    const auto lines = std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+    return TomlTrap{1 + static_cast<int>(lines), what};
+  };
   size_t i = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // a byte order mark
   std::string_view end;                                    // of the string or comment
   while (i < text.size()) {
@@ -53,9 +66,11 @@ inline int line_of_bare_letter(std::string_view text) {
       continue;
     }
     if (static_cast<unsigned char>(text[i]) >= 0x80) {
-      return 1 +
-             static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(i), '\n'));
+      return trap(i, "a letter that is not ASCII must be in quotes");
     }
+    // A name may go on to the end of its line; of numbers, each has one.
+    if (text[i] == ',' || text[i] == '=' || text[i] == '\n') dots = 0;
+    if (text[i] == '.' && ++dots > kMaxDots) return trap(i, "a name has more than 16 parts");
     for (const std::string_view begin : {"\"\"\"", "'''", "\"", "'", "#"}) {
       if (text.substr(i, begin.size()) != begin) continue;
       end = begin == "#" ? "\n" : begin;
@@ -64,7 +79,7 @@ inline int line_of_bare_letter(std::string_view text) {
     }
     ++i;
   }
-  return 0;
+  return {};
 }
 
 /// Throws ProfileError, which begins with `path`.
@@ -72,10 +87,8 @@ inline toml::table parse_toml(const std::string& text, const std::string& path) 
   const auto fail = [&](const std::string& line, const std::string& why) -> toml::table {
     throw ProfileError(path + line + ": not TOML: " + why);
   };
-  // toml++ 3.3 runs into undefined behaviour at some of them, as U+01BA.
-  if (const int line = line_of_bare_letter(text)) {
-    return fail(":" + std::to_string(line), "a letter that is not ASCII must be in quotes");
-  }
+  const TomlTrap trap = trap_in_toml(text);
+  if (trap.line > 0) return fail(":" + std::to_string(trap.line), trap.what);
   try {
     return toml::parse(std::string_view(text), path);
   } catch (const toml::parse_error& error) {

@@ -218,6 +218,13 @@ std::string one_exit(std::string exits) {
   return exits;
 }
 
+/// With a table in each other, it would fill the stack.
+std::string name_of(size_t parts) {
+  std::string name = "x";
+  while (--parts > 0) name += ".x";
+  return name;
+}
+
 class BrokenProfile : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenProfile, ErrorNamesFileLineFieldAndRemedy) {
@@ -249,6 +256,11 @@ INSTANTIATE_TEST_SUITE_P(
                "s = \"\"\"a \\\" é\"\"\"\" # 'é\né = 'ü'",
                {"not TOML", "not ASCII", "quotes"},
                "é = 'ü'"},
+        Broken{"dac_bits = 12",
+               "a = 0.5\n" + name_of(250'000) + " = 1",
+               {"not TOML", "16 parts"},
+               "x.x"},
+        Broken{"dac_bits = 12", "[" + name_of(17) + "]", {"not TOML", "16 parts"}},
         Broken{"board = \"uart\"", "bord = \"uart\"", {"bord", "unknown key", "board"}},
         Broken{"board = \"uart\"", "board = \"USB SH4\"", {"board", "\"USB SH4\"", "uart"}},
         Broken{"board = \"uart\"\n", "", {"board", "missing"}, "description"},
