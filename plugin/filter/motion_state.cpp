@@ -27,7 +27,7 @@ MotionState::MotionState(GstElement* element)
                track_samples.forward_waiting();
              }),
       choice(element),
-      display(element, output, no_force, choice),
+      display(element, output, no_force, choice, unread_messages),
       steps(element, [this](GstClockTime skipped) { skip(skipped); }),
       felt(element),
       warnings(element) {}

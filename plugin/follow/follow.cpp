@@ -69,6 +69,8 @@ class Follower {
   static constexpr int64_t kNoAnswer_ns = 300'000'000;
   /// So long, a player that is paused is not followed while others have yet to say that they play.
   static constexpr int64_t kSettle_ns = 1'000'000'000;
+  static constexpr int kMaxLooks = 8;       ///< films that are looked at together
+  static constexpr size_t kMaxSaid = 1000;  ///< sentences that are remembered
   /// So long, files that are being read and what is felt may take to end.
   static constexpr std::chrono::milliseconds kEnd{2000};
 
@@ -164,6 +166,8 @@ class Follower {
 
   /// What is known of an address: null while it is being looked at.
   std::shared_ptr<const FilmPlan> plan_of(const std::string& address) {
+    // A player may name another film before a slow disk has shown this one.
+    if (looking_ >= kMaxLooks && plans_.count(address) == 0) return nullptr;
     const auto [found, is_new] = plans_.emplace(address, nullptr);
     if (is_new) look_at(address);
     return found->second;
@@ -270,6 +274,7 @@ class Follower {
   // --- what is said -----------------------------------------------------------------------------
 
   void tell_once(const std::string& text) {
+    if (said_.size() >= kMaxSaid) said_.clear();
     if (said_.insert(text).second) tell(text);
   }
 

@@ -3,6 +3,7 @@
 #include "plugin/follow/mpris_player.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,8 @@ constexpr const char* kPath = "/org/mpris/MediaPlayer2";
 constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
 constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
 constexpr const char* kBus = "org.freedesktop.DBus";
+/// More than a person has; each is asked once a second.
+constexpr size_t kMaxPlayers = 64;
 
 /// What came of a question: an answer, or one of these, or another error.
 struct Answer {
@@ -60,7 +63,12 @@ PlayerState state_of(GVariant* properties) {
   }
   const Ref<GVariant> metadata(
       g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
-  if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text)) state.uri = text;
+  // Longer ones name no file, and would be kept.
+  constexpr size_t kMaxUri = 64 << 10;
+  if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text) &&
+      std::strlen(text) <= kMaxUri) {
+    state.uri = text;
+  }
   return state;
 }
 
@@ -106,7 +114,7 @@ void list_players(GDBusConnection* bus, const std::string& name, GCancellable* e
       const bool is_wanted = question->name.empty()
                                  ? g_str_has_prefix(each, kPrefix)
                                  : each == wanted || g_str_has_prefix(each, (wanted + ".").c_str());
-      if (is_wanted) found.emplace_back(each);
+      if (is_wanted && found.size() < kMaxPlayers) found.emplace_back(each);
     }
     g_variant_iter_free(names);
     question->take(std::move(found));

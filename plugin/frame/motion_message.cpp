@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/motion/objects/moving_object.h"
+#include "plugin/gobject/bus_messages.h"
 
 namespace spidar {
 namespace {
@@ -46,7 +47,7 @@ void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* s
 
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
                          const FrameReport& report, gint* unread) {
-  if (g_atomic_int_get(unread) >= kMaxUnread) return;
+  if (is_full_of_unread(*unread)) return;
   const Frame& frame = report.frame;
   GstStructure* s = gst_structure_new(
       "spidar-motion",                                                              //
@@ -64,14 +65,7 @@ void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTi
   set_motion(s, frame.motion.velocity_px_s, frame.wrench);
   gst_structure_set(s, "velocity-error", G_TYPE_DOUBLE, felt_error_px_s(frame), nullptr);
   describe_no_force(report.no_force, report.device_no_force, s);
-  GstMessage* const message = gst_message_new_element(GST_OBJECT(element), s);
-  g_atomic_int_inc(unread);
-  // The message holds the element until then.
-  const auto count_down = [](gpointer count, GstMiniObject*) {
-    g_atomic_int_add(static_cast<gint*>(count), -1);
-  };
-  gst_mini_object_weak_ref(GST_MINI_OBJECT_CAST(message), count_down, unread);
-  gst_element_post_message(element, message);
+  post_counted(element, gst_message_new_element(GST_OBJECT(element), s), *unread);
 }
 
 }  // namespace spidar

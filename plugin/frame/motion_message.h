@@ -23,13 +23,7 @@ void set_area(GstStructure* structure, const PicturePart& film);
 /// device-no-force-text (strings: a sentence, empty for "none").
 void describe_no_force(NoForceReason film, NoForceReason device, GstStructure* structure);
 
-/// While this many messages of an element wait on its bus, it posts no more of them: nobody reads
-/// them, and they would fill the memory by hundreds of megabytes an hour. At 25 frames/s an
-/// application that reads its bus has 40 s for it.
-constexpr gint kMaxUnread = 1000;
-
-/// Posts `spidar-motion`, whose fields the documentation of the element lists. `unread` counts the
-/// messages that exist, and lives as long as the element.
+/// Posts `spidar-motion`, whose fields the documentation of the element lists; see post_counted().
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
                          const FrameReport& report, gint* unread);
 

@@ -26,6 +26,12 @@ namespace spidar::window {
 namespace {
 
 constexpr const char* kNotOpen = "the debug window is not open";
+constexpr const char* kSilent = "the debug window does not answer";
+/// How long close() waits for the thread. It ends in two thirds of that, unless what it asks of the
+/// player does not return, which may wait for a lock of whoever closes the window.
+constexpr std::chrono::milliseconds kLongestClose = 3 * Window::kPatience;
+/// Of what is sent at once; more waits only for a window that does not read.
+constexpr size_t kMaxToSay = 1000;
 
 }  // namespace
 
@@ -44,6 +50,8 @@ class Window::Session {
   void fail(const std::string& error);
 
   void close();
+  /// False when the thread does not end in kLongestClose.
+  bool await_end();
   bool wants_frame() const { return is_asking_ && !is_full_; }
   bool give(const GstVideoFrame& frame, DrawnFrame report);
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
@@ -55,8 +63,10 @@ class Window::Session {
     FrameShown frame;
   };
 
+  void watch();
   bool serve(Channel& channel);
   void pass_on(Channel& channel);
+  void listen(Channel& channel);
   void handle(Channel& channel, FromWindow&& message);
   void answer(Channel& channel);
   void free_slot(const SlotFree& free);
@@ -71,6 +81,8 @@ class Window::Session {
   std::atomic<bool> is_full_{false};                         ///< there is no free slot
   // The thread.
   bool has_failed_ = false;        ///< the window has reported why it cannot be opened
+  bool is_asked_ = false;          ///< a question waits for its answer
+  bool is_understood_ = true;      ///< what the window sends
   uint32_t memory_at_window_ = 0;  ///< that was sent last
   // The streaming thread.
   uint32_t memories_ = 0;
@@ -82,6 +94,7 @@ class Window::Session {
   std::deque<ToWindow> to_say_;  ///< at once
   bool is_closing_ = false;
   bool is_gone_ = false;
+  bool has_ended_ = false;  ///< the thread
   uint64_t pictures_asked_ = 0, pictures_taken_ = 0;
   std::string picture_error_;
 };
@@ -130,8 +143,14 @@ void Window::Session::close() {
   wake();
 }
 
+bool Window::Session::await_end() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return changed_.wait_for(lock, kLongestClose, [&] { return has_ended_; });
+}
+
 void Window::Session::say(ToWindow message) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (to_say_.size() >= kMaxToSay) return;
   to_say_.push_back(std::move(message));
   wake();
 }
@@ -143,24 +162,32 @@ std::string Window::Session::take_picture(const std::string& path,
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   std::unique_lock<std::mutex> lock(mutex_);
   if (is_gone_) return kNotOpen;
+  if (to_say_.size() >= kMaxToSay) return kSilent;
   const uint64_t number = ++pictures_asked_;
   to_say_.emplace_back(TakePicture{error ? path : whole.string()});
   wake();
   const auto is_taken = [&] { return pictures_taken_ >= number || is_gone_; };
-  if (!changed_.wait_for(lock, timeout, is_taken)) return "the debug window does not answer";
+  if (!changed_.wait_for(lock, timeout, is_taken)) return kSilent;
   return pictures_taken_ >= number ? picture_error_ : kNotOpen;
 }
 
 // --- the thread --------------------------------------------------------------------------------
 
 void Window::Session::run() {
+  watch();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  has_ended_ = true;
+  changed_.notify_all();
+}
+
+void Window::Session::watch() {
   Process process;
   const std::string error =
       wake_ < 0 ? std::string("no eventfd: ") + std::strerror(errno) : process.start();
   if (!error.empty()) return fail(error);
   bool is_understood = false, has_left = false;
   {
-    Channel channel(process.socket());
+    Channel channel(process.socket(), Channel::kFromWindow);
     is_understood = serve(channel);
     has_left = channel.is_gone();
   }
@@ -180,29 +207,26 @@ void Window::Session::fail(const std::string& error) {
 }
 
 /// Until the window has closed its end, or has had its time for that. False when it sends what is
-/// no message.
+/// no message. A window that does not read is not listened to, so that what waits for it does not
+/// grow.
 bool Window::Session::serve(Channel& channel) {
   std::optional<std::chrono::steady_clock::time_point> latest;
-  while (!channel.is_gone()) {
-    const auto events = static_cast<short>(POLLIN | (channel.has_unsent() ? POLLOUT : 0));
+  while (is_understood_ && !channel.is_gone()) {
+    const short events = channel.has_unsent() ? POLLOUT : POLLIN;
     std::array<pollfd, 2> files{{{channel.socket(), events, 0}, {wake_, POLLIN, 0}}};
     const int wait_ms = latest ? 50 : -1;
     poll(files.data(), files.size(), wait_ms);
     eventfd_t ignored = 0;
     eventfd_read(wake_, &ignored);
-    pass_on(channel);
     channel.flush();
-    channel.fill();
-    while (const std::optional<std::vector<uint8_t>> packet = channel.next()) {
-      std::optional<FromWindow> message = from_window(*packet);
-      if (!message) return false;
-      handle(channel, std::move(*message));
-    }
+    if (!channel.has_unsent()) pass_on(channel);
+    if (!channel.has_unsent()) listen(channel);
+    if (is_asked_ && !channel.has_unsent()) answer(channel);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_closing_ && !latest) latest = std::chrono::steady_clock::now() + kPatience;
     if (latest && std::chrono::steady_clock::now() > *latest) break;
   }
-  return !channel.is_not_understood();
+  return is_understood_ && !channel.is_not_understood();
 }
 
 /// What is to be sent at once.
@@ -219,8 +243,19 @@ void Window::Session::pass_on(Channel& channel) {
   }
 }
 
+void Window::Session::listen(Channel& channel) {
+  channel.fill();
+  while (const std::optional<std::vector<uint8_t>> packet = channel.next()) {
+    std::optional<FromWindow> message = from_window(*packet);
+    is_understood_ = message.has_value();
+    if (!is_understood_) return;
+    if (is_possible(*message)) handle(channel, std::move(*message));
+  }
+}
+
 /// The frames that have passed, and the state of the element.
 void Window::Session::answer(Channel& channel) {
+  is_asked_ = false;
   std::deque<Waiting> frames;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -246,8 +281,7 @@ void Window::Session::free_slot(const SlotFree& free) {
 
 void Window::Session::handle(Channel& channel, FromWindow&& message) {
   if (std::holds_alternative<Ask>(message)) {
-    is_asking_ = true;
-    answer(channel);
+    is_asking_ = is_asked_ = true;
   } else if (const auto* free = std::get_if<SlotFree>(&message)) {
     free_slot(*free);
   } else if (const auto* change = std::get_if<ChangeSetting>(&message)) {
@@ -267,14 +301,13 @@ void Window::Session::handle(Channel& channel, FromWindow&& message) {
   } else if (const auto* taken = std::get_if<PictureTaken>(&message)) {
     end_waiting(taken->error);
   } else if (const auto* failed = std::get_if<CannotOpen>(&message)) {
-    has_failed_ = true;
-    source_->warn(failed->what, failed->advice);
+    if (!std::exchange(has_failed_, true)) source_->warn(failed->what, failed->advice);
   }
 }
 
 void Window::Session::end_waiting(const std::string& error) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++pictures_taken_;
+  if (pictures_taken_ < pictures_asked_) ++pictures_taken_;
   picture_error_ = error;
   changed_.notify_all();
 }
@@ -314,10 +347,11 @@ void Window::close() {
   session_->close();
   if (!thread_.joinable()) return;
   // Closed by its own person, the thread comes here itself.
-  if (thread_.get_id() == std::this_thread::get_id()) {
-    thread_.detach();
-  } else {
+  const bool is_own = thread_.get_id() == std::this_thread::get_id();
+  if (!is_own && session_->await_end()) {
     thread_.join();
+  } else {
+    thread_.detach();
   }
 }
 

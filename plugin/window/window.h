@@ -64,7 +64,7 @@ class Window {
   // --- any thread
 
   /// Waits until the window is gone; after kPatience, it is killed. Called by the window's own
-  /// thread, it does not wait.
+  /// thread, it does not wait; nor for ever, should that thread wait for the caller.
   void close();
   /// Writes what the window shows, with all that it was given before, to a PNG file. Returns an
   /// empty string, or why that fails.

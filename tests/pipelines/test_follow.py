@@ -254,6 +254,10 @@ class Follow(FollowCase):
             player.told_rate = rate
             player.change()
             time.sleep(.1)
+        for uri in ("file:///" + 1_000_000 * "x", self.film.as_uri()):
+            player.change(uri=uri)
+            time.sleep(.3)
+        self.assertLess(len(self.said()), 100_000)
         for position_s in (-1e6, 9e12, -9e12, 1e6, 20):
             player.change(position_s=position_s)
             time.sleep(.3)

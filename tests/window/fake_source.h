@@ -15,7 +15,7 @@
 namespace spidar::test {
 
 /// Notes what it is told. Functions that wait do so however long it takes.
-class FakeSource final : public window::Source {
+class FakeSource : public window::Source {
  public:
   explicit FakeSource(window::ElementState state = {}) : state_(std::move(state)) {
     if (state_.name.empty()) state_.name = "fake";
@@ -29,6 +29,7 @@ class FakeSource final : public window::Source {
   }
   void read(window::ElementState& state) override {
     const std::lock_guard<std::mutex> lock(mutex_);
+    ++reads_;
     state = state_;
   }
   void set(const std::string& setting, double value) override {
@@ -71,6 +72,10 @@ class FakeSource final : public window::Source {
   Places wait_for_choices(size_t count) { return wait_for(choices_, count); }
   using Saves = std::vector<std::pair<std::string, std::vector<FeelEdit>>>;
   Saves wait_for_saves(size_t count) { return wait_for(saves_, count); }
+  int reads() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return reads_;
+  }
   std::vector<std::string> warnings() { return wait_for(warnings_, 0); }
   void wait_until_closed() {
     std::unique_lock<std::mutex> lock(mutex_);
@@ -102,6 +107,7 @@ class FakeSource final : public window::Source {
   Saves saves_;
   std::vector<std::string> warnings_;
   bool is_closed_ = false;
+  int reads_ = 0;
 };
 
 }  // namespace spidar::test

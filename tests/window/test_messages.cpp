@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // What a player and its window say to each other: as it was said, or refused.
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <fcntl.h>
 #include <random>
@@ -151,13 +152,30 @@ TEST(Messages, ThatAreDamagedDoNoHarm) {
   }
 }
 
+TEST(Messages, ThatNoPersonAsksForAreRefused) {
+  for (const window::FromWindow& message : from_window_messages()) {
+    EXPECT_TRUE(window::is_possible(message)) << message.index();
+  }
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_FALSE(window::is_possible(window::ChangeSetting{"max-force", bad}));
+    EXPECT_FALSE(window::is_possible(window::LeadHand{Eigen::Vector3d(0, bad, 0)}));
+  }
+  for (const double bad : {std::nan(""), HUGE_VAL, -0.01, 1.01}) {
+    const Eigen::Vector2d position(0.5, bad);
+    EXPECT_FALSE(window::is_possible(window::ChooseObject{position}));
+    EXPECT_FALSE(window::is_possible(window::SaveChoices{"film", {{0, 1, position}}}));
+  }
+  EXPECT_FALSE(window::is_possible(window::SeekFilm{-1}));
+  EXPECT_FALSE(window::is_possible(window::SaveChoices{"film", {{-1, 1, std::nullopt}}}));
+}
+
 class ChannelTest : public testing::Test {
  protected:
   ChannelTest() {
     std::array<int, 2> ends{};
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
-    here = std::make_unique<window::Channel>(ends[0]);
-    there = std::make_unique<window::Channel>(ends[1]);
+    here = std::make_unique<window::Channel>(ends[0], window::Channel::kFromPlayer);
+    there = std::make_unique<window::Channel>(ends[1], window::Channel::kFromPlayer);
   }
 
   std::unique_ptr<window::Channel> here, there;
@@ -199,6 +217,24 @@ TEST_F(ChannelTest, GivesAwayACopyOfAFile) {
   ::close(ends[0]);
 }
 
+TEST_F(ChannelTest, EndsWhenMoreComesThanItsLimits) {
+  constexpr window::Channel::Limits kFew{100, 1};
+  const auto is_understood = [&](size_t bytes, int files) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+    window::Channel from(ends[0], kFew), to(ends[1], kFew);
+    for (int n = 0; n < files; ++n) from.send({1}, from.socket());
+    from.send(Bytes(bytes));
+    to.fill();
+    while (to.next()) {
+    }
+    return !to.is_not_understood();
+  };
+  EXPECT_TRUE(is_understood(100, 1));
+  EXPECT_FALSE(is_understood(101, 0));
+  EXPECT_FALSE(is_understood(1, 2));
+}
+
 TEST_F(ChannelTest, KnowsWhenTheOtherEndIsGone) {
   there->send({5});
   there.reset();
@@ -220,7 +256,7 @@ TEST_F(ChannelTest, DoesNotUnderstandAnotherVersionNorNonsense) {
         {reinterpret_cast<uint8_t*>(const_cast<char*>(nonsense.data())), nonsense.size()}}) {
     std::array<int, 2> ends{};
     ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
-    window::Channel channel(ends[1]);
+    window::Channel channel(ends[1], window::Channel::kFromPlayer);
     ASSERT_EQ(write(ends[0], bytes, count), static_cast<ssize_t>(count));
     channel.fill();
     EXPECT_FALSE(channel.next());

@@ -3,18 +3,24 @@
 // Debug windows on an X server of the test: opened, used, closed, and everything that can go wrong.
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <sys/socket.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "plugin/window/view/channel.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/window/fake_source.h"
@@ -221,6 +227,82 @@ TEST_F(WindowTest, OneThatDoesNotAnswerIsKilledWhenItIsToClose) {
     EXPECT_FALSE(window.wants_frame());
   }
   EXPECT_EQ(children(), before);
+}
+
+/// What a window sends for these messages.
+std::string sent(const std::vector<window::FromWindow>& messages) {
+  std::array<int, 2> ends{};
+  EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+  window::Channel channel(ends[0], window::Channel::kFromPlayer);
+  for (const window::FromWindow& message : messages) channel.send(window::to_bytes(message));
+  std::string bytes(1 << 20, '\0');
+  bytes.resize(static_cast<size_t>(read(ends[1], bytes.data(), bytes.size())));
+  ::close(ends[1]);
+  return bytes;
+}
+
+/// A window that sends these messages, and then neither reads nor ends.
+class LyingWindow {
+ public:
+  explicit LyingWindow(const std::vector<window::FromWindow>& messages) {
+    std::ofstream(folder_.path / "messages", std::ios::binary) << sent(messages);
+  }
+  void await_sent() const {
+    while (!std::filesystem::exists(folder_.path / "sent")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+ private:
+  const TemporaryFolder folder_;
+  const OtherProgram program_{"cat " + (folder_.path / "messages").string() + " >&0; touch " +
+                              (folder_.path / "sent").string() + "; exec sleep 1000"};
+};
+
+TEST_F(WindowTest, OneThatAsksAndDoesNotReadIsNotAnswered) {
+  // The first answer is larger than the socket; each further one would wait in the memory.
+  window::ElementState state;
+  state.no_force = std::string(1'000'000, 'x');
+  const auto source = std::make_shared<FakeSource>(state);
+  const LyingWindow lying(std::vector<window::FromWindow>(500, window::Ask()));
+  {
+    const window::Window window(source);
+    lying.await_sent();
+  }
+  EXPECT_LE(source->reads(), 1);
+}
+
+TEST_F(WindowTest, OneThatSaysManyThingsIsWarnedOfOnce) {
+  const auto source = std::make_shared<FakeSource>();
+  const LyingWindow lying(std::vector<window::FromWindow>(
+      500, window::CannotOpen{"it cannot be opened", "nothing helps"}));
+  {
+    const window::Window window(source);
+    lying.await_sent();
+  }
+  EXPECT_LE(source->warnings().size(), 1u);
+}
+
+/// The player's own code, in which the thread of the window is, may wait for a lock of whoever
+/// closes the window: a change of the state, an application.
+TEST_F(WindowTest, IsClosedByWhomItWaitsFor) {
+  struct Waiting final : FakeSource {
+    void seek(int64_t to_ns) override {
+      FakeSource::seek(to_ns);
+      const std::lock_guard<std::mutex> lock(of_closer);
+    }
+    std::mutex of_closer;
+  };
+  const int before = children();
+  const auto source = std::make_shared<Waiting>();
+  const LyingWindow lying({window::SeekFilm{5}});
+  std::unique_lock<std::mutex> lock(source->of_closer);
+  {
+    const window::Window window(source);
+    source->wait_for_seeks(1);
+  }
+  lock.unlock();
+  while (children() != before) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 TEST_F(WindowTest, WithoutOpenGl33IsAWarning) {

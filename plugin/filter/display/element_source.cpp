@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "plugin/filter/choice/feel_file.h"
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
 #include "plugin/gobject/ref.h"
 
@@ -90,8 +93,8 @@ double get_value(GObject* object, const window::Setting& setting) {
 class ElementSource final : public window::Source {
  public:
   ElementSource(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
-                MotionChoice& choice)
-      : output_(output), no_force_(no_force), choice_(choice) {
+                MotionChoice& choice, gint& unread_messages)
+      : output_(output), no_force_(no_force), choice_(choice), unread_messages_(unread_messages) {
     g_weak_ref_init(&element_, element);
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
@@ -126,9 +129,11 @@ class ElementSource final : public window::Source {
         g_object_class_find_property(G_OBJECT_GET_CLASS(held.get()), name.c_str());
     window::Setting setting;
     if (!spec || !describe(held.get(), spec, setting)) return;
-    const double value = setting.kind == window::Setting::Kind::kChoice
-                             ? wanted
-                             : std::clamp(wanted, setting.low, setting.high);
+    const bool is_choice = setting.kind == window::Setting::Kind::kChoice;
+    const auto is_one = [&](const auto& choice) { return choice.value == wanted; };
+    const auto& choices = setting.choices;
+    if (is_choice && std::none_of(choices.begin(), choices.end(), is_one)) return;
+    const double value = is_choice ? wanted : std::clamp(wanted, setting.low, setting.high);
     const char* property = setting.name.c_str();
     switch (G_PARAM_SPEC_VALUE_TYPE(spec)) {
       case G_TYPE_DOUBLE:
@@ -183,20 +188,30 @@ class ElementSource final : public window::Source {
   /// Only the application may change the state of its pipeline.
   void play(bool plays) override {
     const Ref<GstElement> held = hold(element_);
-    if (!held) return;
+    if (!held || is_full_of_unread(unread_messages_)) return;
     const GstState state = plays ? GST_STATE_PLAYING : GST_STATE_PAUSED;
-    gst_element_post_message(held.get(),
-                             gst_message_new_request_state(GST_OBJECT(held.get()), state));
+    post_counted(held.get(), gst_message_new_request_state(GST_OBJECT(held.get()), state),
+                 unread_messages_);
   }
 
-  /// From the element upstream, as a sink would: whatever reads the film seeks for all streams.
+  /// From the element upstream, as a sink would: whatever reads the film seeks for all streams. In
+  /// a thread of GStreamer's, because seeking may take long and waits for a change of the state,
+  /// which in turn waits for the thread of the window. Of several that wait, the last is executed.
   void seek(int64_t to_ns) override {
     const Ref<GstElement> held = hold(element_);
-    if (!held || to_ns < 0) return;
-    const auto flags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT);
-    gst_element_send_event(held.get(),
-                           gst_event_new_seek(1, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET, to_ns,
-                                              GST_SEEK_TYPE_NONE, 0));
+    if (!held || sought_ns_->exchange(to_ns) != kNone_ns) return;
+    using Sought = std::shared_ptr<std::atomic<int64_t>>;
+    gst_element_call_async(
+        held.get(),
+        [](GstElement* element, gpointer sought) {
+          const auto flags =
+              static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT);
+          gst_element_send_event(
+              element, gst_event_new_seek(1, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
+                                          (*static_cast<Sought*>(sought))->exchange(kNone_ns),
+                                          GST_SEEK_TYPE_NONE, 0));
+        },
+        new Sought(sought_ns_), [](gpointer sought) { delete static_cast<Sought*>(sought); });
   }
 
   void warn(const std::string& what, const std::string& advice) override {
@@ -212,6 +227,8 @@ class ElementSource final : public window::Source {
   }
 
  private:
+  static constexpr int64_t kNone_ns = -1;
+
   static void list_settings(GstElement* element, std::vector<window::Setting>& settings) {
     guint count = 0;
     GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
@@ -235,16 +252,19 @@ class ElementSource final : public window::Source {
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
+  gint& unread_messages_;
   std::vector<window::Setting> settings_;  ///< without their values
   std::vector<std::string> presets_;
+  const std::shared_ptr<std::atomic<int64_t>> sought_ns_ =
+      std::make_shared<std::atomic<int64_t>>(kNone_ns);  ///< until a seek to it begins
 };
 
 }  // namespace
 
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
-                                                    MotionChoice& choice) {
-  return std::make_shared<ElementSource>(element, output, no_force, choice);
+                                                    MotionChoice& choice, gint& unread_messages) {
+  return std::make_shared<ElementSource>(element, output, no_force, choice, unread_messages);
 }
 
 }  // namespace spidar::filter

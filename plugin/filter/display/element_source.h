@@ -29,6 +29,6 @@ inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
 /// belong to `element` and live as long.
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
-                                                    MotionChoice& choice);
+                                                    MotionChoice& choice, gint& unread_messages);
 
 }  // namespace spidar::filter

@@ -26,8 +26,13 @@ class MotionDisplay {
  public:
   /// The other arguments belong to `element` and live as long.
   MotionDisplay(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
-                MotionChoice& choice)
-      : element_(element), output_(output), no_force_(no_force), choice_(choice), hand_(output) {}
+                MotionChoice& choice, gint& unread_messages)
+      : element_(element),
+        output_(output),
+        no_force_(no_force),
+        choice_(choice),
+        unread_messages_(unread_messages),
+        hand_(output) {}
 
   // --- streaming thread
 
@@ -63,6 +68,7 @@ class MotionDisplay {
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
+  gint& unread_messages_;
   SinkHand hand_;
   // Streaming thread.
   PointOwners owners_;

@@ -135,7 +135,9 @@ void PlayerLink::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
 
 ChoicesSaved PlayerLink::save(const std::string& film, const std::vector<FeelEdit>& edits) {
   saved_.reset();
-  send(SaveChoices{film, edits});
+  const std::vector<uint8_t> request = to_bytes(FromWindow(SaveChoices{film, edits}));
+  if (request.size() > Channel::kFromWindow.bytes) return {false, "Not saved: too many choices."};
+  channel_->send(request);
   const std::chrono::steady_clock::time_point until =
       std::chrono::steady_clock::now() + kSavePatience;
   while (!saved_ && wait(until)) receive();

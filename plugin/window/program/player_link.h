@@ -46,7 +46,8 @@ class FrameQueue {
 class PlayerLink {
  public:
   /// Takes over the socket.
-  explicit PlayerLink(int socket) : channel_(std::make_shared<Channel>(socket)) {}
+  explicit PlayerLink(int socket)
+      : channel_(std::make_shared<Channel>(socket, Channel::kFromPlayer)) {}
 
   /// Asks for what is to be drawn next, and waits for the answer, no longer than `patience`.
   void ask(std::chrono::milliseconds patience);

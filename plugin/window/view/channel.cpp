@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "plugin/window/view/messages.h"
+#include "spidar/realtime/uninterrupted.h"
 
 namespace spidar::window {
 namespace {
@@ -24,12 +25,12 @@ struct Header {
 static_assert(sizeof(Header) == 12, "without padding");
 
 /// Files that may come at once.
-constexpr size_t kMostFiles = 4;
+constexpr size_t kMaxFiles = 4;
 constexpr size_t kReadBytes = 64 << 10;
 
 /// A descriptor that is on its way through a socket counts only until that is closed.
 bool is_refused(int error) {
-  return error != EAGAIN && error != EINTR && error != ENOBUFS;
+  return error != EAGAIN && error != ENOBUFS;
 }
 
 }  // namespace
@@ -69,10 +70,11 @@ bool Channel::send_some(Unsent& packet) {
     rights->cmsg_len = CMSG_LEN(sizeof(int));
     std::memcpy(CMSG_DATA(rights), &packet.file, sizeof(int));
   }
-  const ssize_t sent = sendmsg(socket_, &message, MSG_DONTWAIT | MSG_NOSIGNAL);
+  const ssize_t sent =
+      uninterrupted([&] { return sendmsg(socket_, &message, MSG_DONTWAIT | MSG_NOSIGNAL); });
   if (sent < 0) {
     is_gone_ |= is_refused(errno);
-    return errno == EINTR;
+    return false;
   }
   packet.sent += static_cast<size_t>(sent);
   if (packet.file >= 0) ::close(packet.file);
@@ -88,16 +90,16 @@ void Channel::flush() {
 
 void Channel::fill() {
   std::array<uint8_t, kReadBytes> bytes;
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(kMostFiles * sizeof(int))> space;
-  while (!is_gone_ && received_.size() - taken_ <= sizeof(Header) + kMaxBytes) {
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(kMaxFiles * sizeof(int))> space;
+  while (!is_gone_ && received_.size() - taken_ <= sizeof(Header) + limits_.bytes) {
     iovec room{bytes.data(), bytes.size()};
     msghdr message{};
     message.msg_iov = &room;
     message.msg_iovlen = 1;
     message.msg_control = space.data();
     message.msg_controllen = space.size();
-    const ssize_t got = recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
-    if (got < 0 && errno == EINTR) continue;
+    const ssize_t got =
+        uninterrupted([&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); });
     if (got <= 0) {
       is_gone_ |= got == 0 || is_refused(errno);
       return;
@@ -105,11 +107,12 @@ void Channel::fill() {
     received_.insert(received_.end(), bytes.begin(), bytes.begin() + got);
     for (cmsghdr* part = CMSG_FIRSTHDR(&message); part; part = CMSG_NXTHDR(&message, part)) {
       if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_RIGHTS) continue;
-      const size_t count = std::min((part->cmsg_len - CMSG_LEN(0)) / sizeof(int), kMostFiles);
-      std::array<int, kMostFiles> files{};
+      const size_t count = std::min((part->cmsg_len - CMSG_LEN(0)) / sizeof(int), kMaxFiles);
+      std::array<int, kMaxFiles> files{};
       std::memcpy(files.data(), CMSG_DATA(part), count * sizeof(int));
       files_.insert(files_.end(), files.begin(), files.begin() + static_cast<ptrdiff_t>(count));
     }
+    if (files_.size() > limits_.files) misunderstand();
   }
 }
 
@@ -118,15 +121,15 @@ std::optional<std::vector<uint8_t>> Channel::next() {
   const Header own;
   if (received_.size() - taken_ < sizeof header) return std::nullopt;
   std::memcpy(&header, received_.data() + taken_, sizeof header);
-  if (header.magic != own.magic || header.version != own.version || header.bytes > kMaxBytes) {
-    is_gone_ = is_not_understood_ = true;
+  if (header.magic != own.magic || header.version != own.version || header.bytes > limits_.bytes) {
+    misunderstand();
     return std::nullopt;
   }
   if (received_.size() - taken_ - sizeof header < header.bytes) return std::nullopt;
   const auto first = received_.begin() + static_cast<ptrdiff_t>(taken_ + sizeof header);
   std::vector<uint8_t> packet(first, first + header.bytes);
   taken_ += sizeof header + header.bytes;
-  if (taken_ == received_.size() || taken_ > kMaxBytes) {
+  if (taken_ == received_.size() || taken_ > limits_.bytes) {
     received_.erase(received_.begin(), received_.begin() + static_cast<ptrdiff_t>(taken_));
     taken_ = 0;
   }

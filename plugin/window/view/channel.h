@@ -15,11 +15,19 @@ namespace spidar::window {
 /// may come with it. No function waits. One thread.
 class Channel {
  public:
-  /// More than any picture's report takes. The other end is broken if it sends more.
-  static constexpr uint32_t kMaxBytes = 64 << 20;
+  /// What may come in a packet, and the files that may wait. The other end is broken if it sends
+  /// more.
+  struct Limits {
+    uint32_t bytes = 0;
+    size_t files = 0;
+  };
+  /// A picture's report takes less than that. Its memory is taken as soon as it is there.
+  static constexpr Limits kFromPlayer{64 << 20, 16};
+  /// A thousand choices to be saved, 33 bytes each, with the path of their film. No files.
+  static constexpr Limits kFromWindow{64 << 10, 0};
 
   /// Takes over the socket (AF_UNIX, SOCK_STREAM).
-  explicit Channel(int socket) : socket_(socket) {}
+  Channel(int socket, const Limits& limits) : socket_(socket), limits_(limits) {}
   ~Channel();
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
@@ -49,8 +57,10 @@ class Channel {
     int file = -1;
   };
   bool send_some(Unsent& packet);
+  void misunderstand() { is_gone_ = is_not_understood_ = true; }
 
-  int socket_;
+  const int socket_;
+  const Limits limits_;
   std::deque<Unsent> unsent_;
   std::vector<uint8_t> received_;
   size_t taken_ = 0;  ///< bytes of received_ that next() has returned

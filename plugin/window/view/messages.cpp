@@ -2,6 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/window/view/messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -432,6 +434,28 @@ std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes) {
 
 std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes) {
   return read<FromWindow>(bytes);
+}
+
+bool is_possible(const FromWindow& request) {
+  const auto is_in_picture = [](const std::optional<Eigen::Vector2d>& position) {
+    return !position || (position->array() >= 0 && position->array() <= 1).all();
+  };
+  if (const auto* change = std::get_if<ChangeSetting>(&request)) {
+    return std::isfinite(change->value);
+  }
+  if (const auto* lead = std::get_if<LeadHand>(&request)) {
+    return !lead->to_m || lead->to_m->allFinite();
+  }
+  if (const auto* choose = std::get_if<ChooseObject>(&request)) {
+    return is_in_picture(choose->position);
+  }
+  if (const auto* seek = std::get_if<SeekFilm>(&request)) return seek->to_ns >= 0;
+  if (const auto* save = std::get_if<SaveChoices>(&request)) {
+    return std::all_of(save->edits.begin(), save->edits.end(), [&](const FeelEdit& edit) {
+      return edit.from_ns >= 0 && is_in_picture(edit.position);
+    });
+  }
+  return true;
 }
 
 }  // namespace spidar::window

@@ -113,8 +113,11 @@ using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseOb
 std::vector<uint8_t> to_bytes(const ToWindow& message);
 std::vector<uint8_t> to_bytes(const FromWindow& message);
 /// Nothing when the bytes are not those of exactly one message, with enumerations and sizes in
-/// their range. The receiver checks the other values.
+/// their range. Of other values, see is_possible().
 std::optional<ToWindow> to_window(const std::vector<uint8_t>& bytes);
 std::optional<FromWindow> from_window(const std::vector<uint8_t>& bytes);
+/// Whether the numbers of a request are finite, its positions in the picture and its times in a
+/// film. Whether a setting has such a value, and the hand reaches so far, the element knows.
+bool is_possible(const FromWindow& request);
 
 }  // namespace spidar::window
