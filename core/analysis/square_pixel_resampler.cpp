@@ -12,9 +12,13 @@
 
 namespace spidar {
 
+int SquarePixelResampler::width_of(int stored_width, double pixel_aspect) {
+  return std::max(1, static_cast<int>(std::lround(stored_width * pixel_aspect)));
+}
+
 ImageView SquarePixelResampler::view(const ImageView& picture, double pixel_aspect) {
   if (pixel_aspect == 1) return picture;
-  const int width = std::max(1, static_cast<int>(std::lround(picture.width * pixel_aspect)));
+  const int width = width_of(picture.width, pixel_aspect);
   const ImageView from = in_8_bits(picture, eight_bits_);
   resampled_.resize(static_cast<size_t>(width) * static_cast<size_t>(picture.height));
   cv::Mat square(picture.height, width, CV_8U, resampled_.data());

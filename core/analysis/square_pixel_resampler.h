@@ -20,6 +20,8 @@ class SquarePixelResampler {
   /// is width over height of a pixel. Valid until the next call. Allocates only when the size
   /// changes.
   ImageView view(const ImageView& picture, double pixel_aspect);
+  /// The width of that picture, at least 1.
+  static int width_of(int stored_width, double pixel_aspect);
 
  private:
   std::vector<uint8_t> eight_bits_;

@@ -44,7 +44,8 @@ constexpr FaultWords kFaultWords[] = {
     {"it is outside the segment or cropped to nothing", nullptr, nullptr},
     {"one of its sides is too short or too long",
      "Frames with a side below %1$d or above %2$d pixels are only shown.",
-     "A videoscale before the element makes them smaller or larger."},
+     "The shortest side is that of square pixels. A videoscale before the element makes them "
+     "smaller or larger."},
     {"the half of it that is picture is too small",
      "The half that is picture is smaller than %1$d x %1$d pixels; it is neither felt nor touched.",
      "Half of the frame is picture and half is depth. Larger frames are felt; with touch=off or "

@@ -3,9 +3,14 @@
 /// Reports on the bus when something is wrong that does not stop the video.
 #pragma once
 
+#include <exception>
+#include <string>
+#include <utility>
+
 #include <gst/gst.h>
 
 #include "plugin/frame/frame_report.h"
+#include "plugin/gobject/bus_messages.h"
 #include "plugin/output/device_warnings.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
@@ -22,12 +27,29 @@ class BusWarnings {
   /// Another stream begins: faults of frames may be reported again.
   void begin_stream() {
     frame_faults_ = 0;
+    exception_ = false;
     touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
   }
 
   /// Looks at the bins around the element, which may have a running time of their own.
   void check_bins();
   void check_frame(const FrameReport& report);
+  /// Calls `function`. When it throws, reports that once, and returns false: what nobody foresaw
+  /// does not end a film. `doing` completes "while …" in the debug text.
+  template <typename Function>
+  bool guard(const char* doing, Function&& function,
+             SourceLocation location = SourceLocation::here()) {
+    try {
+      function();
+      return true;
+    } catch (const std::exception& error) {
+      if (!std::exchange(exception_, true)) {
+        post_exception(element_, GST_MESSAGE_WARNING, error,
+                       std::string("while ") + doing + "; the video goes on", location);
+      }
+      return false;
+    }
+  }
   /// Reports once that the trace can no longer be written. `error`: errno, or 0 when it can.
   void check_trace(int error);
   void check_touch(const HapticOutput& output, const FrameReport& report,
@@ -41,7 +63,7 @@ class BusWarnings {
   guint frame_faults_ = 0;  ///< bit i: FrameReport::Fault i was reported
   // Reported:
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
-  bool trace_ = false;
+  bool trace_ = false, exception_ = false;
   DeviceWarnings device_;
 };
 

@@ -110,16 +110,16 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   MotionState& state = *self->state;
   const spidar::FrameSettings& settings = state.frame_settings;
   const FrameReport& report = state.report();
-  const bool processed = spidar::guarded(GST_ELEMENT(self), "analysing a frame", [&] {
+  const bool processed = state.warnings.guard("analysing a frame", [&] {
     complete_settings(state, *frame);
     take_track(state, frame->info);
     state.display.show(state.process(*frame, GST_BASE_TRANSFORM(filter)->segment), settings,
                        *frame);
   });
   if (!processed) {
-    // The application may leave the pipeline in PLAYING.
+    state.live.begin_run();
     state.reliefs.clear();
-    return GST_FLOW_ERROR;
+    return GST_FLOW_OK;
   }
   log_frame(self, report, frame->buffer);
   state.warnings.check_frame(report);
@@ -141,10 +141,9 @@ static GstFlowReturn gst_spidar_motion_transform_ip(GstBaseTransform* trans, Gst
     return parent_class()->transform_ip(trans, buffer);
   }
   MotionState& state = *GST_SPIDAR_MOTION(trans)->state;
-  const bool passed = spidar::guarded(GST_ELEMENT(trans), "passing a gap",
-                                      [&] { state.pass_gap(buffer, trans->segment); });
+  state.warnings.guard("passing a gap", [&] { state.pass_gap(buffer, trans->segment); });
   state.display.reset();
-  return passed && check_device(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
+  return check_device(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }
 
 /// In passthrough the buffer may not be writable. A meta belongs to the buffer and not to its
@@ -187,8 +186,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     }
     case GST_EVENT_STREAM_START:
       state.warnings.begin_stream();
-      spidar::guarded(GST_ELEMENT(self), "looking for a track",
-                      [self] { begin_to_load_track(self); });
+      state.warnings.guard("looking for a track", [self] { begin_to_load_track(self); });
       // What is scheduled stays: without a flush, its frames still wait for the screen.
       state.begin_epoch();
       state.orientation.begin_stream();

@@ -56,20 +56,6 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
                            location.line);
 }
 
-/// Calls `function`. When it throws, posts the exception as an error and returns false. `doing`
-/// completes "while …" in the debug text.
-template <typename Function>
-bool guarded(GstElement* element, const char* doing, Function&& function,
-             SourceLocation location = SourceLocation::here()) {
-  try {
-    function();
-    return true;
-  } catch (const std::exception& error) {
-    post_exception(element, GST_MESSAGE_ERROR, error, std::string("while ") + doing, location);
-    return false;
-  }
-}
-
 /// While this many messages of an element wait on its bus, it posts no more of those that come
 /// without end: nobody reads them, and they would fill the memory by hundreds of megabytes an hour.
 /// At 25 frames/s an application that reads its bus has 40 s for it.

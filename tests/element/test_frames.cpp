@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "plugin/filter/motion_state.h"
 #include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_formats.h"
@@ -92,6 +94,45 @@ TEST(Frames, OtherSizesPassAndOneWarningSaysThatTheyAreNotFelt) {
   h.set_caps(make_caps("GRAY8", 320, 240));
   EXPECT_EQ(h.push_moved(0, 0, pts += kFrame), GST_FLOW_OK);
   EXPECT_EQ(h.motions().size(), 1u);
+}
+
+/// Resampled to square pixels, 40 × 40 pixels of 1:3 are 13 × 40.
+TEST(Frames, SmallOnesWhosePixelsAreNotSquarePass) {
+  struct Case {
+    int width, height, numerator, denominator;
+    bool is_felt;
+  };
+  for (const Case& c : {Case{40, 40, 1, 3, false},
+                        {16, 18, 2, 3, false},
+                        {64, 32, 1, 4, true},
+                        {16, 16, 3, 1, true},
+                        {8192, 16, 4, 1, true}}) {
+    SCOPED_TRACE(std::to_string(c.width) + " " + std::to_string(c.numerator));
+    ElementHarness h;
+    GstCaps* const caps = make_caps("GRAY8", c.width, c.height);
+    gst_caps_set_simple(caps, "pixel-aspect-ratio", GST_TYPE_FRACTION, c.numerator, c.denominator,
+                        nullptr);
+    h.set_caps(caps);
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_EQ(h.push_moved(n, 0, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+    }
+    EXPECT_EQ(h.motions().size(), c.is_felt ? 3u : 0u);
+    EXPECT_EQ(h.warnings().size(), c.is_felt ? 0u : 1u);
+    EXPECT_TRUE(h.errors().empty());
+  }
+}
+
+TEST(Frames, WhatNobodyForesawIsAWarningForEachStream) {
+  ElementHarness h;
+  const auto fail = [] { throw std::runtime_error("unforeseen"); };
+  filter::BusWarnings& warnings = h.state().warnings;
+  EXPECT_FALSE(warnings.guard("testing", fail));
+  EXPECT_FALSE(warnings.guard("testing", fail));
+  EXPECT_EQ(h.warnings(), std::vector<std::string>{"unforeseen"});
+  warnings.begin_stream();
+  EXPECT_FALSE(warnings.guard("testing", fail));
+  EXPECT_EQ(h.warnings().size(), 2u);
+  EXPECT_TRUE(h.errors().empty());
 }
 
 TEST(Frames, OnlySystemMemoryIsNegotiated) {

@@ -133,20 +133,33 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
                          FrameReport& report) {
   const std::optional<touch::DepthLayout> packed = frame.settings.touch.packed();
   const ImageView picture = packed ? touch::picture_half(luma, *packed) : luma;
-  if (!luma.data || std::min(picture.width, picture.height) < FrameLuma::kSmallestSide) {
+  const double aspect = pixel_aspect(frame.video.info);
+  const auto has_short_side = [&](int width, int height) {
+    const int square = SquarePixelResampler::width_of(width, aspect);
+    return std::min({width, square, height}) < FrameLuma::kSmallestSide;
+  };
+  const auto is_small = [&](const ImageView& part) {
+    return !part.data || has_short_side(part.width, part.height);
+  };
+  if (is_small(picture)) {
     begin_run();
-    report.fault = luma.data ? FrameReport::Fault::kSmallHalf : FrameReport::Fault::kNotShown;
+    const VisiblePart& part = report.visible;
+    const bool is_cropped =
+        part.width < frame.video.info.width || part.height < frame.video.info.height;
+    report.fault = !is_small(luma) ? FrameReport::Fault::kSmallHalf
+                   : is_cropped    ? FrameReport::Fault::kNotShown
+                                   : FrameReport::Fault::kWrongSize;
     return false;
   }
   AnalyzerSettings settings = frame.settings.analyzer;
   const PicturePart area = settings.area.of_picture(picture.width, picture.height);
-  if (std::min(area.width, area.height) < FrameLuma::kSmallestSide) {
+  if (has_short_side(area.width, area.height)) {
     begin_run();
     report.fault = FrameReport::Fault::kSmallArea;
     return false;
   }
   const int64_t begin_ns = monotonic_now_ns();
-  const ImageView square = square_.view(picture, pixel_aspect(frame.video.info));
+  const ImageView square = square_.view(picture, aspect);
   settings.area.part = in_square_pixels(area, picture.width, square.width);
   analyzer_.configure(settings);
   report.frame =
