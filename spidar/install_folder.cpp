@@ -9,6 +9,8 @@
 #include <sys/auxv.h>
 #include <system_error>
 
+#include "spidar/own_program.h"
+
 namespace spidar {
 namespace {
 
@@ -35,7 +37,7 @@ fs::path own_file() {
   std::error_code error;
   // The main program has no name in the list of loaded files.
   const char* name = static_cast<link_map*>(extra)->l_name;
-  return fs::canonical(name && *name ? fs::path(name) : "/proc/self/exe", error);
+  return fs::canonical(name && *name ? name : own_program(), error);
 }
 
 fs::path prefix_of(const fs::path& file) {

@@ -14,6 +14,7 @@
 #include <set>
 #include <stdexcept>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <thread>
@@ -22,6 +23,7 @@
 
 #include <glib.h>
 
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/whole_file.h"
 
 namespace spidar {
@@ -122,15 +124,16 @@ bool remove_left(const std::string& path, const fs::path& target) {
 /// which names `target`.
 int make_locked(const std::string& path, const fs::path& target) {
   for (;;) {
-    const int descriptor =
-        open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    const int descriptor = uninterrupted([&] {
+      return open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    });
     if (descriptor < 0 && errno != EEXIST) throw failure(target, errno);
     if (descriptor < 0) {
       if (!remove_left(path, target)) return -1;
       continue;
     }
     // Another process may take it for one that was left, before it is locked, and remove it.
-    flock(descriptor, LOCK_EX);
+    uninterrupted([&] { return flock(descriptor, LOCK_EX); });
     if (is_at(descriptor, path)) return descriptor;
     close(descriptor);
   }
@@ -238,10 +241,11 @@ void PartFile::check_in_place() const {
 
 void PartFile::write(const std::string& content) {
   for (size_t at = 0; at < content.size();) {
-    const ssize_t written =
-        pwrite(descriptor_, content.data() + at, content.size() - at, static_cast<off_t>(written_));
-    if (written < 0 && errno != EINTR) throw failure(target_, errno);
-    if (written <= 0) continue;
+    const ssize_t written = uninterrupted([&] {
+      return pwrite(descriptor_, content.data() + at, content.size() - at,
+                    static_cast<off_t>(written_));
+    });
+    if (written < 0) throw failure(target_, errno);
     at += static_cast<size_t>(written);
     written_ += static_cast<uint64_t>(written);
   }
@@ -255,7 +259,8 @@ void PartFile::check_written() const {
   std::vector<guchar> bytes(size_t{1} << 16U);
   uint64_t read = 0;
   for (ssize_t got = 1; got > 0; read += static_cast<uint64_t>(got)) {
-    got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(read));
+    got = uninterrupted(
+        [&] { return pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(read)); });
     if (got < 0) throw failure(target_, errno);
     g_checksum_update(sum.get(), bytes.data(), got);
   }
@@ -271,7 +276,8 @@ std::string PartFile::publish() {
   keep_permissions(descriptor_, place_);
   if (!replaces_.maker.empty()) mark_written(descriptor_, replaces_.maker);
   // Some file systems notice only now that the disk is full.
-  if (fsync(descriptor_) != 0 && errno != EINVAL) throw failure(target_, errno);
+  const bool is_kept = uninterrupted([&] { return fsync(descriptor_); }) == 0;
+  if (!is_kept && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   check_in_place();
   expect_not_read(place_);  // it may have been read since
@@ -295,7 +301,14 @@ void remove_part_files_on_signals() {
   sem_init(&has_received, 0, 0);
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+  // Where the two limits of CPU time are one, only SIGKILL would come.
+  rlimit cpu{};
+  if (getrlimit(RLIMIT_CPU, &cpu) == 0 && cpu.rlim_cur == cpu.rlim_max && cpu.rlim_cur > 1 &&
+      cpu.rlim_cur != RLIM_INFINITY) {
+    --cpu.rlim_cur;
+    setrlimit(RLIMIT_CPU, &cpu);
+  }
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     struct sigaction present {};
     sigaction(number, nullptr, &present);
     if (present.sa_handler == SIG_IGN) continue;  // as nohup does with SIGHUP

@@ -85,9 +85,9 @@ class PartFile {
                                                         g_checksum_free};
 };
 
-/// From now on, SIGINT, SIGTERM and SIGHUP remove all part files before they end the program, and
-/// what cannot be written is an error instead of a signal. To be called before other threads start,
-/// because they inherit the signals that are blocked.
+/// From now on, SIGINT, SIGTERM, SIGHUP and SIGXCPU remove all part files before they end the
+/// program, and what cannot be written is an error instead of a signal. To be called before other
+/// threads start, because they inherit the signals that are blocked.
 void remove_part_files_on_signals();
 
 }  // namespace spidar

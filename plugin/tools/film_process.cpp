@@ -17,6 +17,7 @@
 #include <string>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +39,8 @@
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_summary.h"
 #include "plugin/tracks/track_tags.h"
+#include "spidar/own_program.h"
+#include "spidar/realtime/uninterrupted.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {
@@ -187,8 +190,7 @@ class Answers {
     std::string unread;
     char bytes[4096];
     for (;;) {
-      const ssize_t got = ::read(ends_[0], bytes, sizeof bytes);
-      if (got < 0 && errno == EINTR) continue;
+      const ssize_t got = uninterrupted([&] { return ::read(ends_[0], bytes, sizeof bytes); });
       if (got <= 0) return;
       unread.append(bytes, static_cast<size_t>(got));
       for (uint32_t length = 0; unread.size() >= sizeof length;) {
@@ -258,7 +260,7 @@ pid_t start_process(const FilmJob& job, int answers, int part) {
   posix_spawn_file_actions_adddup2(&actions, file.descriptor(), file.descriptor());
   pid_t process = 0;
   const int error =
-      posix_spawn(&process, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
+      posix_spawn(&process, own_program(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) Answers::fail(error);
   return process;
@@ -267,9 +269,18 @@ pid_t start_process(const FilmJob& job, int answers, int part) {
 /// Returns when the process has ended. Throws std::runtime_error, unless it ended by itself.
 void await_end(pid_t process) {
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
+  rusage used{};
+  uninterrupted([&] { return wait4(process, &status, 0, &used); });
   if (!WIFSIGNALED(status)) return;
+  rlimit limit{};
+  const auto s = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  const double used_s = s(used.ru_utime) + s(used.ru_stime);
+  if (getrlimit(RLIMIT_CPU, &limit) == 0 && used_s >= static_cast<double>(limit.rlim_cur)) {
+    throw std::runtime_error("the limit of CPU time, " + std::to_string(limit.rlim_cur) +
+                             " s (ulimit -t), has ended the process that read it; raise it");
+  }
   const int signal = WTERMSIG(status);
   throw std::runtime_error(
       signal == SIGKILL
@@ -303,8 +314,8 @@ void say(int descriptor, const Json& answer) {
   const auto length = static_cast<uint32_t>(bytes.size());
   bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
   for (size_t at = 0; at < bytes.size();) {
-    const ssize_t written = write(descriptor, bytes.data() + at, bytes.size() - at);
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written =
+        uninterrupted([&] { return write(descriptor, bytes.data() + at, bytes.size() - at); });
     if (written <= 0) _exit(kFailed);  // nobody waits for it
     at += static_cast<size_t>(written);
   }

@@ -10,8 +10,11 @@
 #include <memory>
 #include <spawn.h>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "spidar/realtime/uninterrupted.h"
 
 namespace spidar::tools {
 namespace {
@@ -20,9 +23,11 @@ namespace {
   throw std::runtime_error(std::string("gnuplot: ") + std::strerror(error) + hint);
 }
 
-/// A file without a name that is empty, or contains `text`.
+/// A file in memory, which needs no folder for temporary files, that is empty, or contains `text`.
 std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = "") {
-  std::unique_ptr<FILE, int (*)(FILE*)> file(std::tmpfile(), std::fclose);
+  const int descriptor = memfd_create("spidartrack", MFD_CLOEXEC);
+  if (descriptor < 0) fail(errno);
+  std::unique_ptr<FILE, int (*)(FILE*)> file(fdopen(descriptor, "w+"), std::fclose);
   if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
       std::fflush(file.get()) != 0) {
     fail(errno);
@@ -55,8 +60,7 @@ int run(int in, int out, int errors) {
   posix_spawn_file_actions_destroy(&files);
   if (error != 0) fail(error, "; it is in the Debian package gnuplot-nox");
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
+  uninterrupted([&] { return waitpid(process, &status, 0); });
   return status;
 }
 

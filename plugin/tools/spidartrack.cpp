@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 #include <pthread.h>
-#include <sched.h>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/sidecar.h"
+#include "spidar/realtime/processors.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"
 #include "spidar/tools/mark_files.h"
@@ -26,15 +26,6 @@ namespace {
 
 using namespace spidar;
 using namespace spidar::tools;
-
-/// Those that the program may run on; g_get_num_processors() counts all.
-unsigned usable_processors() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  // A machine with more processors than the set holds has enough.
-  const bool is_known = sched_getaffinity(0, sizeof allowed, &allowed) == 0;
-  return static_cast<unsigned>(is_known ? CPU_COUNT(&allowed) : CPU_SETSIZE);
-}
 
 /// The command line. Of each command, run() is called when it is parsed.
 class CommandLine {
@@ -145,7 +136,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
   /// Names the folder for all that looks for a track.
   void search_folder() const {
     if (track_folder_.empty()) return;
-    const char* const others = g_getenv(kTrackPathVariable);
+    const char* const others = secure_getenv(kTrackPathVariable);
     g_setenv(kTrackPathVariable,
              (track_folder_ + (others ? std::string(":") + others : "")).c_str(), TRUE);
   }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The program that runs.
+#pragma once
+
+#include <sys/auxv.h>
+#include <unistd.h>
+
+namespace spidar {
+
+/// A path to its file: where there is no /proc, as in a plain chroot, the one by which it was
+/// started.
+inline const char* own_program() noexcept {
+  constexpr const char* kByKernel = "/proc/self/exe";
+  const bool has_proc = access(kByKernel, F_OK) == 0;
+  return has_proc ? kByKernel : reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+}
+
+}  // namespace spidar
