@@ -71,6 +71,18 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
          GST_VIDEO_FORMAT_INFO_PSTRIDE(&format, 0) != bytes;
 }
 
+/// Whether the two views of a frame were squeezed into it. Demuxers of Matroska and MP4 say that
+/// there are two, and not this; GStreamer guesses it from the shape of the frame.
+bool has_half_views(const GstVideoInfo& info) {
+  const auto flags = static_cast<int>(GST_VIDEO_INFO_MULTIVIEW_FLAGS(&info));
+  return (flags & GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT) != 0 ||
+         gst_video_multiview_guess_half_aspect(
+             GST_VIDEO_INFO_MULTIVIEW_MODE(&info), static_cast<guint>(GST_VIDEO_INFO_WIDTH(&info)),
+             static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&info)),
+             static_cast<guint>(std::max(GST_VIDEO_INFO_PAR_N(&info), 1)),
+             static_cast<guint>(std::max(GST_VIDEO_INFO_PAR_D(&info), 1)));
+}
+
 }  // namespace
 
 PicturePart visible_part(const GstVideoFrame& frame) {
@@ -95,8 +107,7 @@ double pixel_aspect(const GstVideoInfo& info) {
   if (GST_VIDEO_INFO_PAR_N(&info) > 0 && GST_VIDEO_INFO_PAR_D(&info) > 0) {
     aspect = static_cast<double>(GST_VIDEO_INFO_PAR_N(&info)) / GST_VIDEO_INFO_PAR_D(&info);
   }
-  const auto flags = static_cast<int>(GST_VIDEO_INFO_MULTIVIEW_FLAGS(&info));
-  if ((flags & GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT) != 0) {
+  if (has_half_views(info)) {
     const GstVideoMultiviewMode views = GST_VIDEO_INFO_MULTIVIEW_MODE(&info);
     if (is_side_by_side(views)) aspect *= 2;
     if (views == GST_VIDEO_MULTIVIEW_MODE_TOP_BOTTOM) aspect /= 2;

@@ -35,9 +35,10 @@ namespace spidar {
 /// - interlace_mode, field order: FrameLuma takes the first field.
 /// - width, height: visible_part().
 /// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePixelResampler).
-/// - multiview_mode, HALF_ASPECT of its flags: visible_part() and pixel_aspect(). Of two pictures
-///   in one frame the first is analysed, since both show the same motion; of frames in turn, those
-///   that have the time of the previous one are left out.
+/// - multiview_mode, HALF_ASPECT of its flags, or the shape of the frame where the flag is not set:
+///   visible_part() and pixel_aspect(). Of two pictures in one frame the first is analysed, since
+///   both show the same motion; of frames in turn, those that have the time of the previous one are
+///   left out.
 /// - other multiview flags say which eye a picture is for, and not where it is.
 /// - views counts pictures in planes or buffers of their own, of which the first one is mapped.
 /// - colorimetry: luma_levels() reads the range, black and white of touch=luma. Motion is where

@@ -216,14 +216,18 @@ GstBuffer* two_views(int n, bool beside) {
   return frame;
 }
 
+/// That they were squeezed is said, or shows in the shape of the frame, which is that of one.
 TEST(PixelAspect, OfTwoViewsInAFrameTheFirstIsFelt) {
-  for (const bool beside : {true, false}) {
+  for (const auto& [beside, is_said] :
+       {std::pair(true, true), {false, true}, {true, false}, {false, false}}) {
+    SCOPED_TRACE(is_said);
     ElementHarness h("device=none motion=mean");
     GstCaps* caps = make_caps("GRAY8", kWidth, kHeight);
+    const auto flags =
+        is_said ? GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT : GST_VIDEO_MULTIVIEW_FLAGS_NONE;
     gst_caps_set_simple(caps, "multiview-mode", G_TYPE_STRING,
                         beside ? "side-by-side" : "top-bottom", "multiview-flags",
-                        GST_TYPE_VIDEO_MULTIVIEW_FLAGSET, GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT,
-                        GST_FLAG_SET_MASK_EXACT, nullptr);
+                        GST_TYPE_VIDEO_MULTIVIEW_FLAGSET, flags, GST_FLAG_SET_MASK_EXACT, nullptr);
     h.set_caps(caps);
     for (int n = 0; n < 3; ++n) {
       ASSERT_EQ(h.push(two_views(n, beside), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
