@@ -4,6 +4,8 @@
 
 #include <atomic>
 
+#include <gst/video/video.h>
+
 #include "plugin/gobject/downstream.h"
 
 using spidar::Ref;
@@ -16,14 +18,20 @@ struct _GstSpidarFeelBin {
   GstBin parent;
 
   gchar* properties;
+  bool turns;  // the player does not
   // The elements of the bin, in this order.
   GstElement* before;
+  GstElement* flip;    // nullptr until a picture is to be turned
   GstElement* middle;  // accepts what spidarmotion accepts; kept while that is in its place
   GstElement* after;
   // The spidarmotion that has the device; nullptr: nothing is felt. The first data that come put it
   // in the place of the middle. Read by the streaming thread and written in state changes,
   // atomically.
   GstElement* motion;
+  // Of the streaming thread: how pictures are to be turned before they are shown, from the tags of
+  // the stream, and of the whole film (AUTO: there is none); and whether nothing is known to do so.
+  GstVideoOrientationMethod of_stream, of_film;
+  bool lies;
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
@@ -163,15 +171,20 @@ static void link_quietly(GstElement* from, GstElement* to) {
   gst_element_link_pads_full(from, "src", to, "sink", kQuietly);
 }
 
+/// The element before spidarmotion.
+static GstElement* front(GstSpidarFeelBin* self) {
+  return self->flip ? self->flip : self->before;
+}
+
 /// Replaces `out` by `in` while no data flow between `before` and `after`.
 static void replace_element(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
-  gst_element_unlink_many(self->before, out, self->after, nullptr);
+  gst_element_unlink_many(front(self), out, self->after, nullptr);
   // Not NULL: a spidarmotion keeps its device, at rest, for the next frames that it can measure.
   gst_element_set_state(out, GST_STATE_READY);
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
   link_quietly(in, self->after);
-  link_quietly(self->before, in);
+  link_quietly(front(self), in);
   spidar::follow_state(GST_ELEMENT(self), in);
 }
 
@@ -179,16 +192,106 @@ static bool has(GstSpidarFeelBin* self, GstElement* element) {
   return gst_object_has_as_parent(GST_OBJECT(element), GST_OBJECT(self));
 }
 
+/// Whether the element turns pictures as their tag image-orientation says.
+static bool follows_tag(GstElement* element) {
+  for (const char* name : {"video-direction", "rotate-method", "orientation"}) {
+    const GParamSpec* const property =
+        g_object_class_find_property(G_OBJECT_GET_CLASS(element), name);
+    if (!property || !G_IS_PARAM_SPEC_ENUM(property)) continue;
+    gint value = 0;
+    g_object_get(element, name, &value, nullptr);
+    const GEnumValue* const method =
+        g_enum_get_value(G_PARAM_SPEC_ENUM(property)->enum_class, value);
+    if (method && g_str_has_prefix(method->value_nick, "auto")) return true;
+  }
+  return false;
+}
+
+/// WebKit turns pictures where it draws them.
+static bool is_turned_behind(GstSpidarFeelBin* self) {
+  return g_strcmp0(g_get_prgname(), "WebKitWebProcess") == 0 ||
+         !spidar::find_path_downstream(GST_ELEMENT(self), follows_tag).empty();
+}
+
+/// Of a picture that has been turned. The videoflip of GStreamer 1.22 leaves the tag as it was.
+static GstPadProbeReturn set_upright(GstPad*, GstPadProbeInfo* info, gpointer) {
+  auto* event = GST_PAD_PROBE_INFO_EVENT(info);
+  if (GST_EVENT_TYPE(event) != GST_EVENT_TAG) return GST_PAD_PROBE_OK;
+  GstTagList* tags = nullptr;
+  gst_event_parse_tag(event, &tags);
+  if (gst_tag_list_get_tag_size(tags, GST_TAG_IMAGE_ORIENTATION) == 0) return GST_PAD_PROBE_OK;
+  tags = gst_tag_list_copy(tags);
+  gst_tag_list_add(tags, GST_TAG_MERGE_REPLACE, GST_TAG_IMAGE_ORIENTATION, "rotate-0", nullptr);
+  info->data = gst_event_new_tag(tags);
+  gst_event_unref(event);
+  return GST_PAD_PROBE_OK;
+}
+
+static void add_flip(GstSpidarFeelBin* self) {
+  GstElement* const flip = gst_element_factory_make("videoflip", nullptr);
+  if (!flip) return;
+  const Ref<GstPad> source(gst_element_get_static_pad(flip, "src"));
+  gst_pad_add_probe(source.get(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, set_upright, nullptr,
+                    nullptr);
+  const bool is_felt = self->motion && has(self, self->motion);
+  GstElement* const next = is_felt ? self->motion : self->middle;
+  gst_element_unlink(self->before, next);
+  gst_bin_add(GST_BIN(self), flip);
+  gst_element_link_many(self->before, flip, next, nullptr);
+  self->flip = flip;
+  spidar::follow_state(GST_ELEMENT(self), flip);
+}
+
+/// Not by video-direction=auto: the videoflip of GStreamer 1.22 would turn the next film, too.
+static void turn_pictures(GstSpidarFeelBin* self) {
+  auto method = self->of_stream != GST_VIDEO_ORIENTATION_AUTO ? self->of_stream : self->of_film;
+  if (method == GST_VIDEO_ORIENTATION_AUTO) method = GST_VIDEO_ORIENTATION_IDENTITY;
+  self->lies = method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
+  if (self->lies && self->turns) add_flip(self);
+  if (!self->flip) return;
+  self->lies = false;
+  g_object_set(self->flip, "video-direction", method, nullptr);
+}
+
+static void take_tags(GstSpidarFeelBin* self, GstEvent* event) {
+  GstTagList* tags = nullptr;
+  gst_event_parse_tag(event, &tags);
+  const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
+  if (gst_video_orientation_from_tag(tags, of_film ? &self->of_film : &self->of_stream)) {
+    turn_pictures(self);
+  }
+}
+
+static void begin_stream(GstSpidarFeelBin* self) {
+  self->of_stream = self->of_film = GST_VIDEO_ORIENTATION_AUTO;
+  turn_pictures(self);
+}
+
+static void tell_that_it_lies(GstSpidarFeelBin* self) {
+  static std::atomic<bool> has_told{false};
+  self->lies = false;
+  if (has_told.exchange(true)) return;
+  constexpr const char* kHelp =
+      "unless the player turns it, force and picture do not agree: spidar-feel FILM turns it";
+  g_printerr(
+      "spidar-feel: this film is stored on its side or mirrored, and is felt as it is to be shown; "
+      "%s\n",
+      self->turns ? "videoflip of gst-plugins-good, which turns it, is not installed" : kHelp);
+}
+
 /// Puts spidarmotion into the bin, before the data reach `before`. The probe stays on the pad: data
 /// may flow at any time, also while the bin begins to play.
 static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer data) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(data);
   auto* motion = static_cast<GstElement*>(g_atomic_pointer_get(&self->motion));
-  const bool is_event = (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0;
-  if (is_event && GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_CAPS) {
-    return GST_PAD_PROBE_OK;
+  if ((info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0) {
+    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+    if (GST_EVENT_TYPE(event) == GST_EVENT_STREAM_START) begin_stream(self);
+    if (GST_EVENT_TYPE(event) == GST_EVENT_TAG) take_tags(self, event);
+    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
   }
   if (motion && !has(self, motion)) replace_element(self, self->middle, motion);
+  if (motion && self->lies) tell_that_it_lies(self);
   return GST_PAD_PROBE_OK;
 }
 
@@ -289,7 +392,7 @@ static GstPad* add_ghost_pad(GstSpidarFeelBin* self, GstElement* element, const 
   return pad;
 }
 
-GstElement* gst_spidar_feel_bin_new(const char* properties) {
+GstElement* gst_spidar_feel_bin_new(const char* properties, bool turns) {
   GstCaps* caps = motion_caps();
   GstElement* before = gst_element_factory_make("videoconvert", nullptr);
   GstElement* middle = gst_element_factory_make("capsfilter", nullptr);
@@ -298,6 +401,7 @@ GstElement* gst_spidar_feel_bin_new(const char* properties) {
   if (caps && before && middle && after) {
     auto* self = static_cast<GstSpidarFeelBin*>(g_object_new(GST_TYPE_SPIDAR_FEEL_BIN, nullptr));
     self->properties = g_strdup(properties ? properties : "");
+    self->turns = turns;
     self->before = before;
     self->middle = GST_ELEMENT(gst_object_ref_sink(middle));
     self->after = after;

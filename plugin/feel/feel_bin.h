@@ -19,6 +19,8 @@ G_END_DECLS
 /// The environment variable with properties of spidarmotion, a line NAME=VALUE each.
 #define SPIDAR_FEEL_VARIABLE "SPIDAR_FEEL"
 
-/// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. Returns a
-/// floating reference, or nullptr when an element is missing, which is printed.
-GstElement* gst_spidar_feel_bin_new(const char* properties);
+/// `properties` are those of spidarmotion, a line NAME=VALUE each; nullptr: none. `turns`: the
+/// player shows pictures as they are stored, so those whose tag image-orientation says otherwise
+/// are turned here, unless its sink does so. Returns a floating reference, or nullptr when an
+/// element is missing, which is printed.
+GstElement* gst_spidar_feel_bin_new(const char* properties, bool turns = false);

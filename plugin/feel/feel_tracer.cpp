@@ -46,7 +46,8 @@ static void set_filter(GstElement* element) {
   const spidar::Ref<GstElement> own(before);
   // The application's own, or the one that this tracer set for the previous film.
   if (own || (flags & kPlayVideo) == 0) return;
-  GstElement* filter = gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE));
+  const bool is_own_player = g_strcmp0(g_get_prgname(), "gst-play-1.0") == 0;
+  GstElement* filter = gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE), is_own_player);
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 

@@ -3,6 +3,7 @@
 // The filter that spidar-feel gives a player, and what another thread does at the worst moment.
 // This program has functions of GStreamer of its own, which let a test act in between. The thread
 // that would do so is the test's own, so no time plays a part.
+#include <algorithm>
 #include <dlfcn.h>
 #include <functional>
 #include <string>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/feel/feel_bin.h"
+#include "plugin/filter/engine/stream_orientation.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 
@@ -63,18 +65,14 @@ GstStateChangeReturn gst_element_set_state(GstElement* element, GstState state) 
 namespace spidar::test::feel_bin_test {
 namespace {
 
-GstFlowReturn drop(GstPad*, GstObject*, GstBuffer* frame) {
-  gst_buffer_unref(frame);
-  return GST_FLOW_OK;
-}
-
 /// A pipeline with the filter, frames for it, and their end.
 class FeelBin : public testing::Test {
  protected:
-  FeelBin() {
+  /// `turns`: for a player that shows pictures as they are stored.
+  explicit FeelBin(bool turns = false) {
     init_gstreamer();
     pipeline_ = gst_pipeline_new(nullptr);
-    bin_ = gst_spidar_feel_bin_new("device=none");
+    bin_ = gst_spidar_feel_bin_new("device=none", turns);
     gst_bin_add(GST_BIN(pipeline_), bin_);
     source_ = GST_PAD(gst_object_ref_sink(gst_pad_new("source", GST_PAD_SRC)));
     // Without a template, a pad that has caps accepts no others.
@@ -82,7 +80,7 @@ class FeelBin : public testing::Test {
         gst_pad_template_new("end", GST_PAD_SINK, GST_PAD_ALWAYS, gst_caps_new_any());
     end_ = GST_PAD(gst_object_ref_sink(gst_pad_new_from_template(any, "end")));
     gst_object_unref(any);
-    gst_pad_set_chain_function(end_, drop);
+    gst_pad_set_chain_function_full(end_, keep, this, nullptr);
     link(source_, "sink");
     link(end_, "src");
   }
@@ -91,6 +89,7 @@ class FeelBin : public testing::Test {
     gst_object_unref(pipeline_);
     gst_object_unref(source_);
     gst_object_unref(end_);
+    gst_clear_buffer(&shown_);
   }
 
   void set_state(GstState state) {
@@ -118,8 +117,12 @@ class FeelBin : public testing::Test {
     EXPECT_TRUE(gst_pad_push_event(source_, gst_event_new_caps(caps)));
     gst_caps_unref(caps);
   }
-  GstFlowReturn push() {
-    GstBuffer* frame = make_frame(info_, 0, 0);
+  void push_orientation(const char* orientation) {
+    gst_pad_push_event(source_, gst_event_new_tag(gst_tag_list_new(GST_TAG_IMAGE_ORIENTATION,
+                                                                   orientation, nullptr)));
+  }
+  GstFlowReturn push() { return push(make_frame(info_, 0, 0)); }
+  GstFlowReturn push(GstBuffer* frame) {
     GST_BUFFER_PTS(frame) = 40 * GST_MSECOND * frames_++;
     return gst_pad_push(source_, frame);
   }
@@ -134,8 +137,16 @@ class FeelBin : public testing::Test {
 
   GstElement* pipeline_ = nullptr;
   GstElement* bin_ = nullptr;
+  GstPad* end_ = nullptr;
+  GstVideoInfo info_{};
+  GstBuffer* shown_ = nullptr;  ///< the last frame that has passed the filter
 
  private:
+  static GstFlowReturn keep(GstPad* pad, GstObject*, GstBuffer* frame) {
+    gst_buffer_replace(&static_cast<FeelBin*>(pad->chaindata)->shown_, frame);
+    gst_buffer_unref(frame);
+    return GST_FLOW_OK;
+  }
   void link(GstPad* pad, const char* name) {
     GstPad* other = gst_element_get_static_pad(bin_, name);
     gst_pad_set_active(pad, TRUE);
@@ -147,8 +158,6 @@ class FeelBin : public testing::Test {
   }
 
   GstPad* source_ = nullptr;
-  GstPad* end_ = nullptr;
-  GstVideoInfo info_{};
   int frames_ = 0;
 };
 
@@ -262,6 +271,114 @@ TEST_P(FeelBinFlushes, DuringTheExchangeAreNoError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FeelBinFlushes, testing::Values(GST_EVENT_CAPS, GST_EVENT_SEGMENT));
+
+using Quarter = std::pair<int, int>;  ///< 0: left or upper, 1: right or lower
+
+/// The quarter of a picture that is bright.
+Quarter bright_quarter(GstBuffer* buffer, const GstVideoInfo& info) {
+  GstVideoFrame frame;
+  EXPECT_TRUE(gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ));
+  Quarter brightest;
+  int largest = -1;
+  for (const Quarter& quarter : {Quarter(0, 0), Quarter(0, 1), Quarter(1, 0), Quarter(1, 1)}) {
+    const int x = info.width * (1 + 2 * quarter.first) / 4;
+    const int y = info.height * (1 + 2 * quarter.second) / 4;
+    const auto* const luma = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+    const int level = luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x];
+    if (level > largest) brightest = quarter;
+    largest = std::max(largest, level);
+  }
+  gst_video_frame_unmap(&frame);
+  return brightest;
+}
+
+/// Frames whose upper left quarter is bright, in a player that shows pictures as they are stored.
+class FeelBinTurns : public FeelBin, public testing::WithParamInterface<const char*> {
+ protected:
+  FeelBinTurns() : FeelBin(true) {}
+
+  void push_marked() {
+    GstBuffer* const buffer = make_frame(info_, 0, 0);
+    GstVideoFrame frame;
+    ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer, GST_MAP_WRITE));
+    auto* const luma = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
+    for (int y = 0; y < info_.height; ++y) {
+      for (int x = 0; x < info_.width; ++x) {
+        const bool is_bright = 2 * x < info_.width && 2 * y < info_.height;
+        luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x] = is_bright ? 200 : 50;
+      }
+    }
+    gst_video_frame_unmap(&frame);
+    EXPECT_EQ(push(buffer), GST_FLOW_OK);
+  }
+  /// Expects that the last frame was shown as this tag says, and that it needs no other turn.
+  void expect_shown(const char* tag) {
+    GstTagList* const tags = gst_tag_list_new(GST_TAG_IMAGE_ORIENTATION, tag, nullptr);
+    filter::StreamOrientation stored;
+    stored.update(tags);
+    gst_tag_list_unref(tags);
+    GstCaps* const caps = gst_pad_get_current_caps(end_);
+    GstVideoInfo shown;
+    ASSERT_TRUE(gst_video_info_from_caps(&shown, caps));
+    gst_caps_unref(caps);
+    EXPECT_EQ(shown.width, stored.turn().is_sideways() ? info_.height : info_.width);
+    const Eigen::Vector2d bright = stored.turn().displayed_position({0.25, 0.25});
+    EXPECT_EQ(bright_quarter(shown_, shown), Quarter(bright.x() > 0.5, bright.y() > 0.5));
+    GstEvent* const event = gst_pad_get_sticky_event(end_, GST_EVENT_TAG, 0);
+    if (!event) return;
+    GstTagList* left = nullptr;
+    gst_event_parse_tag(event, &left);
+    filter::StreamOrientation still;
+    still.update(left);
+    EXPECT_TRUE(still.turn().is_none());
+    gst_event_unref(event);
+  }
+};
+
+/// Also the first one, which is shown while the player is paused.
+TEST_P(FeelBinTurns, PicturesUprightForWhoeverShowsAndFeelsThem) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  push_orientation(GetParam());
+  push_marked();
+  expect_shown(GetParam());
+  set_state(GST_STATE_PLAYING);
+  push_marked();
+  ASSERT_NE(motion(), nullptr);
+  expect_shown(GetParam());
+  // The next film of a list, which says nothing.
+  begin_stream();
+  push_marked();
+  expect_shown("rotate-0");
+  begin_stream();
+  push_orientation("flip-rotate-90");
+  push_marked();
+  expect_shown("flip-rotate-90");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FeelBinTurns,
+                         testing::Values("rotate-0", "rotate-90", "rotate-180", "rotate-270",
+                                         "flip-rotate-0", "flip-rotate-90", "flip-rotate-180",
+                                         "flip-rotate-270"));
+
+TEST_F(FeelBin, LeavesPicturesToAPlayerThatMayTurnThem) {
+  set_state(GST_STATE_PAUSED);
+  begin_stream();
+  push_orientation("rotate-90");
+  set_state(GST_STATE_PLAYING);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  EXPECT_EQ(push(), GST_FLOW_OK);
+  const std::string said = testing::internal::GetCapturedStderr();
+  const size_t first = said.find("stored on its side");
+  EXPECT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("stored on its side", first + 1), std::string::npos) << said;
+  GstCaps* const caps = gst_pad_get_current_caps(end_);
+  gint width = 0;
+  gst_structure_get_int(gst_caps_get_structure(caps, 0), "width", &width);
+  EXPECT_EQ(width, info_.width);
+  gst_caps_unref(caps);
+}
 
 }  // namespace
 }  // namespace spidar::test::feel_bin_test

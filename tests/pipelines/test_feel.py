@@ -2,10 +2,12 @@
 # Copyright 2026 the gst-spidar authors
 """spidar-feel with players that are separate programs, and an SH4 board on an emulated USB."""
 
+import csv
 import json
 import pathlib
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -117,6 +119,29 @@ class Feel(FeelCase):
         said = self.run_all([FEEL, "device=ff", "--", *self.player("play frames=10 stop")])
         self.assertEqual(said.splitlines()[0], "spidar-feel: Emulated Pad, rumble only: the strength of the force is felt, "
                          "not its direction.")
+
+    @track_case.needs(QUIET[0])
+    def test_a_film_of_an_upright_telephone_is_turned_and_the_next_one_is_not(self):
+        """The picture moves to the left, and is shown turned clockwise: upwards."""
+        film = self.make_film("stored.mov", 40, "jpegenc ! qtmux").read_bytes()
+        # 16.16 and 2.30, in tkhd behind 40 bytes: x to y, and y to -x.
+        at = film.index(b"tkhd") + 44
+        matrix = struct.pack(">9i", 0, 1 << 16, 0, -1 << 16, 0, 0, 0, 0, 1 << 30)
+        turned = self.films / "turned.mov"
+        turned.write_bytes(film[:at] + matrix + film[at + len(matrix):])
+        trace = self.films / "frames.csv"
+        for films, along, sign in (((turned,), "y", 1), ((turned, self.films / "stored.mov"), "x", -1)):
+            self.run_all([FEEL, "device=none", "motion=mean", f"trace={trace}", "--", *QUIET, "--videosink=fakesink sync=true", *films])
+            with open(trace, newline="", encoding="ascii") as file:  # of the last film
+                row = [row for row in csv.DictReader(file) if row["force_x_N"]][-2]
+            for axis in ("x", "y"):
+                velocity_px_s, force_N = float(row[f"velocity_{axis}_px_s"]), float(row[f"force_{axis}_N"])
+                if axis == along:
+                    self.assertLess(velocity_px_s, -20)  # of 50 px/s
+                    self.assertGreater(sign * force_N, .1)  # y of a force points up
+                else:
+                    self.assertLess(abs(velocity_px_s), 5)
+                    self.assertLess(abs(force_N), .05)
 
     @track_case.needs(QUIET[0])
     def test_every_film_of_a_gapless_list_is_felt_to_its_end(self):
