@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 #include <gst/gst.h>
 
 #include "plugin/feel/feel_bin.h"
+#include "plugin/feel/playlist.h"
 #include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/own_plugins.h"
@@ -94,12 +96,12 @@ constexpr const char* kHelp =
        spidar-feel [PROPERTY=VALUE...] --screen[=WINDOW]
        spidar-feel --properties
 
-Plays FILM, a file or URI, or runs PROGRAM, a player that uses GStreamer, so that the video is felt on
-what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a device, what would be
-felt is shown. PROPERTY is one of spidarmotion: --properties lists them, and gst-inspect-1.0 spidarmotion
-explains them. preset=NAME stands for those of a preset: paper, film or gentle. A haptic track beside FILM,
-or else its funscripts (film.funscript, film.roll.funscript and so on) or film.hjif, is felt instead of its
-motion.
+Plays FILM, a file or URI, a folder of films or a playlist, or runs PROGRAM, a player that uses GStreamer,
+so that the video is felt on what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a
+device, what would be felt is shown. The keys > and < go to the next film and the previous one. PROPERTY is
+one of spidarmotion: --properties lists them, and gst-inspect-1.0 spidarmotion explains them. preset=NAME
+stands for those of a preset: paper, film or gentle. A haptic track beside FILM, or else its funscripts
+(film.funscript, film.roll.funscript and so on) or film.hjif, is felt instead of its motion.
 
   --follow [NAME]  feel the film that another player plays: VLC, mpv with its package mpv-mpris, or any
                    that tells over the session bus (MPRIS) where it is. NAME is what it is called there;
@@ -254,30 +256,39 @@ bool begins_as_program(const std::string& path) {
   return std::memcmp(begin, "\177ELF", 4) == 0 || std::memchr(begin, '\0', size) == nullptr;
 }
 
-/// Whether `word` is a film and not a program. Some file systems let every file be executed.
+/// Whether `word` is to be played, and is no program. Some file systems let every file be executed.
 bool is_film(const std::string& word) {
   if (word.find("://") != std::string::npos && gst_uri_is_valid(word.c_str())) return true;
   std::error_code error;
-  if (!fs::is_regular_file(word, error)) return false;
+  const bool is_folder = fs::is_directory(word, error);
+  if (!is_folder && !fs::is_regular_file(word, error)) return false;
   if (word.find('/') == std::string::npos) {
     gchar* program = g_find_program_in_path(word.c_str());
     g_free(program);
     if (program) return false;
   }
-  return access(word.c_str(), X_OK) != 0 || !begins_as_program(word);
+  return is_folder || spidar::is_playlist(word) || access(word.c_str(), X_OK) != 0 ||
+         !begins_as_program(word);
 }
 
 /// Plays films with the player of GStreamer itself.
 void run_films(char** films) {
+  std::vector<std::string> named;
   for (char** film = films; *film; ++film) {
     if (is_property(*film)) {
       fail(kUsage, std::string("properties come before the film: spidar-feel ") + *film + " -- " +
                        films[0]);
     }
+    named.emplace_back(*film);
+  }
+  try {
+    named = spidar::films_of(named);
+  } catch (const std::runtime_error& error) {
+    fail(kCannotRun, error.what());
   }
   constexpr const char* kPlayer = "gst-play-1.0";
   std::vector<char*> words{const_cast<char*>(kPlayer)};
-  for (char** film = films; *film; ++film) words.push_back(*film);
+  for (std::string& film : named) words.push_back(film.data());
   words.push_back(nullptr);
   execvp(kPlayer, words.data());
   const int error = errno;
@@ -345,10 +356,6 @@ int main(int argc, char** argv) {
   warn_of_nothing_felt(options);
   execvp(options.program[0], options.program);
   const int error = errno;
-  std::error_code none;
-  if (fs::is_directory(options.program[0], none)) {
-    fail(kCannotRun, std::string(options.program[0]) + " is a folder; name a film in it");
-  }
   fail(error == ENOENT ? kNoProgram : kCannotRun,
        std::string(options.program[0]) + ": " + std::strerror(error));
 }

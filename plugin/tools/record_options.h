@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/tools/film_list.h"
+#include "plugin/films/film_list.h"
 
 namespace spidar::tools {
 

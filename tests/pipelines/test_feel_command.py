@@ -36,7 +36,7 @@ class Command(track_case.TrackCase):
                 ("ts-offset=late -- true", 2, "in nanoseconds"),
                 ("controller=wild -- true", 2, 'controller: "wild" is not one of linear, nonlinear, adaptive\n'),
                 ("mute=perhaps -- true", 2, 'mute: "perhaps" is not true or false'),
-                ("no-such-program", 127, "no-such-program: No such file or directory"), ("/", 126, "/ is a folder; name a film in it"),
+                ("no-such-program", 127, "no-such-program: No such file or directory"), ("./", 126, "./: this folder has no film"),
                 ("--follow max-force=2", 2, "--follow takes one NAME, and properties come before it: max-force=2"),
                 ("--screen max-force=2", 2, "--screen is the last word, its window follows '=', and properties come before it"),
                 ("--screens", 2, "--screens is not an option"),
@@ -103,6 +103,29 @@ class Command(track_case.TrackCase):
         self.assertIn("film.avi: No such file or directory", self.feel("sub/film.avi", 127))
         for words in ("film.avi max-force=2", "film.avi -- max-force=2"):
             self.assertIn("properties come before the film: spidar-feel max-force=2 -- film.avi", self.feel(words, 2))
+
+    def test_a_folder_and_a_playlist_are_played_in_their_order(self):
+        """gst-play-1.0 prints its arguments here."""
+        self.write_program("bin/gst-play-1.0", "#!/bin/sh\necho plays $*\n")
+        for name in ("in/10.avi", "in/9.avi", "in/9.avi.haptic.wav", "in/below/ü.mkv", "in/notes.txt", "in/.hidden.avi"):
+            self.path(name).parent.mkdir(parents=True, exist_ok=True)
+            self.path(name).write_bytes(b"RIFF\0")
+        uri = "http://somewhere/film"
+        for name, text, said in (
+                ("a.m3u", f"#EXTM3U\r\n#EXTINF:1,A song\r\nin/10.avi\r\n\r\n{uri}\r\n", f"./in/10.avi {uri}"),
+                ("in/b.M3U8", "\ufeff9.avi\n/elsewhere.avi\n", "in/9.avi /elsewhere.avi"),
+                ("c.pls", f"[playlist]\nNumberOfEntries=2\nFile10={uri}\nTitle10=x\nFile9=in/9.avi\n", f"./in/9.avi {uri}"),
+                ("d.xspf", "<playlist><trackList><track><title>9</title><location>in/below/%C3%BC.mkv</location></track>"
+                 f"<track><location> {uri}?a&amp;b </location></track></trackList></playlist>",
+                 f"{self.path('in/below').as_uri()}/%C3%BC.mkv {uri}?a&b"),
+                ("live.m3u8", "#EXTM3U\n#EXT-X-VERSION:3\n#EXTINF:4,\n1.ts\n", "live.m3u8")):
+            self.path(name).write_text(text, encoding="utf-8")
+            self.path(name).chmod(0o755)  # as on file systems that know no permissions
+            self.assertEqual(self.feel(name, env="PATH=$PWD/bin:$PATH"), f"plays {said}\n")
+        for words, said in (("in", "in/9.avi in/10.avi in/below/ü.mkv"), ("in/9.avi in/below/", "in/9.avi in/below/ü.mkv")):
+            self.assertEqual(self.feel(words, env="PATH=$PWD/bin:$PATH"), f"plays {said}\n")
+        self.path("empty.m3u").write_text("#EXTM3U\n")
+        self.assertIn("empty.m3u: this playlist names no film", self.feel("empty.m3u", 126))
 
     def test_the_package_of_a_player_that_is_missing_is_named(self):
         self.path("film.avi").write_bytes(b"RIFF")

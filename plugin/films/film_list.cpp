@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/tools/film_list.h"
+#include "plugin/films/film_list.h"
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace spidar::tools {
+namespace spidar {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::s
   return films;
 }
 
-}  // namespace spidar::tools
+}  // namespace spidar

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace spidar::tools {
+namespace spidar {
 
 struct ListedFilm {
   std::string path;
@@ -25,4 +25,4 @@ struct ListedFilm {
 /// left out.
 std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out);
 
-}  // namespace spidar::tools
+}  // namespace spidar
